@@ -109,7 +109,7 @@ impl CutMove {
     }
 
     /// A move of a tool that leans or turns, as [`CutMove::new`]. Its path is the motion's; an edge that leaves a core is cut
-    /// as filled. The lines along the tool axis are
+    /// as filled unless it moves along its axis. The lines along the tool axis are
     /// those along the axis of the stock that is nearest to it in the middle of the move; the length that shank or holder meet
     /// is the longest in a short stretch of the move.
     ///
@@ -194,6 +194,11 @@ pub struct Edge {
 }
 
 /// Effect of a move on the stock: removed volume and depths on the lines along the tool axis, contacts on all lines.
+///
+/// In long runs of moves that lean or turn, and are meant to cut, `removed`, `deepest` and `first_contact` are measured on some of
+/// the lines: a quarter of the tool's radius apart, or all where that is finer than their distance; along the axis of the stock
+/// that is nearest to most of the run's tool axes, for a tool within 53 degrees of it. A move between those lines that leaves a
+/// surface is told as removing one square of a step, [`FIXED_STEP`](crate::stock::FIXED_STEP) deep.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct MoveEffect {
     /// Volume of stock removed [mm^3].

@@ -88,10 +88,7 @@ pub(super) fn cut_as(
             cut_upright(stock, (axis, order), &tools, run, options, &mut effects, progress)?;
             continue;
         }
-        for batch in run.chunks(BATCH) {
-            let first = effects.len();
-            effects.extend(cut_leaning(stock, &tools, batch, first, options, progress)?);
-        }
+        cut_leaning(stock, order, &tools, run, options, &mut effects, progress)?;
     }
     Ok(effects)
 }

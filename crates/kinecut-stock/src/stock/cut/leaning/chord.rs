@@ -121,31 +121,8 @@ impl LineFrom {
     /// The gauge of a part without one of its features.
     pub(super) fn gauge_but(&self, part: &ConvexPart, s: f64, without: Option<Touch>) -> Gauge {
         let (rho, z) = self.place(s);
-        // Value, radial and axial component of the gradient.
-        let mut best = (f64::NEG_INFINITY, (0.0, -1.0));
-        let mut take = |value: f64, gradient: (f64, f64), touch: Touch| {
-            if value > best.0 && without != Some(touch) {
-                best = (value, gradient);
-            }
-        };
-        take(part.z0 - z, (0.0, -1.0), Touch::Disc);
-        take(z - part.top, (0.0, 1.0), Touch::Top);
-        take(rho - part.r1, (1.0, 0.0), Touch::Rim);
-        match part.foot {
-            Foot::Flat => {}
-            // Above the centre of a round foot its gauge repeats that of the cylinder.
-            Foot::Torus { centre_z, .. } if without.is_some() && z >= centre_z => {}
-            Foot::Cone { rise } => {
-                let length = rise.hypot(1.0);
-                let value = ((rho - part.r0) * rise - (z - part.z0)) / length;
-                take(value, (rise / length, -1.0 / length), Touch::Foot);
-            }
-            Foot::Torus { .. } => {
-                let (value, gradient) = round(part, rho, z);
-                take(value, gradient, Touch::Foot);
-            }
-        }
-        Gauge { value: best.0, normal: self.normal(s, rho, best.1) }
+        let (value, gradient) = gauge_in_section(part, rho, z, without);
+        Gauge { value, normal: self.normal(s, rho, gradient) }
     }
 
     /// A vector by its radial and axial component at a coordinate.
@@ -284,6 +261,47 @@ impl Chord {
             (self.hi, self.hi_at) = (hi, hi_at);
         }
     }
+}
+
+/// The gauge of a part at a pose and a point of the stock.
+pub(super) fn gauge_at(part: &ConvexPart, pose: &Pose, point: DVec3) -> Gauge {
+    let from = point - pose.tip;
+    let z = from.dot(pose.axis);
+    let beside = from - pose.axis * z;
+    let rho = beside.length();
+    let (value, (radial, axial)) = gauge_in_section(part, rho, z, None);
+    let out = if rho > 0.0 { beside / rho } else { DVec3::ZERO };
+    Gauge { value, normal: out * radial + pose.axis * axial }
+}
+
+/// The gauge of a part, at a distance from its axis and a height above its tip, and its radial and axial gradient; without one of
+/// the part's features.
+fn gauge_in_section(part: &ConvexPart, rho: f64, z: f64, without: Option<Touch>) -> (f64, (f64, f64)) {
+    // Value, radial and axial component of the gradient.
+    let mut best = (f64::NEG_INFINITY, (0.0, -1.0));
+    let mut take = |value: f64, gradient: (f64, f64), touch: Touch| {
+        if value > best.0 && without != Some(touch) {
+            best = (value, gradient);
+        }
+    };
+    take(part.z0 - z, (0.0, -1.0), Touch::Disc);
+    take(z - part.top, (0.0, 1.0), Touch::Top);
+    take(rho - part.r1, (1.0, 0.0), Touch::Rim);
+    match part.foot {
+        Foot::Flat => {}
+        // Above the centre of a round foot its gauge repeats that of the cylinder.
+        Foot::Torus { centre_z, .. } if without.is_some() && z >= centre_z => {}
+        Foot::Cone { rise } => {
+            let length = rise.hypot(1.0);
+            let value = ((rho - part.r0) * rise - (z - part.z0)) / length;
+            take(value, (rise / length, -1.0 / length), Touch::Foot);
+        }
+        Foot::Torus { .. } => {
+            let (value, gradient) = round(part, rho, z);
+            take(value, gradient, Touch::Foot);
+        }
+    }
+    best
 }
 
 /// Gauge of a round foot, and its radial and axial gradient.

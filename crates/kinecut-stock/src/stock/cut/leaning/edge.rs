@@ -14,7 +14,7 @@ use super::chord::{Gauge, LineFrom};
 use super::rest::deepest;
 use super::span::Pose;
 use super::swept::StockLine;
-use super::tiles::SpanTask;
+use super::task::SpanTask;
 use crate::geom::Aabb;
 use crate::stock::tile::Tile;
 use crate::stock::{EndPoint, fixed, unfixed};

@@ -104,10 +104,18 @@ impl Look<'_> {
         let (upper, apart, middle) = (search.upper, to - from, 0.5 * (from + to));
         let turn = self.of.poses[1].axis_rate.length();
         let slant = |met: &Met| met.slant[usize::from(upper)];
-        // The way that may be missing some time from a look, at a rate of the end.
+        // The way that may be missing some time from a look, at a rate of the end; of a line whose ends may run to and fro it has no
+        // bound where the face may turn so far that the line lies in it.
         let missing = |rate: f64, slant: f64, apart: f64| {
             let off = (4.0 * self.bend + turn * rate.abs()) * apart * apart - FINE;
-            if off > 0.0 { off / slant } else { 0.0 }
+            let slant = if self.quick { slant - turn * apart } else { slant };
+            if !(off > 0.0) {
+                0.0
+            } else if slant > 0.0 {
+                off / slant
+            } else {
+                f64::INFINITY
+            }
         };
         // The least on the way from a look to the other end: what falls so is least at one of them.
         let from_look = |(cost, rate): (f64, f64), slant: f64, way: f64| {
@@ -119,9 +127,8 @@ impl Look<'_> {
             [Some(a), Some(b)] => {
                 let (first, last) = (a.cost(upper), b.cost(upper));
                 let ((ca, ga), (cb, gb)) = (first, last);
-                let slant = slant(a).min(slant(b));
                 if !(ga < 0.0 && gb > 0.0) {
-                    let (x, y) = (from_look(first, slant, apart), from_look(last, slant, -apart));
+                    let (x, y) = (from_look(first, slant(a), apart), from_look(last, slant(b), -apart));
                     return Some((if x > y { x } else { y }, middle));
                 }
                 // No lower than where the tangents meet.
@@ -133,7 +140,7 @@ impl Look<'_> {
                     _ => hermite([from, to], [ca, cb], [ga, gb]).unwrap_or(meet),
                 };
                 let rate = if -ga > gb { ga } else { gb };
-                let least = ca + ga * (meet - from) - missing(rate, slant, apart);
+                let least = ca + ga * (meet - from) - missing(rate, slant(a).min(slant(b)), apart);
                 Some((least, if next.is_finite() { next } else { middle }))
             }
             [Some(a), None] => Some((from_look(a.cost(upper), slant(a), apart), middle)),

@@ -16,7 +16,7 @@ const MOST_METS: usize = MOST_LOOKS + 2 * (PARTS as usize + 1);
 pub(super) struct Met {
     pub(super) t: f64,
     pub(super) chord: Chord,
-    /// Rates of both ends by the time; infinite where the line touches.
+    /// Rates of both ends by the time; infinite where the line touches, 0 beyond the material.
     pub(super) rates: [f64; 2],
     /// Sines of the angles of the line to the faces at both ends.
     pub(super) slant: [f64; 2],
@@ -65,6 +65,8 @@ pub(super) struct Look<'a> {
     pub(super) line: &'a StockLine,
     /// The part of a way, seen from the tool, that no constant velocity explains [mm].
     pub(super) bend: f64,
+    /// The ends of the line may run to and fro.
+    pub(super) quick: bool,
 }
 
 impl Look<'_> {
@@ -77,12 +79,18 @@ impl Look<'_> {
     pub(super) fn at_pose(&self, t: f64, pose: &Pose) -> Option<Met> {
         let from = LineFrom::new(self.line.start, self.line.along, pose);
         let chord = from.chord(self.part)?;
-        let end = |s: f64, touch: Touch| {
+        let end = |s: f64, touch: Touch, beyond: bool| {
+            // Beyond the material it is far enough, and nothing more is asked.
+            if beyond {
+                return (0.0, 1.0);
+            }
             let n = from.outward(self.part, s, touch);
             let slant = n[self.line.along];
             (n.dot(pose.velocity(from.point(s))) / slant, slant.abs())
         };
-        let (lo, hi) = (end(chord.lo, chord.lo_at), end(chord.hi, chord.hi_at));
+        let [low, high] = self.line.material;
+        let lo = end(chord.lo, chord.lo_at, chord.lo <= low);
+        let hi = end(chord.hi, chord.hi_at, chord.hi >= high);
         Some(Met { t, chord, rates: [lo.0, hi.0], slant: [lo.1, hi.1] })
     }
 }

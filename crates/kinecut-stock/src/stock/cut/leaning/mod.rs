@@ -1,10 +1,11 @@
 //! Moves of a tool that leans or turns: on all three grids alike, line by line.
 //!
 //! A move becomes spans (`span.rs`); a convex part of the tool covers a stretch of a line over a span (`swept.rs`), found from
-//! chords at single poses (`chord.rs`). A tile of lines takes all spans in order (`tiles.rs`); what may lie
-//! between the lines is noted (`edge.rs`). An edge that leaves a core is cut as it is on a move along
+//! chords at single poses (`chord.rs`). A tile of lines takes all spans in order (`tiles.rs`); long runs of moves of which
+//! only the outcome counts are cut at once (`at_once`); what may lie between the lines is noted (`edge.rs`). An edge that leaves a core is cut as it is on a move along
 //! its axis (`hollow.rs`), else as filled.
 
+mod at_once;
 mod chord;
 mod edge;
 mod furthest;
@@ -14,9 +15,11 @@ mod hollow;
 mod look;
 mod nearest;
 mod rest;
+mod run;
 mod span;
 mod swept;
+mod task;
 mod tiles;
 
 pub(in crate::stock) use rest::meets_at_rest;
-pub(super) use tiles::cut_leaning;
+pub(super) use run::cut_leaning;

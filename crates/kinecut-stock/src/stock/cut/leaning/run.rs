@@ -59,12 +59,7 @@ pub(in super::super) fn cut_leaning(
 
 /// The end of the run that begins at a move, and the cells if it may be cut at once: a run of moves that may, if it has enough
 /// spans, else all moves up to one of those.
-fn next_run<'c>(
-    batch: &Batch,
-    able: &[bool],
-    from: usize,
-    cells: &'c Cells,
-) -> (usize, Option<&'c Cells>) {
+fn next_run<'c>(batch: &Batch, able: &[bool], from: usize, cells: &'c Cells) -> (usize, Option<&'c Cells>) {
     let mut start = from;
     while start < able.len() {
         let end = start + able[start..].iter().take_while(|a| **a).count();

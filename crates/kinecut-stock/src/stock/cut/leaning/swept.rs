@@ -89,12 +89,13 @@ impl SpanPoses {
         mut found: impl FnMut([CoverEnd; 2]),
     ) {
         let bend = self.bend_seen(bend);
-        let look = Look { of: self, part, line: &self.near(part, bend, line, 0.0), bend };
+        let quick = self.is_quick(part, line);
+        let look = Look { of: self, part, line: &self.near(part, bend, line, 0.0), bend, quick };
         if look.misses() {
             return;
         }
         let mut looks = [None; MOST_LOOKS];
-        let count = if self.is_quick(part, line) { MOST_LOOKS } else { TIMES.len() };
+        let count = if quick { MOST_LOOKS } else { TIMES.len() };
         let time = |i: usize| i as f64 / (count - 1) as f64 - 0.5;
         for (i, met) in looks[..count].iter_mut().enumerate() {
             *met = match count {
@@ -131,17 +132,23 @@ impl SpanPoses {
         turn > 0.0 && (flat && rise < turn || (1.0 - rise * rise).max(0.0).sqrt() < turn)
     }
 
+    /// True if a part is seen at once to stay away from the material of a line.
+    pub(super) fn surely_misses(&self, part: &ConvexPart, bend: f64, line: &StockLine) -> bool {
+        let bend = self.bend_seen(bend);
+        Look { of: self, part, line: &self.near(part, bend, line, 0.0), bend, quick: false }.misses()
+    }
+
     /// True if all parts of a body stay away from the material of a line, and from all that is no farther than `by` from it [mm].
     pub(super) fn keep_off(&self, body: &RevolvedParts, bend: f64, line: &StockLine, by: f64) -> bool {
         let bend = self.bend_seen(bend);
         body.parts.iter().all(|part| {
             let line = &self.near(part, bend, line, by);
-            Look { of: self, part, line, bend }.keeps_off(by)
+            Look { of: self, part, line, bend, quick: false }.keeps_off(by)
         })
     }
 
     /// The bend of the way seen from the tool: if that turns, a straight way is bent too [mm].
-    fn bend_seen(&self, bend: f64) -> f64 {
+    pub(super) fn bend_seen(&self, bend: f64) -> f64 {
         let pose = &self.poses[1];
         bend + 0.25 * pose.axis_rate.length() * pose.tip_rate.length()
     }
@@ -164,9 +171,11 @@ impl Look<'_> {
     /// Tells what the line loses at the times around looks at which it is met: one stretch, or one for each of the times between which
     /// it is not met.
     fn told(&self, mets: &[Met], around: [f64; 2], parts: u32, found: &mut dyn FnMut([CoverEnd; 2])) {
-        let [low, high] = [false, true].map(|upper| self.least_of(mets, around, upper));
-        if self.line.is_free(low, -high) {
-            return;
+        if mets.iter().all(|met| self.line.is_free(met.chord.lo, met.chord.hi)) {
+            let [low, high] = [false, true].map(|upper| self.least_of(mets, around, upper));
+            if self.line.is_free(low, -high) {
+                return;
+            }
         }
         let (Some(lo), Some(hi)) = (self.furthest(mets, around, false), self.furthest(mets, around, true))
         else {

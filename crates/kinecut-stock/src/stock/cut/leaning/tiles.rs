@@ -1,147 +1,33 @@
 //! Spans to tiles of lines, and what each move does there.
 
+use std::ops::Range;
+
 use glam::DVec3;
 use rayon::prelude::*;
 
 use super::super::body::{RevolvedParts, Touch};
 use super::super::effect::{Effects, Looked, Sum, deeper, met};
 use super::super::face::{Station, SweptFace};
-use super::super::task::{TileLines, Tool, beside};
-use super::super::{CutMove, CutOptions, MoveEffect, Stance};
+use super::super::task::TileLines;
 use super::edge;
-use super::hollow::Plunge;
-use super::span::spans;
-use super::swept::{CoverEnd, MOST_STRETCHES, NO_STRETCH, SpanPoses, StockLine};
-use crate::base::{Code, Finding, Progress, Result};
-use crate::geom::{Aabb, Rigid};
+use super::swept::{CoverEnd, MOST_STRETCHES, NO_STRETCH, StockLine};
+use super::task::{Batch, SpanTask};
+use crate::base::Progress;
+use crate::geom::Aabb;
 use crate::stock::tile::{TILE_EDGE, TILE_LINES, Tile};
 use crate::stock::tri_dexel::Grid;
-use crate::stock::{Axis, CutId, DexelGrid, EndPoint, PackedNormal, TriDexel, fixed, unfixed};
+use crate::stock::{CutId, DexelGrid, EndPoint, PackedNormal, TriDexel, fixed, unfixed};
 
-/// Spans that are sorted into tiles at once: bounds the memory of the lists.
-const BATCH: usize = 20_000;
-
-/// Least travel of a tool in a span [mm].
-const LEAST_TRAVEL: f64 = 0.02;
-
-/// A span of a move with its tool.
-pub(super) struct SpanTask<'a> {
-    pub(super) poses: SpanPoses,
-    /// Index of the move in the batch.
-    pub(super) index: u32,
-    cut: CutId,
-    one: &'a CutMove,
-    pub(super) tool: &'a Tool,
-    /// See [`super::span::PoseSpan::bend`].
-    pub(super) bend: f64,
-    /// Most that a point of the tool moves in the span [mm].
-    pub(super) travel: f64,
-    /// All that the tool sweeps.
-    bounds: Aabb,
-    /// The tool draws back along its axis: its shank comes by before its edges cut there.
-    before: bool,
-    /// The tool as its edge is, where that leaves a core and moves along its axis.
-    plunge: Option<Plunge<'a>>,
-    clearance: f64,
-}
-
-/// Cuts moves that lean, in order; `first` is the number of moves before them.
-pub(in super::super) fn cut_leaning(
+/// Cuts a range of moves of a batch in order, and adds up what each does.
+pub(super) fn cut_in_order(
     stock: &mut TriDexel,
-    tools: &[Tool],
-    moves: &[CutMove],
-    first: usize,
-    options: &CutOptions,
+    batch: &Batch,
+    moves: Range<usize>,
+    sums: &mut [Sum],
     progress: &dyn Progress,
-) -> Result<Vec<MoveEffect>> {
-    let mut effects = Vec::with_capacity(moves.len());
-    let (mut tasks, mut from, mut errors, mut filled) = (Vec::new(), 0, Vec::new(), Vec::new());
-    let step = stock.lattice().step;
-    let margin = beside(step).unwrap_or(0.0);
-    let within = stock.bounds().grown(step);
-    for (i, one) in moves.iter().enumerate() {
-        let Stance::Leaning(motion) = &one.stance else { continue };
-        let tool = &tools[one.body as usize];
-        let all = [&tool.cutting, &tool.shank, &tool.holder];
-        let reach: f64 = all.iter().map(|b| b.top.max(-b.bottom).max(0.0) + b.radius).fold(0.0, f64::max);
-        let thinnest = tool.cutting.parts.iter().map(|p| p.r1).fold(f64::INFINITY, f64::min);
-        let is_far = |ends: [Rigid; 2], off: f64| {
-            let swept = ends.map(|pose| bounds(pose.translation, pose.rotation.z_axis, &all));
-            !swept[0].union(swept[1]).grown(off + margin).meets(within)
-        };
-        let (list, error) = spans(motion, reach, thinnest.max(LEAST_TRAVEL), is_far);
-        errors.push(error);
-        filled.push(false);
-        for span in list {
-            let poses = SpanPoses::new(span);
-            let middle = &poses.poses[1];
-            let bounds = bounds(middle.tip, middle.axis, &all).grown(span.stray(reach) + margin);
-            if bounds.meets(within) {
-                let plunge = tool.hollow.as_ref().and_then(|hollow| Plunge::of(hollow, &span));
-                if let (Some(plunge), Some(error)) = (&plunge, errors.last_mut()) {
-                    *error = error.max(plunge.across);
-                }
-                if let Some(filled) = filled.last_mut() {
-                    *filled |= tool.hollow.is_some() && plunge.is_none();
-                }
-                tasks.push(SpanTask {
-                    plunge,
-                    clearance: options.clearance,
-                    before: middle.tip_rate.dot(middle.axis) > 0.0,
-                    bend: span.bend(reach),
-                    travel: 2.0 * span.stray(reach),
-                    bounds,
-                    poses,
-                    index: (i - from) as u32,
-                    cut: options.first_cut.wrapping_add((first + i) as u32).wrapping_add(1),
-                    one,
-                    tool,
-                });
-            }
-        }
-        if tasks.len() >= BATCH || i + 1 == moves.len() {
-            let batch = &moves[from..=i];
-            let sums = cut_batch(stock, &tasks, batch, progress);
-            if progress.cancelled() {
-                return Err(Finding::error(Code::CANCELLED, "cutting was cancelled").into());
-            }
-            let done = sums.iter().zip(errors.iter().zip(&filled));
-            effects.extend(done.map(|(sum, (error, filled))| sum.effect(step, *error, *filled)));
-            progress.advance(batch.len() as u64);
-            tasks.clear();
-            errors.clear();
-            filled.clear();
-            from = i + 1;
-        }
-    }
-    Ok(effects)
-}
-
-/// A box that holds all bodies of a tool at a pose.
-fn bounds(tip: DVec3, axis: DVec3, bodies: &[&RevolvedParts]) -> Aabb {
-    let mut all = Aabb::EMPTY;
-    for body in bodies.iter().filter(|b| !b.parts.is_empty()) {
-        let ends = [body.bottom, body.top].map(|z| tip + axis * z);
-        all = all.union(Aabb::of_points(ends).grown(body.radius));
-    }
-    all
-}
-
-/// The coordinate of the stock along which the axis of a tool runs most, in the middle of its move.
-fn main_axis(one: &CutMove) -> usize {
-    let Stance::Leaning(motion) = &one.stance else { return 2 };
-    Axis::nearest(motion.pose(0.5).rotation.z_axis).index()
-}
-
-fn cut_batch(
-    stock: &mut TriDexel,
-    tasks: &[SpanTask],
-    moves: &[CutMove],
-    progress: &dyn Progress,
-) -> Vec<Sum> {
-    let mut sums: Vec<Sum> = moves.iter().map(|_| Sum::new(true)).collect();
-    let main: Vec<usize> = moves.iter().map(main_axis).collect();
+) {
     let lattice = *stock.lattice();
+    let (tasks, main) = (batch.tasks_of(moves), &batch.main);
     for grid in &mut stock.grids {
         let lines: Vec<TileLines> =
             (0..grid.tiles.len()).map(|t| TileLines::new(grid, &lattice, t)).collect();
@@ -167,11 +53,10 @@ fn cut_batch(
             sums[effect.index as usize].add(effect, (3 + along - main) % 3);
         }
     }
-    sums
 }
 
 /// For each tile the spans that may reach it, in order.
-fn bins(grid: &Grid, lines: &[TileLines], tasks: &[SpanTask]) -> Vec<Vec<u32>> {
+pub(super) fn bins(grid: &Grid, lines: &[TileLines], tasks: &[SpanTask]) -> Vec<Vec<u32>> {
     let mut bins = vec![Vec::new(); grid.tiles.len()];
     let across = grid.tiles_across().map(|n| n as usize);
     let (a, b) = grid.axis.others();
@@ -399,7 +284,7 @@ fn touched(
 }
 
 /// The end that a part leaves on a line: the normal of the material is against that of the tool.
-fn end_point(task: &SpanTask, part: usize, at: i32, end: &CoverEnd) -> EndPoint {
+pub(super) fn end_point(task: &SpanTask, part: usize, at: i32, end: &CoverEnd) -> EndPoint {
     let pose = task.poses.span.at(end.t);
     let left = end.normal.dot(pose.axis.cross(pose.tip_rate)) > 0.0;
     let station = Station::at(task.poses.span.fraction(end.t));

@@ -2,6 +2,7 @@
 //! points from the tool with formulas of its own.
 
 mod against_poses;
+mod at_once;
 mod closed_forms;
 mod from_above;
 mod hollow;

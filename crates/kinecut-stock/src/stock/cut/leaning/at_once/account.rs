@@ -18,10 +18,13 @@ use crate::geom::Aabb;
 use crate::stock::tile::{TILE_EDGE, Tile};
 
 use crate::stock::tri_dexel::Grid;
-use crate::stock::{CutId, DexelGrid, TriDexel, fixed, unfixed};
+use crate::stock::{Axis, CutId, DexelGrid, TriDexel, fixed, unfixed};
 
 /// Lines, and poses, to a radius of the tool.
 const LINES: f64 = 4.0;
+
+/// Cosine of the angle to lines below which they are not those to measure a tool on: 53 degrees.
+const FLAT: f64 = 0.6;
 
 /// Most poses of a span.
 const MOST_POSES: usize = 17;
@@ -36,20 +39,24 @@ struct Sample {
     met: (CutId, i64),
 }
 
-/// Tells what moves remove; `main` is by move the coordinate along which its tool is looked at.
+/// Tells what moves remove, on the lines along the axis that most of their tools are nearest to; a tool that leans from it by more
+/// than [`FLAT`] is looked at along the one it is nearest to itself.
 pub(super) fn account(
     stock: &TriDexel,
     tasks: &[SpanTask],
-    main: &[usize],
     progress: &dyn Progress,
     mut each: impl FnMut(&Effect),
 ) {
     let lattice = *stock.lattice();
+    let axes = tasks.iter().map(|t| t.poses.poses[1].axis.abs());
+    let usual = Axis::nearest(axes.clone().sum()).index();
+    let main: Vec<usize> =
+        axes.map(|axis| if axis[usual] > FLAT { usual } else { Axis::nearest(axis).index() }).collect();
     let radius = tasks.iter().map(|t| t.tool.cutting.radius).fold(f64::INFINITY, f64::min);
     let apart = apart(radius / (LINES * lattice.step));
     for grid in &stock.grids {
         let along = grid.axis.index();
-        if !tasks.iter().any(|t| main[t.index as usize] == along) {
+        if !main.contains(&along) {
             continue;
         }
         let lines: Vec<TileLines> =
@@ -67,7 +74,7 @@ pub(super) fn account(
                     if samples.is_empty() || progress.cancelled() {
                         break;
                     }
-                    let is_main = main[task.index as usize] == along;
+                    let is_main = main[*i as usize] == along;
                     let shadow = &shadows[*i as usize];
                     for sample in samples.iter_mut().filter(|s| shadow.is_near(plan(s.start, along), 0.0)) {
                         pass(sample, task, along, is_main.then_some(&mut effects));
@@ -135,7 +142,8 @@ fn bins(grid: &Grid, lines: &[TileLines], shadows: &[Shadow]) -> Vec<Vec<u32>> {
         for row in range(&row_ends, min.y, max.y) {
             for column in range(&column_ends, min.x, max.x) {
                 let [[a, b], [c, d]] = [column_ends[column], row_ends[row]];
-                let (middle, half) = (DVec2::new(0.5 * (a + b), 0.5 * (c + d)), DVec2::new(b - a, d - c) * 0.5);
+                let (middle, half) =
+                    (DVec2::new(0.5 * (a + b), 0.5 * (c + d)), DVec2::new(b - a, d - c) * 0.5);
                 if shadow.is_near(middle, half.length()) {
                     bins[row * columns + column].push(i as u32);
                 }

@@ -9,6 +9,7 @@ use super::super::task::Batch;
 use super::super::tiles::end_point;
 use super::cells::{BRICK, Cell, Cells};
 use super::near::{SweptPart, Tangent};
+use super::planes::Planes;
 use crate::stock::tile::{TILE_EDGE, Tile};
 use crate::stock::tri_dexel::LINE_OFFSET;
 use crate::stock::{Axis, EndPoint, fixed, unfixed};
@@ -21,9 +22,6 @@ const LINES: usize = 3 * (LEAF * LEAF) as usize;
 
 /// Ends this near to the border of a cell lie on it [fixed steps]: both cells there shall agree.
 const SNAP: i32 = 2;
-
-/// What a span may reach beyond material without being looked at [mm]: a fifth of an end point's rounding.
-const NOTHING: f64 = 2e-6;
 
 /// A grid whose tiles are shared by the bricks along its lines.
 pub(super) struct Grids<'a> {
@@ -41,6 +39,7 @@ struct Work<'a, 'b, 'c> {
     cells: &'a Cells,
     swept: &'a [SweptPart<'a>],
     tiles: [MutexGuard<'b, &'c mut Tile>; 3],
+    planes: Planes,
 }
 
 /// A line in a cell.
@@ -53,7 +52,8 @@ struct Line {
     start: DVec3,
     /// Borders of the cell along it [fixed steps].
     window: [i32; 2],
-    /// Least and greatest coordinate of its material in the cell [mm].
+    /// Least and greatest coordinate of its material in the cell [fixed steps], and in mm.
+    hull: [i32; 2],
     material: [f64; 2],
     /// These places, seen from the centre of the cell.
     ends: [DVec3; 2],
@@ -75,9 +75,9 @@ pub(super) fn cut(
         let tile = cell.first[b.index()] / TILE_EDGE * grid.across[0] + cell.first[a.index()] / TILE_EDGE;
         grid.tiles[tile as usize].lock().unwrap_or_else(PoisonError::into_inner)
     });
-    let mut work = Work { cells, swept, tiles };
+    let mut work = Work { cells, swept, tiles, planes: Planes::default() };
     if cells.has_material(brick) {
-        work.divide(&cell, BRICK, near);
+        work.halve(&cell, BRICK, near);
         work.won(&cell, batch)
     } else {
         work.empty(&cell);
@@ -103,44 +103,48 @@ impl Work<'_, '_, '_> {
             return;
         }
         if size <= LEAF {
-            return self.cut(cell, &mut list);
+            for (i, tangent) in &mut list {
+                *tangent = self.swept[*i as usize].tangent_closely(cell);
+            }
+            list.retain(|(_, tangent)| tangent.reach >= -cell.radius);
+            return self.cut(cell, &list);
         }
         let some: Vec<u32> = list.iter().map(|(i, _)| *i).collect();
+        self.halve(cell, size, &some);
+    }
+
+    /// Divides a cell of a size into eight.
+    fn halve(&mut self, cell: &Cell, size: u32, near: &[u32]) {
         let half = size / 2;
         for k in (cell.first[2]..cell.end[2]).step_by(half as usize) {
             for j in (cell.first[1]..cell.end[1]).step_by(half as usize) {
                 for i in (cell.first[0]..cell.end[0]).step_by(half as usize) {
-                    self.divide(&self.cells.cell([i, j, k], half), half, &some);
+                    self.divide(&self.cells.cell([i, j, k], half), half, near);
                 }
             }
         }
     }
 
-    /// Cuts a cell by the swept parts that may reach it.
-    fn cut(&mut self, cell: &Cell, list: &mut [(u32, Tangent)]) {
-        let mut lines = self.lines(cell);
-        // The deepest first, of equals the first.
-        list.sort_unstable_by(|a, b| b.1.reach.total_cmp(&a.1.reach).then(a.0.cmp(&b.0)));
-        for (i, tangent) in list {
-            if tangent.reach < -cell.radius {
-                break;
-            }
-            let one = &self.swept[*i as usize];
-            let limit = tangent.reach - NOTHING;
-            let under = |line: &Line| line.ends.iter().any(|end| tangent.normal.dot(*end) < limit);
-            let mut n = 0;
-            while n < lines.len() {
-                let cut = under(&lines[n]) && self.cut_line(&lines[n], one);
-                if cut && !self.look(&mut lines[n], cell.centre) {
-                    lines.swap_remove(n);
-                } else {
-                    n += 1;
+    /// Cuts a cell by the swept parts that may reach it: each line by the one that reaches deepest beyond its end, as long as one
+    /// does.
+    fn cut(&mut self, cell: &Cell, list: &[(u32, Tangent)]) {
+        let mut planes = std::mem::take(&mut self.planes);
+        planes.set(list);
+        for mut line in self.lines(cell) {
+            planes.begin();
+            while let Some(n) = planes.deepest(&line.ends) {
+                let one = &self.swept[list[n].0 as usize];
+                let ends = line.ends.map(|end| end + cell.centre);
+                if one.holds(ends) {
+                    self.tiles[line.along].subtract(line.line, border(line.hull[0]), border(line.hull[1]));
+                    break;
+                }
+                if self.cut_line(&line, one) && !self.look(&mut line, cell.centre) {
+                    break;
                 }
             }
-            if lines.is_empty() {
-                return;
-            }
         }
+        self.planes = planes;
     }
 
     /// Cuts a line in a cell by a swept part; true when it was changed.
@@ -176,7 +180,8 @@ impl Work<'_, '_, '_> {
             let window = window(cell, along);
             each_line(self.cells, cell, axis, |line, start| {
                 let empty = [DVec3::ZERO; 2];
-                let mut line = Line { along, line, start, window, material: [0.0; 2], ends: empty };
+                let mut line =
+                    Line { along, line, start, window, hull: [0; 2], material: [0.0; 2], ends: empty };
                 if self.look(&mut line, cell.centre) {
                     lines.push(line);
                 }
@@ -188,12 +193,14 @@ impl Work<'_, '_, '_> {
     /// Finds the material of a line in its cell; false when there is none.
     fn look(&self, line: &mut Line, centre: DVec3) -> bool {
         let [low, high] = line.window;
-        let within = self.tiles[line.along].line(line.line).iter().filter(|i| i.lo.at < high && low < i.hi.at);
+        let within =
+            self.tiles[line.along].line(line.line).iter().filter(|i| i.lo.at < high && low < i.hi.at);
         let hull = within.fold([i32::MAX, i32::MIN], |[a, b], i| [a.min(i.lo.at), b.max(i.hi.at)]);
         if hull[0] >= hull[1] {
             return false;
         }
-        line.material = [hull[0].max(low), hull[1].min(high)].map(unfixed);
+        line.hull = [hull[0].max(low), hull[1].min(high)];
+        line.material = line.hull.map(unfixed);
         line.ends = line.material.map(|s| {
             let mut end = line.start - centre;
             end[line.along] += s;
@@ -206,7 +213,7 @@ impl Work<'_, '_, '_> {
     fn empty(&mut self, cell: &Cell) {
         for axis in Axis::ALL {
             let tile = &mut *self.tiles[axis.index()];
-            let ends = window(cell, axis.index()).map(|at| EndPoint { at, ..EndPoint::default() });
+            let ends = window(cell, axis.index()).map(border);
             each_line(self.cells, cell, axis, |line, _| {
                 tile.subtract(line, ends[0], ends[1]);
             });
@@ -235,6 +242,11 @@ impl Work<'_, '_, '_> {
         won.dedup_by_key(|(index, _)| *index);
         won
     }
+}
+
+/// An end at the border of what is taken out; beyond it something else is, so that it does not stay.
+fn border(at: i32) -> EndPoint {
+    EndPoint { at, ..EndPoint::default() }
 }
 
 /// Borders of a cell along a coordinate [fixed steps].

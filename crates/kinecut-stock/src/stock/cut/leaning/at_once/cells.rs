@@ -154,9 +154,14 @@ impl Cells {
         self.filled[pile].fetch_and(!(1 << bit), Relaxed);
     }
 
-    /// The bricks that may have material.
+    /// The bricks that may have material, pile by pile; the piles scattered, so that threads seldom meet on a tile of lines.
     pub(super) fn bricks_with_material(&self) -> Vec<u32> {
-        (0..self.bricks.iter().product()).filter(|brick| self.has_material(*brick)).collect()
+        /// Odd, and with bits all over: near 2^32 over the golden ratio.
+        const SCATTER: u32 = 0x9e37_79b9;
+        let mut bricks: Vec<u32> =
+            (0..self.bricks.iter().product()).filter(|brick| self.has_material(*brick)).collect();
+        bricks.sort_by_cached_key(|brick| (self.place(self.indices(*brick)).0 as u32).wrapping_mul(SCATTER));
+        bricks
     }
 
     /// Calls for each brick that may have material and that a swept part may reach, with its cell.

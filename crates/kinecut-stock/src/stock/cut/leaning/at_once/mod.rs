@@ -13,6 +13,7 @@ mod account;
 mod brick;
 mod cells;
 mod near;
+mod planes;
 
 use std::ops::Range;
 use std::sync::Mutex;
@@ -66,24 +67,34 @@ pub(super) fn cut_at_once(
 ) {
     let tasks = batch.tasks_of(moves.clone());
     let mut seen = vec![false; moves.len()];
-    account(stock, tasks, &batch.main, progress, |effect| {
+    account(stock, tasks, progress, |effect| {
         let index = effect.index as usize;
         seen[index - moves.start] |= effect.first.is_some();
         sums[index].add(effect, 0);
     });
-    for (index, point) in unite(stock, cells, batch, tasks, progress) {
+    let won = unite(stock, cells, batch, tasks, progress);
+    for (index, point) in won.into_iter().filter(|(index, _)| moves.contains(&(*index as usize))) {
         if !std::mem::replace(&mut seen[index as usize - moves.start], true) {
             // It has left an end, so it has taken something.
-            sums[index as usize].add(&Effect { index, removed: 1, first: Some((1.0, point)), ..Effect::default() }, 0);
+            let first = Some((1.0, point));
+            sums[index as usize].add(&Effect { index, removed: 1, first, ..Effect::default() }, 0);
         }
     }
 }
 
 /// Takes all that spans sweep out of a stock; tells the moves that have left an end, each with one.
-fn unite(stock: &mut TriDexel, cells: &Cells, batch: &Batch, tasks: &[SpanTask], progress: &dyn Progress) -> Vec<Won> {
+fn unite(
+    stock: &mut TriDexel,
+    cells: &Cells,
+    batch: &Batch,
+    tasks: &[SpanTask],
+    progress: &dyn Progress,
+) -> Vec<Won> {
     let swept: Vec<SweptPart> = tasks
         .iter()
-        .flat_map(|task| task.tool.cutting.parts.iter().enumerate().map(|(i, part)| SweptPart::new(task, part, i)))
+        .flat_map(|task| {
+            task.tool.cutting.parts.iter().enumerate().map(|(i, part)| SweptPart::new(task, part, i))
+        })
         .collect();
     let before = cells.bricks_with_material();
     swept.par_iter().for_each(|one| {
