@@ -23,7 +23,7 @@ struct Results {
     /// Folder for the results, made if it is not there
     #[arg(long, default_value = "out")]
     out: PathBuf,
-    /// Files of the cut part: stl, glb, ply, several with a comma between them, or none
+    /// Files of the cut part: stl, glb, ply, 3mf, several with a comma between them, or none
     #[arg(long, value_name = "FORM", value_enum, value_delimiter = ',', default_values_t = [MeshFile::Stl, MeshFile::Glb])]
     mesh: Vec<MeshFile>,
     /// Leave report.html out
@@ -38,6 +38,8 @@ enum MeshFile {
     Stl,
     Glb,
     Ply,
+    #[value(name = "3mf")]
+    ThreeMf,
     None,
 }
 
@@ -49,6 +51,7 @@ impl Results {
                 MeshFile::Stl => MeshForm::Stl,
                 MeshFile::Glb => MeshForm::Glb,
                 MeshFile::Ply => MeshForm::Ply,
+                MeshFile::ThreeMf => MeshForm::ThreeMf,
                 MeshFile::None => continue,
             };
             if !meshes.contains(&form) {

@@ -21,7 +21,7 @@ impl Bar {
         });
         // indicatif draws nothing when standard error is no terminal.
         let bar = ProgressBar::with_draw_target(Some(1), ProgressDrawTarget::stderr());
-        let style = ProgressStyle::with_template("{msg:22} {bar:30} {percent:>3} %");
+        let style = ProgressStyle::with_template("{msg:22} {bar:30} {percent:>3} %, {eta} left");
         bar.set_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()));
         Bar(bar)
     }
@@ -45,6 +45,7 @@ impl Drop for Bar {
 impl Progress for Bar {
     fn stage(&self, name: &str, steps: u64) {
         self.0.set_position(0);
+        self.0.reset_eta();
         self.0.set_length(steps.max(1));
         self.0.set_message(name.to_owned());
     }

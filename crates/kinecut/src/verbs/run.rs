@@ -8,7 +8,7 @@ use serde::Serialize;
 
 use super::Answer;
 use crate::base::{Code, DiskLoader, FilesRead, Finding, Loader as _, Location, Progress, Result};
-use crate::geom::{Mesh, write_glb, write_ply, write_stl};
+use crate::geom::{Mesh, write_3mf, write_glb, write_ply, write_stl};
 use crate::job::{self, Outcome, Outputs, Verdict, still_wanted};
 use crate::page::Section;
 
@@ -21,6 +21,8 @@ pub enum MeshForm {
     Glb,
     /// `part.ply`, binary; each vertex once.
     Ply,
+    /// `part.3mf`, for printers and CAD.
+    ThreeMf,
 }
 
 impl MeshForm {
@@ -30,6 +32,7 @@ impl MeshForm {
             MeshForm::Stl => ("part.stl", write_stl(part)),
             MeshForm::Glb => ("part.glb", write_glb(part, None)?),
             MeshForm::Ply => ("part.ply", write_ply(part)),
+            MeshForm::ThreeMf => ("part.3mf", write_3mf(part)?),
         })
     }
 }
