@@ -1,9 +1,9 @@
 //! Moves of a tool that leans or turns: on all three grids alike, line by line.
 //!
 //! A move becomes spans (`span.rs`); a convex part of the tool covers a stretch of a line over a span (`swept.rs`), found from
-//! chords at single poses (`chord.rs`). A tile of lines takes all spans in order (`tiles.rs`); long runs of moves of which
-//! only the outcome counts are cut at once (`at_once`); what may lie between the lines is noted (`edge.rs`). An edge that leaves a core is cut as it is on a move along
-//! its axis (`hollow.rs`), else as filled.
+//! chords at single poses (`chord.rs`). A tile of lines takes all spans in order (`tiles.rs`); long runs of moves of which only the
+//! outcome counts are cut at once (`at_once`). What may lie between the lines is noted (`edge.rs`). An edge that leaves a core is
+//! cut as it is on a move along its axis (`hollow.rs`), else as filled.
 
 mod at_once;
 mod chord;

@@ -135,6 +135,34 @@ fn chains_of_all_tools() {
 }
 
 #[test]
+fn the_lines_are_the_same_with_any_number_of_threads() {
+    let mut random = Random(79);
+    let body = ToolBody::new(SHAPES[2].profile());
+    let moves = chain(&mut random, 160, 1.0, 0);
+    let cut_by = |threads: usize| {
+        let mut stock = TriDexel::from_box(block(), 0.2).unwrap();
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        let bodies = [body.clone()];
+        let cut = || cut_as(&mut stock, &bodies, &moves, &CutOptions::default(), Order::FromAbove, &Silent);
+        let effects = pool.install(cut).unwrap();
+        (stock, effects)
+    };
+    let (one, effects) = cut_by(1);
+    for threads in [2, 5] {
+        let (many, same) = cut_by(threads);
+        assert_eq!(effects, same);
+        for along in Axis::ALL {
+            let (a, b) = along.others();
+            for j in 0..one.lattice().counts[b.index()] {
+                for i in 0..one.lattice().counts[a.index()] {
+                    assert_eq!(one.line(along, i, j), many.line(along, i, j), "{threads} {i} {j} {along:?}");
+                }
+            }
+        }
+    }
+}
+
+#[test]
 fn what_depends_on_the_moment_is_looked_at_in_order() {
     let mut random = Random(73);
     let mut touched = 0;

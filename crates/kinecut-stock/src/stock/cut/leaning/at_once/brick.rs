@@ -59,33 +59,40 @@ struct Line {
     ends: [DVec3; 2],
 }
 
-/// Cuts a brick by the swept parts near it; if it was swallowed it has no material.
-pub(super) fn cut(
-    cells: &Cells,
-    grids: &[Grids; 3],
-    swept: &[SweptPart],
-    brick: u32,
-    near: &[u32],
-    batch: &Batch,
-) -> Vec<Won> {
+/// Cuts a brick by the swept parts near it.
+pub(super) fn cut(cells: &Cells, grids: &[Grids; 3], swept: &[SweptPart], brick: u32, near: &[u32]) {
     let cell = cells.of_brick(brick);
-    // Always in this order, so that no two threads wait for each other.
-    let tiles = grids.each_ref().map(|grid| {
-        let (a, b) = grid.axis.others();
-        let tile = cell.first[b.index()] / TILE_EDGE * grid.across[0] + cell.first[a.index()] / TILE_EDGE;
-        grid.tiles[tile as usize].lock().unwrap_or_else(PoisonError::into_inner)
-    });
-    let mut work = Work { cells, swept, tiles, planes: Planes::default() };
-    if cells.has_material(brick) {
-        work.halve(&cell, BRICK, near);
-        work.won(&cell, batch)
-    } else {
-        work.empty(&cell);
-        vec![]
-    }
+    Work::new(cells, grids, swept, &cell).halve(&cell, BRICK, near);
 }
 
-impl Work<'_, '_, '_> {
+/// Takes all material out of a brick.
+pub(super) fn empty(cells: &Cells, grids: &[Grids; 3], brick: u32) {
+    let cell = cells.of_brick(brick);
+    Work::new(cells, grids, &[], &cell).empty(&cell);
+}
+
+/// The moves of a batch that have left an end in a brick.
+pub(super) fn won(cells: &Cells, grids: &[Grids; 3], brick: u32, batch: &Batch) -> Vec<Won> {
+    let cell = cells.of_brick(brick);
+    Work::new(cells, grids, &[], &cell).won(&cell, batch)
+}
+
+impl<'a, 'b, 'c> Work<'a, 'b, 'c> {
+    /// Holds the tiles of a brick's lines: always in the order of their grids, so that no two threads wait for each other.
+    fn new(
+        cells: &'a Cells,
+        grids: &'b [Grids<'c>; 3],
+        swept: &'a [SweptPart<'a>],
+        cell: &Cell,
+    ) -> Work<'a, 'b, 'c> {
+        let tiles = grids.each_ref().map(|grid| {
+            let (a, b) = grid.axis.others();
+            let tile = cell.first[b.index()] / TILE_EDGE * grid.across[0] + cell.first[a.index()] / TILE_EDGE;
+            grid.tiles[tile as usize].lock().unwrap_or_else(PoisonError::into_inner)
+        });
+        Work { cells, swept, tiles, planes: Planes::default() }
+    }
+
     /// Divides a cell until it is swallowed, or small enough to be cut.
     fn divide(&mut self, cell: &Cell, size: u32, near: &[u32]) {
         let mut list: Vec<(u32, Tangent)> = Vec::with_capacity(near.len());

@@ -44,6 +44,8 @@ pub(in super::super) struct Cells {
 
 /// For each brick the swept parts near it, in their order.
 pub(super) struct Near {
+    /// Index behind the last of the swept parts that were asked about.
+    pub(super) end: usize,
     starts: Vec<usize>,
     list: Vec<u32>,
 }
@@ -195,20 +197,31 @@ impl Cells {
         }
     }
 
-    /// The swept parts near each brick.
-    pub(super) fn near(&self, swept: &[SweptPart], progress: &dyn Progress) -> Near {
-        /// Swept parts that a thread takes at once.
+    /// The swept parts near each brick, from one of them on as many as there is room for.
+    pub(super) fn near(&self, swept: &[SweptPart], from: usize, progress: &dyn Progress) -> Near {
+        /// Swept parts that a thread takes at once, and that are taken before it is asked whether there is room for more.
         const CHUNK: usize = 64;
-        let chunk = |(n, some): (usize, &[SweptPart])| {
-            let mut pairs: Vec<(u32, u32)> = Vec::new();
-            if !progress.cancelled() {
-                for (i, one) in some.iter().enumerate() {
-                    self.each_near(one, |brick, _, _| pairs.push((brick, (n * CHUNK + i) as u32)));
+        const WAVE: usize = 32 * CHUNK;
+        /// Pairs of brick and part, eight bytes each.
+        const MOST: usize = 8_000_000;
+        let mut pairs: Vec<Vec<(u32, u32)>> = Vec::new();
+        let (mut end, mut count) = (from, 0);
+        while end < swept.len() && count < MOST {
+            let some = &swept[end..swept.len().min(end + WAVE)];
+            let chunk = |(n, some): (usize, &[SweptPart])| {
+                let mut pairs: Vec<(u32, u32)> = Vec::new();
+                if !progress.cancelled() {
+                    for (i, one) in some.iter().enumerate() {
+                        self.each_near(one, |brick, _, _| pairs.push((brick, (end + n * CHUNK + i) as u32)));
+                    }
                 }
-            }
-            pairs
-        };
-        let pairs: Vec<Vec<(u32, u32)>> = swept.par_chunks(CHUNK).enumerate().map(chunk).collect();
+                pairs
+            };
+            let first = pairs.len();
+            pairs.par_extend(some.par_chunks(CHUNK).enumerate().map(chunk));
+            count += pairs[first..].iter().map(Vec::len).sum::<usize>();
+            end += some.len();
+        }
         let mut starts = vec![0; self.bricks.iter().product::<u32>() as usize + 1];
         for (brick, _) in pairs.iter().flatten() {
             starts[*brick as usize + 1] += 1;
@@ -222,6 +235,6 @@ impl Cells {
             list[next[*brick as usize]] = *one;
             next[*brick as usize] += 1;
         }
-        Near { starts, list }
+        Near { end, starts, list }
     }
 }

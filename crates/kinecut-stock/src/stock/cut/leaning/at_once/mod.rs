@@ -106,20 +106,26 @@ fn unite(
             });
         }
     });
-    let near = cells.near(&swept, progress);
     let grids = stock.grids.each_mut().map(|grid| {
         let (axis, across) = (grid.axis, grid.tiles_across());
         Grids { axis, across, tiles: grid.tiles.iter_mut().map(Mutex::new).collect() }
     });
-    let cut = |brick: &u32| {
-        if progress.cancelled() {
-            return vec![];
-        }
-        let list = near.of(*brick);
-        if cells.has_material(*brick) && list.is_empty() {
-            return vec![];
-        }
-        brick::cut(cells, &grids, &swept, *brick, list, batch)
-    };
-    before.par_iter().map(cut).collect::<Vec<_>>().concat()
+    let (left, swallowed): (Vec<u32>, Vec<u32>) = before.into_iter().partition(|b| cells.has_material(*b));
+    swallowed.par_iter().for_each(|brick| brick::empty(cells, &grids, *brick));
+    let mut from = 0;
+    let mut touched = vec![false; left.len()];
+    while from < swept.len() && !progress.cancelled() {
+        let near = cells.near(&swept, from, progress);
+        touched.par_iter_mut().zip(&left).for_each(|(touched, brick)| {
+            let list = near.of(*brick);
+            if !list.is_empty() && !progress.cancelled() {
+                brick::cut(cells, &grids, &swept, *brick, list);
+                *touched = true;
+            }
+        });
+        from = near.end;
+    }
+    let won = |(_, brick): (&bool, &u32)| brick::won(cells, &grids, *brick, batch);
+    let touched = touched.par_iter().zip(&left).filter(|(touched, _)| **touched);
+    touched.map(won).collect::<Vec<_>>().concat()
 }
