@@ -2,8 +2,9 @@
 
 use std::sync::Once;
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::Duration;
 
-use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use indicatif::{HumanDuration, ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
 use kinecut::base::Progress;
 
 /// Whether Ctrl-C was pressed.
@@ -21,10 +22,27 @@ impl Bar {
         });
         // indicatif draws nothing when standard error is no terminal.
         let bar = ProgressBar::with_draw_target(Some(1), ProgressDrawTarget::stderr());
-        let style = ProgressStyle::with_template("{msg:22} {bar:30} {percent:>3} %, {eta} left");
-        bar.set_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()));
+        let style = ProgressStyle::with_template("{msg:22} {bar:30} {percent:>3} %{left}");
+        let style = style.unwrap_or_else(|_| ProgressStyle::default_bar());
+        bar.set_style(style.with_key("left", write_left));
         Bar(bar)
     }
+}
+
+/// Writes the time that is left of a stage, once a part of it is done from which that can be told.
+fn write_left(state: &ProgressState, out: &mut dyn std::fmt::Write) {
+    let all = state.len().unwrap_or(0);
+    // The first hundredth tells too little.
+    if state.pos() >= all || state.pos() < all.div_ceil(100) {
+        return;
+    }
+    let left = state.eta();
+    // There is no one to tell that the terminal cannot be written.
+    let _ = if left < Duration::from_secs(1) {
+        write!(out, ", under 1 second left")
+    } else {
+        write!(out, ", about {} left", HumanDuration(left))
+    };
 }
 
 /// The first Ctrl-C lets searches give their best so far, and other work stop in order; the second one ends at once.
