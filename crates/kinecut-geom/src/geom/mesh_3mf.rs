@@ -9,7 +9,7 @@ use zip::{CompressionMethod, ZipWriter};
 use super::Mesh;
 use crate::base::{Code, Finding, Result};
 
-/// What kind of file each ending is.
+/// The kinds of file by their endings.
 const CONTENT_TYPES: &str = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n\
     <Types xmlns=\"http://schemas.openxmlformats.org/package/2006/content-types\">\
     <Default Extension=\"rels\" ContentType=\"application/vnd.openxmlformats-package.relationships+xml\"/>\

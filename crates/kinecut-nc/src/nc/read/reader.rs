@@ -238,7 +238,7 @@ impl<'s> Reader<'s> {
                 || is(word, &["Q"]) && feature;
             if word.point && count {
                 let finding =
-                    self.place.malformed(&word.bytes, "this word is a count here, without decimal point");
+                    self.place.malformed(&word.bytes, "it is a count here, write it without a decimal point");
                 return Err(finding.into());
             }
             let unit = if word.point || count {

@@ -57,14 +57,14 @@ pub fn cut(
     options: &CutOptions,
     progress: &dyn Progress,
 ) -> Result<Vec<MoveEffect>> {
-    cut_as(stock, bodies, moves, options, Order::FromAbove, progress)
+    cut_as(stock, bodies, moves, options, Order::InRuns, progress)
 }
 
-/// The way in which upright moves are cut; the lines are the same.
+/// The way in which moves are cut; the lines are the same.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Order {
-    /// In long runs, as far as that tells all that has to be told.
-    FromAbove,
+    /// In long runs, as far as those tell all that has to be told.
+    InRuns,
     /// Line by line in the order of the moves: what the other way is compared with.
     #[cfg(test)]
     OneByOne,

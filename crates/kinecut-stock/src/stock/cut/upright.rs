@@ -100,7 +100,7 @@ pub(super) fn cut_upright(
             }
         };
         let stopped = match order {
-            Order::FromAbove => cut_from_above(stock, (axis, &frame), &batch.tasks, progress, &mut note),
+            Order::InRuns => cut_from_above(stock, (axis, &frame), &batch.tasks, progress, &mut note),
             #[cfg(test)]
             Order::OneByOne => Some(0),
         };

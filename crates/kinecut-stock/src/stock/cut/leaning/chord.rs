@@ -37,7 +37,7 @@ pub(super) struct Chord {
 pub(super) struct Gauge {
     /// Negative inside, no more than the distance outside [mm].
     pub(super) value: f64,
-    /// Its gradient, a unit vector.
+    /// Its gradient: a unit vector, or zero where the part is as deep all around.
     pub(super) normal: DVec3,
 }
 
@@ -311,7 +311,8 @@ fn round(part: &ConvexPart, rho: f64, z: f64) -> (f64, (f64, f64)) {
     };
     let (x, y) = ((rho - centre_radius).max(0.0), (z - centre_z).min(0.0));
     let h = (x * x + y * y).sqrt();
-    if h > 0.0 { (h - radius, (x / h, y / h)) } else { (-radius, (0.0, -1.0)) }
+    // Within the disc of the arc's centres it is as deep everywhere.
+    if h > 0.0 { (h - radius, (x / h, y / h)) } else { (-radius, (0.0, 0.0)) }
 }
 
 /// The roots of `a s^2 + 2 b s + c` with `a > 0`, the lesser first.

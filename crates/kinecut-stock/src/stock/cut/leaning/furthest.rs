@@ -104,11 +104,11 @@ impl Look<'_> {
         let (upper, apart, middle) = (search.upper, to - from, 0.5 * (from + to));
         let turn = self.of.poses[1].axis_rate.length();
         let slant = |met: &Met| met.slant[usize::from(upper)];
-        // The way that may be missing some time from a look, at a rate of the end; of a line whose ends may run to and fro it has no
-        // bound where the face may turn so far that the line lies in it.
+        // The way that may be missing some time from a look, at a rate of the end; without bound where the face may turn so far that
+        // the line lies in it.
         let missing = |rate: f64, slant: f64, apart: f64| {
             let off = (4.0 * self.bend + turn * rate.abs()) * apart * apart - FINE;
-            let slant = if self.quick { slant - turn * apart } else { slant };
+            let slant = slant - turn * apart;
             if !(off > 0.0) {
                 0.0
             } else if slant > 0.0 {

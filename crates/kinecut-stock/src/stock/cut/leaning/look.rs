@@ -65,8 +65,6 @@ pub(super) struct Look<'a> {
     pub(super) line: &'a StockLine,
     /// The part of a way, seen from the tool, that no constant velocity explains [mm].
     pub(super) bend: f64,
-    /// The ends of the line may run to and fro.
-    pub(super) quick: bool,
 }
 
 impl Look<'_> {

@@ -26,7 +26,7 @@ pub(in super::super) fn cut_leaning(
         let batch = Batch::new(stock, tools, &moves[next..], effects.len(), options);
         let mut sums: Vec<Sum> = batch.moves.iter().map(|_| Sum::new(true)).collect();
         let at_once = match order {
-            Order::FromAbove if batch.tasks.len() >= LEAST => {
+            Order::InRuns if batch.tasks.len() >= LEAST => {
                 let cells = Cells::new(stock);
                 let able = may_be_cut_at_once(&cells, &batch);
                 Some((cells, able))

@@ -89,13 +89,12 @@ impl SpanPoses {
         mut found: impl FnMut([CoverEnd; 2]),
     ) {
         let bend = self.bend_seen(bend);
-        let quick = self.is_quick(part, line);
-        let look = Look { of: self, part, line: &self.near(part, bend, line, 0.0), bend, quick };
+        let look = Look { of: self, part, line: &self.near(part, bend, line, 0.0), bend };
         if look.misses() {
             return;
         }
         let mut looks = [None; MOST_LOOKS];
-        let count = if quick { MOST_LOOKS } else { TIMES.len() };
+        let count = if self.is_quick(part, line) { MOST_LOOKS } else { TIMES.len() };
         let time = |i: usize| i as f64 / (count - 1) as f64 - 0.5;
         for (i, met) in looks[..count].iter_mut().enumerate() {
             *met = match count {
@@ -135,7 +134,7 @@ impl SpanPoses {
     /// True if a part is seen at once to stay away from the material of a line.
     pub(super) fn surely_misses(&self, part: &ConvexPart, bend: f64, line: &StockLine) -> bool {
         let bend = self.bend_seen(bend);
-        Look { of: self, part, line: &self.near(part, bend, line, 0.0), bend, quick: false }.misses()
+        Look { of: self, part, line: &self.near(part, bend, line, 0.0), bend }.misses()
     }
 
     /// True if all parts of a body stay away from the material of a line, and from all that is no farther than `by` from it [mm].
@@ -143,7 +142,7 @@ impl SpanPoses {
         let bend = self.bend_seen(bend);
         body.parts.iter().all(|part| {
             let line = &self.near(part, bend, line, by);
-            Look { of: self, part, line, bend, quick: false }.keeps_off(by)
+            Look { of: self, part, line, bend }.keeps_off(by)
         })
     }
 

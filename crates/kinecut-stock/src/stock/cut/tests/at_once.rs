@@ -5,37 +5,17 @@ use std::f64::consts::PI;
 use glam::DVec3;
 
 use super::against_poses::SHAPES;
+use super::in_two_ways::{compare, compare_lines};
 use super::reference::Random;
 use crate::base::Silent;
 use crate::geom::{Aabb, Arc, Curve, Line, Profile};
 use crate::stock::cut::run::{Order, cut_as};
 use crate::stock::cut::{BodyContact, CutMove, CutOptions, MoveEffect, ToolBody};
-use crate::stock::{Axis, DexelGrid, Interval, TriDexel};
+use crate::stock::{Interval, TriDexel};
 use crate::sweep::ToolMotion;
 
 /// Most that an end may be off [fixed steps]: its rounding, and the border of a cell that it lies on.
 const CLOSE: i32 = 2;
-
-/// Cuts a stock in both ways and compares all lines; returns the effects of both.
-fn compare(stock: &TriDexel, bodies: &[ToolBody], moves: &[CutMove], what: &str) -> [Vec<MoveEffect>; 2] {
-    let mut cut = [stock.clone(), stock.clone()];
-    let mut effects = [vec![], vec![]];
-    for ((stock, effects), order) in cut.iter_mut().zip(&mut effects).zip([Order::FromAbove, Order::OneByOne])
-    {
-        *effects = cut_as(stock, bodies, moves, &CutOptions::default(), order, &Silent).unwrap();
-    }
-    let lattice = *stock.lattice();
-    for along in Axis::ALL {
-        let (a, b) = along.others();
-        for j in 0..lattice.counts[b.index()] {
-            for i in 0..lattice.counts[a.index()] {
-                let [fast, slow] = [0, 1].map(|k| cut[k].line(along, i, j));
-                assert!(is_same(fast, slow), "{what}: line {i} {j} along {along:?}:\n{fast:?}\n{slow:?}");
-            }
-        }
-    }
-    effects
-}
 
 /// True if two lines are the same but for rounding.
 fn is_same(a: &[Interval], b: &[Interval]) -> bool {
@@ -126,7 +106,7 @@ fn chains_of_all_tools() {
         let stock = TriDexel::from_box(block(), step).unwrap();
         let moves = chain(&mut random, 160, [0.5, 1.2, 2.9][round / 3 % 3], 0);
         let what = format!("round {round}: {shape:?}, step {step}");
-        let effects = compare(&stock, &[body], &moves, &what);
+        let effects = compare(&stock, &[body], &moves, &what, is_same);
         compare_effects(&effects, &what);
         sampled += usize::from(effects[0] != effects[1]);
     }
@@ -143,7 +123,7 @@ fn the_lines_are_the_same_with_any_number_of_threads() {
         let mut stock = TriDexel::from_box(block(), 0.2).unwrap();
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
         let bodies = [body.clone()];
-        let cut = || cut_as(&mut stock, &bodies, &moves, &CutOptions::default(), Order::FromAbove, &Silent);
+        let cut = || cut_as(&mut stock, &bodies, &moves, &CutOptions::default(), Order::InRuns, &Silent);
         let effects = pool.install(cut).unwrap();
         (stock, effects)
     };
@@ -151,14 +131,7 @@ fn the_lines_are_the_same_with_any_number_of_threads() {
     for threads in [2, 5] {
         let (many, same) = cut_by(threads);
         assert_eq!(effects, same);
-        for along in Axis::ALL {
-            let (a, b) = along.others();
-            for j in 0..one.lattice().counts[b.index()] {
-                for i in 0..one.lattice().counts[a.index()] {
-                    assert_eq!(one.line(along, i, j), many.line(along, i, j), "{threads} {i} {j} {along:?}");
-                }
-            }
-        }
+        compare_lines([&one, &many], &format!("{threads} threads"), |a, b| a == b);
     }
 }
 
@@ -183,7 +156,7 @@ fn what_depends_on_the_moment_is_looked_at_in_order() {
             moves[i].removes = i % 2 == 0;
         }
         let what = format!("round {round}");
-        let effects = compare(&stock, &bodies, &moves, &what);
+        let effects = compare(&stock, &bodies, &moves, &what, is_same);
         compare_effects(&effects, &what);
         touched += effects[1].iter().filter(|e| e.shank.is_some() || e.holder.is_some()).count();
     }

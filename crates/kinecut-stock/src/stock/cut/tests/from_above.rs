@@ -3,33 +3,16 @@
 use glam::DVec3;
 
 use super::against_poses::SHAPES;
+use super::in_two_ways;
 use super::reference::Random;
-use crate::base::Silent;
 use crate::geom::{Aabb, Arc, Curve, Line, Profile};
-use crate::stock::cut::run::{Order, cut_as};
-use crate::stock::cut::{CutAxis, CutMove, CutOptions, MoveEffect, ToolBody};
-use crate::stock::{Axis, DexelGrid, TriDexel};
+use crate::stock::TriDexel;
+use crate::stock::cut::{CutAxis, CutMove, MoveEffect, ToolBody};
 use crate::tool::DrillPoint;
 
 /// Cuts a stock in both ways and compares all lines, the ends with what they carry; returns the effects of both.
 fn compare(stock: &TriDexel, bodies: &[ToolBody], moves: &[CutMove], what: &str) -> [Vec<MoveEffect>; 2] {
-    let mut cut = [stock.clone(), stock.clone()];
-    let mut effects = [vec![], vec![]];
-    for ((stock, effects), order) in cut.iter_mut().zip(&mut effects).zip([Order::FromAbove, Order::OneByOne])
-    {
-        *effects = cut_as(stock, bodies, moves, &CutOptions::default(), order, &Silent).unwrap();
-    }
-    let lattice = *stock.lattice();
-    for along in Axis::ALL {
-        let (a, b) = along.others();
-        for j in 0..lattice.counts[b.index()] {
-            for i in 0..lattice.counts[a.index()] {
-                let [fast, slow] = [0, 1].map(|k| cut[k].line(along, i, j));
-                assert_eq!(fast, slow, "{what}: line {i} {j} along {along:?}");
-            }
-        }
-    }
-    effects
+    in_two_ways::compare(stock, bodies, moves, what, |a, b| a == b)
 }
 
 /// A block that moves of any axis cut in.

@@ -6,5 +6,6 @@ mod at_once;
 mod closed_forms;
 mod from_above;
 mod hollow;
+mod in_two_ways;
 mod leaning;
 mod reference;

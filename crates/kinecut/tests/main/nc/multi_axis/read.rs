@@ -82,6 +82,11 @@ fn fanuc_vectors_begin_in_the_block_of_their_code() {
     let all = moves(&reading);
     let Target::Tip { axis, .. } = all[0].0.end else { panic!("{:?}", all[0].0.end) };
     assert_eq!((axis, all[0].1.tcp), (ToolAxis::Vector(DVec3::new(0.0, 0.6, 0.8)), Tcp::Axes));
+    let error = refused(&text.replace("G43.5", "G43"), Control::Fanuc);
+    assert!(
+        error.contains("`K0.8` is malformed: it is a count here, write it without a decimal point"),
+        "{error}"
+    );
 }
 
 #[test]

@@ -1,8 +1,8 @@
-//! What each move of a run removes, in order, on some of the lines.
+//! Amounts that the moves of a run remove, in order, on some of the lines.
 //!
-//! Every nth line of those along the tool axis is taken, n so that they are a quarter of the tool's radius apart, or all where that
-//! is finer than the lines of the stock. Of a span, poses are taken that are a quarter of the radius apart or less: what a move is
-//! told to remove is measured, not bounded.
+//! Every nth line of those along the tool axis is taken, n up to 16 so that they are no more than a quarter of the radius of the
+//! run's thinnest tool apart, or all where the lines of the stock are no closer. Of a span, poses are taken that are a quarter of the
+//! radius apart or less. Such an amount is measured, not bounded.
 
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
@@ -16,7 +16,6 @@ use super::super::task::SpanTask;
 use crate::base::Progress;
 use crate::geom::Aabb;
 use crate::stock::tile::{TILE_EDGE, Tile};
-
 use crate::stock::tri_dexel::Grid;
 use crate::stock::{Axis, CutId, DexelGrid, TriDexel, fixed, unfixed};
 
@@ -199,12 +198,10 @@ fn pass(sample: &mut Sample, task: &SpanTask, along: usize, effects: Option<&mut
         return;
     }
     if let Some(effects) = effects {
-        let mut removed = 0;
         let contact = self::covered(&task.tool.contact, task, sample.start, along);
         let met: i64 = contact.iter().map(|c| length(&sample.material, *c)).sum();
-        removed += covered.iter().map(|c| length(&sample.material, *c)).sum::<i64>();
         let effect = effects.of(task.index);
-        effect.removed += removed;
+        effect.removed += covered.iter().map(|c| length(&sample.material, *c)).sum::<i64>();
         if met > 0 {
             if sample.met.0 != task.cut {
                 sample.met = (task.cut, 0);

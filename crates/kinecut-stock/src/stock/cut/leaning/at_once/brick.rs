@@ -31,8 +31,8 @@ pub(super) struct Grids<'a> {
     pub(super) tiles: Vec<Mutex<&'a mut Tile>>,
 }
 
-/// A move, by its index in the batch, and a point of an end that it has left [mm].
-pub(super) type Won = (u32, [f64; 3]);
+/// A move that has left an end: its index in the batch, and the end's place [mm].
+pub(super) type Winner = (u32, [f64; 3]);
 
 /// The tiles of a brick.
 struct Work<'a, 'b, 'c> {
@@ -72,9 +72,9 @@ pub(super) fn empty(cells: &Cells, grids: &[Grids; 3], brick: u32) {
 }
 
 /// The moves of a batch that have left an end in a brick.
-pub(super) fn won(cells: &Cells, grids: &[Grids; 3], brick: u32, batch: &Batch) -> Vec<Won> {
+pub(super) fn winners(cells: &Cells, grids: &[Grids; 3], brick: u32, batch: &Batch) -> Vec<Winner> {
     let cell = cells.of_brick(brick);
-    Work::new(cells, grids, &[], &cell).won(&cell, batch)
+    Work::new(cells, grids, &[], &cell).winners(&cell, batch)
 }
 
 impl<'a, 'b, 'c> Work<'a, 'b, 'c> {
@@ -197,7 +197,7 @@ impl<'a, 'b, 'c> Work<'a, 'b, 'c> {
         lines
     }
 
-    /// Finds the material of a line in its cell; false when there is none.
+    /// Sets the material of a line from its tile; false when it has none in the cell.
     fn look(&self, line: &mut Line, centre: DVec3) -> bool {
         let [low, high] = line.window;
         let within =
@@ -228,8 +228,8 @@ impl<'a, 'b, 'c> Work<'a, 'b, 'c> {
     }
 
     /// The moves of a batch that have left an end in a cell.
-    fn won(&self, cell: &Cell, batch: &Batch) -> Vec<Won> {
-        let mut won: Vec<Won> = Vec::new();
+    fn winners(&self, cell: &Cell, batch: &Batch) -> Vec<Winner> {
+        let mut winners: Vec<Winner> = Vec::new();
         for axis in Axis::ALL {
             let along = axis.index();
             let [low, high] = window(cell, along);
@@ -237,17 +237,19 @@ impl<'a, 'b, 'c> Work<'a, 'b, 'c> {
                 let ends = self.tiles[along].line(line).iter().flat_map(|i| [i.lo, i.hi]);
                 for end in ends.filter(|end| end.at >= low && end.at < high) {
                     let index = end.cut.wrapping_sub(batch.first);
-                    if (index as usize) < batch.moves.len() && won.last().is_none_or(|last| last.0 != index) {
+                    if (index as usize) < batch.moves.len()
+                        && winners.last().is_none_or(|last| last.0 != index)
+                    {
                         let mut point = start;
                         point[along] = unfixed(end.at);
-                        won.push((index, point.to_array()));
+                        winners.push((index, point.to_array()));
                     }
                 }
             });
         }
-        won.sort_by_key(|(index, _)| *index);
-        won.dedup_by_key(|(index, _)| *index);
-        won
+        winners.sort_by_key(|(index, _)| *index);
+        winners.dedup_by_key(|(index, _)| *index);
+        winners
     }
 }
 

@@ -6,8 +6,8 @@
 //! each stretch of a line is cut as it is in order, by the same functions, so that the lines are the same up to the rounding of an
 //! end or two.
 //!
-//! A run holds moves that are meant to cut, and whose shank and holder stay away from all material there is before it.
-//! What each move removes depends on the order: it is measured on some of the lines (`account.rs`).
+//! A run holds moves of tools without a core that are meant to cut, and whose shank and holder stay away from all material there is before it.
+//! The amount that a move removes depends on the order: it is measured on some of the lines (`account.rs`).
 
 mod account;
 mod brick;
@@ -21,7 +21,7 @@ use std::sync::Mutex;
 use rayon::prelude::*;
 
 use self::account::account;
-use self::brick::{Grids, Won};
+use self::brick::{Grids, Winner};
 pub(super) use self::cells::Cells;
 use self::near::SweptPart;
 use super::super::effect::{Effect, Looked, Sum};
@@ -45,7 +45,8 @@ pub(super) fn may_be_cut_at_once(cells: &Cells, batch: &Batch) -> Vec<bool> {
                 !meets
             })
         };
-        let cuts = task.one.removes && !task.one.watch && task.plunge.is_none();
+        // An edge that leaves a core asks of each move whether it went across its axis in material.
+        let cuts = task.one.removes && !task.one.watch && task.tool.hollow.is_none();
         cuts && keeps_off(Looked::Shank) && keeps_off(Looked::Holder)
     };
     let spans: Vec<bool> = batch.tasks.par_iter().map(able).collect();
@@ -72,8 +73,8 @@ pub(super) fn cut_at_once(
         seen[index - moves.start] |= effect.first.is_some();
         sums[index].add(effect, 0);
     });
-    let won = unite(stock, cells, batch, tasks, progress);
-    for (index, point) in won.into_iter().filter(|(index, _)| moves.contains(&(*index as usize))) {
+    let winners = unite(stock, cells, batch, tasks, progress);
+    for (index, point) in winners.into_iter().filter(|(index, _)| moves.contains(&(*index as usize))) {
         if !std::mem::replace(&mut seen[index as usize - moves.start], true) {
             // It has left an end, so it has taken something.
             let first = Some((1.0, point));
@@ -89,7 +90,7 @@ fn unite(
     batch: &Batch,
     tasks: &[SpanTask],
     progress: &dyn Progress,
-) -> Vec<Won> {
+) -> Vec<Winner> {
     let swept: Vec<SweptPart> = tasks
         .iter()
         .flat_map(|task| {
@@ -125,7 +126,7 @@ fn unite(
         });
         from = near.end;
     }
-    let won = |(_, brick): (&bool, &u32)| brick::won(cells, &grids, *brick, batch);
+    let winners = |(_, brick): (&bool, &u32)| brick::winners(cells, &grids, *brick, batch);
     let touched = touched.par_iter().zip(&left).filter(|(touched, _)| **touched);
-    touched.map(won).collect::<Vec<_>>().concat()
+    touched.map(winners).collect::<Vec<_>>().concat()
 }

@@ -35,9 +35,9 @@ pub(super) struct SweptPart<'a> {
 pub(super) struct Tangent {
     /// Outward normal of the part, no longer than 1.
     pub(super) normal: DVec3,
-    /// How far beyond the centre of the cell the part reaches [mm]; negative when it ends before it.
+    /// Most that the part reaches beyond the centre of the cell [mm]; negative when it ends before it.
     pub(super) reach: f64,
-    /// How far it likely reaches there, no more than a guess [mm].
+    /// A guess at that reach, without the slack of the bound [mm].
     pub(super) likely: f64,
 }
 
@@ -59,7 +59,7 @@ impl<'a> SweptPart<'a> {
     }
 
     /// The tangent plane of the part about a cell.
-    pub(super) fn tangent(&self, cell: &Cell) -> Tangent {
+    fn tangent(&self, cell: &Cell) -> Tangent {
         let pose = &self.middle;
         let gauge = gauge_at(self.part, pose, cell.centre);
         let rate = gauge.normal.dot(pose.velocity(cell.centre - pose.tip)).abs();
@@ -78,8 +78,9 @@ impl<'a> SweptPart<'a> {
         let (middle, rate) = at(&poses[1]);
         let (time, end) = if rate > 0.0 { (-0.5, &poses[0]) } else { (0.5, &poses[2]) };
         let (last, last_rate) = at(end);
-        // Share of the plane at the middle: none if the part comes nearer up to the end.
-        let share = if rate * last_rate < 0.0 { last_rate / (last_rate - rate) } else { 0.0 };
+        // Share of the plane at the middle: none if the part comes nearer up to the end, all if it stands still in the middle.
+        let turns_back = (rate > 0.0) != (last_rate > 0.0);
+        let share = if turns_back { last_rate / (last_rate - rate) } else { 0.0 };
         let both = |a: f64, b: f64| share * a + (1.0 - share) * b;
         // At the end the rate lets the gauge rise from there; else both rates together come to nothing.
         let value = both(middle.value, if share > 0.0 { last.value - last_rate * time } else { last.value });
@@ -116,10 +117,91 @@ impl<'a> SweptPart<'a> {
 
     /// True if the cell lies within the part at the start, the middle or the end.
     pub(super) fn swallows(&self, cell: &Cell) -> bool {
-        self.task
-            .poses
-            .poses
-            .iter()
-            .any(|pose| gauge_at(self.part, pose, cell.centre).value < -cell.radius - WITHIN)
+        let within = |pose: &Pose| gauge_at(self.part, pose, cell.centre).value < -cell.radius - WITHIN;
+        self.task.poses.poses.iter().any(within)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::super::super::task::Tool;
+    use super::super::super::super::{CutMove, CutOptions, ToolBody};
+    use super::super::super::task::Batch;
+    use super::super::cells::Cells;
+    use super::*;
+    use crate::geom::{Arc, Curve, Line, Profile};
+    use crate::stock::TriDexel;
+    use crate::sweep::ToolMotion;
+
+    /// Numbers in [0, 1) that leave no place out.
+    fn spread(n: u32, k: usize) -> f64 {
+        let [a, b, c] = [0.819_172_513, 0.671_043_607, 0.549_700_478];
+        (f64::from(n) * [a, b, c][k]).fract()
+    }
+
+    /// How far planes lie from what they bound [mm]: the least, over all poses and all places of cells that a tool holds.
+    fn least_room(motion: &ToolMotion, curve: Curve, profile: &Profile) -> (f64, usize) {
+        let bounds = Aabb { min: DVec3::splat(-8.0), max: DVec3::splat(8.0) };
+        let stock = TriDexel::from_box(bounds, 0.25).unwrap();
+        let options = CutOptions::default();
+        let tools = [Tool::new(&ToolBody::new(profile.clone()), &options, 0.25)];
+        let moves = [CutMove::leaning(motion.clone(), curve, 0)];
+        let batch = Batch::new(&stock, &tools, &moves, 0, &options);
+        let cells = Cells::new(&stock);
+        let (mut least, mut held) = (f64::INFINITY, 0);
+        for (task, part) in batch.tasks.iter().flat_map(|t| t.tool.cutting.parts.iter().map(move |p| (t, p)))
+        {
+            let swept = SweptPart::new(task, part, 0);
+            for (n, size) in (0..60).flat_map(|n| [16, 4].map(|size| (n, size))) {
+                let first = [0, 1, 2].map(|k| (spread(n, k) * 64.0 / f64::from(size)) as u32 * size);
+                // Those in the middle are where moves through the middle are nearest in the middle of their time.
+                let first = if n % 3 == 0 { [first[0], 32 - size / 2, first[2]] } else { first };
+                let cell = cells.cell(first, size);
+                let planes = [swept.tangent(&cell), swept.tangent_closely(&cell)];
+                for i in 0..400 {
+                    let at = DVec3::from_array([0, 1, 2].map(|k| spread(i, k)));
+                    let point = cell.low + (cell.high - cell.low) * at;
+                    let pose = task.poses.span.at(f64::from(i % 41) / 40.0 - 0.5);
+                    if gauge_at(part, &pose, point).value > 0.0 {
+                        continue;
+                    }
+                    held += 1;
+                    assert!(swept.reaches(&cell).is_some());
+                    for plane in planes {
+                        least = least.min(plane.reach - plane.normal.dot(point - cell.centre));
+                    }
+                }
+            }
+        }
+        (least, held)
+    }
+
+    #[test]
+    fn a_part_stays_behind_its_planes() {
+        let axis = DVec3::new(0.4, 0.0, 1.0);
+        for profile in [
+            Profile::bull_nose(6.0, 3.0, 12.0).unwrap(),
+            Profile::bull_nose(6.0, 1.0, 12.0).unwrap(),
+            Profile::cylinder(5.0, 12.0).unwrap(),
+        ] {
+            // Straight across the middle of cells, aslant, turning, and round.
+            let level = Line { start: DVec3::new(0.3, -1.0, 1.0), end: DVec3::new(0.3, 1.0, 1.0) };
+            let aslant = Line { start: DVec3::new(-3.0, -2.0, 2.0), end: DVec3::new(3.0, 1.5, -1.0) };
+            let round =
+                Arc::new(DVec3::new(2.0, 0.0, 0.5), DVec3::new(-1.0, 0.0, 0.0), DVec3::Z, 3.0, 0.5).unwrap();
+            let motions = [
+                (ToolMotion::fixed(level.into(), axis).unwrap(), Curve::from(level)),
+                (ToolMotion::fixed(aslant.into(), axis).unwrap(), aslant.into()),
+                (
+                    ToolMotion::between(aslant.into(), axis, DVec3::new(-0.5, 0.8, 0.6)).unwrap(),
+                    aslant.into(),
+                ),
+                (ToolMotion::fixed(round.into(), axis).unwrap(), round.into()),
+            ];
+            for (motion, curve) in motions {
+                let (least, held) = least_room(&motion, curve, &profile);
+                assert!(held > 1000 && least > -1e-9, "{profile:?} {curve:?} {held} {least}");
+            }
+        }
     }
 }

@@ -4,20 +4,20 @@ use glam::DVec3;
 
 use super::near::Tangent;
 
-/// What a part may reach beyond material without being looked at [mm]: a fifth of an end point's rounding.
+/// Reach beyond an end of material that counts as none [mm]: a fifth of an end point's rounding.
 const NOTHING: f64 = 2e-6;
 
 /// Planes, coordinate by coordinate.
 #[derive(Default)]
 pub(super) struct Planes {
     normals: [Vec<f64>; 3],
-    /// How far the parts reach beyond the centre [mm].
+    /// Bounds on the reaches of the parts beyond the centre [mm].
     reaches: Vec<f64>,
-    /// How much farther that is than they likely reach [mm].
+    /// Differences of bounds and guesses [mm].
     slack: Vec<f64>,
-    /// The reaches while a line is cut: without end below the centre once a part has been asked about.
+    /// The bounds while a line is cut: without end below the centre for a part that had its turn.
     open: Vec<f64>,
-    /// How far each likely reaches beyond a place, if it may at all [mm].
+    /// Guesses at the reaches beyond a place [mm]; without end below it where the bound says that there is none.
     likely: Vec<f64>,
 }
 
