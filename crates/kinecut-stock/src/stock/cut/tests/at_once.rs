@@ -114,6 +114,29 @@ fn chains_of_all_tools() {
     assert!(10 * sampled > 9 * rounds, "{sampled}");
 }
 
+/// Ways through the very middle of cells, and tools as deep all around there: what random moves never meet.
+#[test]
+fn rasters_along_the_lattice() {
+    let block = Aabb { min: DVec3::new(-8.0, -8.0, -6.0), max: DVec3::new(8.0, 8.0, 0.0) };
+    for (shape, step) in SHAPES.into_iter().flat_map(|shape| [(shape, 0.5), (shape, 0.25)]) {
+        let stock = TriDexel::from_box(block, step).unwrap();
+        // No flat face lies in a line.
+        for axis in [DVec3::new(0.47, 0.0, 1.0), DVec3::new(0.0, -0.83, 1.0)] {
+            let mut moves = Vec::new();
+            for row in 0..12 {
+                for k in 0..24 {
+                    let x = -5.5 + f64::from(row);
+                    let [from, to] = [k, k + 1].map(|k| DVec3::new(x, -6.0 + 0.5 * f64::from(k), -2.0));
+                    let line = Line { start: from, end: to };
+                    moves.push(CutMove::leaning(ToolMotion::fixed(line.into(), axis).unwrap(), line, 0));
+                }
+            }
+            let what = format!("{shape:?}, step {step}, axis {axis}");
+            compare(&stock, &[ToolBody::new(shape.profile())], &moves, &what, is_same);
+        }
+    }
+}
+
 #[test]
 fn the_lines_are_the_same_with_any_number_of_threads() {
     let mut random = Random(79);

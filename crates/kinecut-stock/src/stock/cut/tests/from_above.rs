@@ -74,6 +74,32 @@ fn same_effects([fast, slow]: &[Vec<MoveEffect>; 2], step: f64, what: &str) {
     }
 }
 
+/// Ways along lines, through lines and through the middle between lines, with plunges: what random moves never meet.
+#[test]
+fn rasters_along_the_lattice() {
+    let block = Aabb { min: DVec3::new(-8.0, -8.0, -6.0), max: DVec3::new(8.0, 8.0, 0.0) };
+    for (shape, step) in SHAPES.into_iter().flat_map(|shape| [(shape, 0.5), (shape, 0.25)]) {
+        let stock = TriDexel::from_box(block, step).unwrap();
+        let bodies = [ToolBody::new(shape.profile())];
+        // Rows on lines, and between them.
+        for off in [0.0, 0.25, 0.125] {
+            let at = |x: f64, y: f64, z: f64| DVec3::new(x + off, y + off, z);
+            let mut moves = Vec::new();
+            for row in 0..12 {
+                let x = -5.5 + f64::from(row);
+                let stations: Vec<DVec3> = (0..=24)
+                    .map(|k| at(x, -6.0 + 0.5 * f64::from(k), -1.5 - 0.25 * f64::from(k % 3)))
+                    .collect();
+                let plunge = [at(x, -6.0, 2.0), stations[0]];
+                for pair in std::iter::once(&plunge[..]).chain(stations.windows(2)) {
+                    moves.push(CutMove::new(Line { start: pair[0], end: pair[1] }, CutAxis::PlusZ, 0));
+                }
+            }
+            compare(&stock, &bodies, &moves, &format!("{shape:?}, step {step}, off {off}"));
+        }
+    }
+}
+
 #[test]
 fn random_moves_of_all_tools_along_all_axes_leave_the_same_lines() {
     let mut random = Random(7);

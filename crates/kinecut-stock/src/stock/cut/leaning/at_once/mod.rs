@@ -4,7 +4,7 @@
 //! that is left the spans near it are sought, then in smaller and smaller cells (`brick.rs`), with bounds by tangent planes
 //! (`near.rs`). In the smallest cell the span that reaches deepest comes first, so that nearly all others have nothing left to cut;
 //! each stretch of a line is cut as it is in order, by the same functions, so that the lines are the same up to the rounding of an
-//! end or two.
+//! end or two; but a line that lies in a flat face, to within 2 nm, may be taken in order and be left here.
 //!
 //! A run holds moves of tools without a core that are meant to cut, and whose shank and holder stay away from all material there is before it.
 //! The amount that a move removes depends on the order: it is measured on some of the lines (`account.rs`).
