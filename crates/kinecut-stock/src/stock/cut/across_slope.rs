@@ -194,19 +194,26 @@ impl TorusOnSlope<'_> {
     }
 
     /// The fractions at which the section reaches the line: there the point (y - y(t), w - tip(t)) lies in the
-    /// stadium of the torus' silhouette.
+    /// silhouette of the torus: two discs and all between them, or what two discs share if the arc is centred beyond the axis.
     fn reach(&self) -> Option<(f64, f64)> {
         let p = DVec2::new(self.y - self.line.start.y, self.w - self.piece.w[0] - self.centre_z);
         let v = DVec2::new(-self.line.way.y, -self.piece.rise());
-        let (mut from, mut to) = (f64::INFINITY, f64::NEG_INFINITY);
+        let beyond = self.centre_radius < 0.0;
+        let (mut from, mut to) =
+            if beyond { (f64::NEG_INFINITY, f64::INFINITY) } else { (f64::INFINITY, f64::NEG_INFINITY) };
         for side in [-1.0, 1.0] {
             let q = p - DVec2::X * (side * self.centre_radius);
             // |q + v t| = radius; v is not zero on a slope.
             let (a, b, c) = (v.length_squared(), q.dot(v), q.length_squared() - self.radius * self.radius);
             let root = (b * b - a * c).sqrt();
-            if root >= 0.0 {
-                from = from.min((-b - root) / a);
-                to = to.max((-b + root) / a);
+            let (first, last) = ((-b - root) / a, (-b + root) / a);
+            if beyond {
+                // Not a number where the disc is missed: no range then.
+                from = if first <= from { from } else { first };
+                to = if last >= to { to } else { last };
+            } else if root >= 0.0 {
+                from = from.min(first);
+                to = to.max(last);
             }
         }
         // The flat sides of the stadium: |z| = radius, |y| <= centre radius.
