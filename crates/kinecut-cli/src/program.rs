@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use clap::ValueEnum;
 use kinecut::base::{Error, FileKind};
-use kinecut::job::{GivenFile, GivenJob, ProgramWants, given_alone, given_with_job};
+use kinecut::job::{GivenFile, GivenJob, ProgramWants, RunWants, StockWants, given_alone, given_with_job};
 use kinecut::nc::{Control, PostSettings};
 use kinecut::operations::OrientationName;
 use kinecut::verbs::check::program_sheet;
@@ -29,6 +29,27 @@ struct Results {
     /// Leave report.html out
     #[arg(long)]
     no_report: bool,
+}
+
+/// How the stock is simulated.
+#[derive(Debug, clap::Args)]
+struct Stock {
+    /// Distance of the lines of the stock model, mm; default: that of the job, then that of about 2 million lines
+    #[arg(long, value_name = "MM")]
+    step: Option<f64>,
+    /// Largest distance of the surface of the cut part from the ends of the lines, mm; default: that of the job, then a fiftieth of the
+    /// step
+    #[arg(long, value_name = "MM")]
+    mesh_tolerance: Option<f64>,
+    /// Prove the cut stock against the moves by branch and bound; takes longer
+    #[arg(long)]
+    certified: bool,
+}
+
+impl Stock {
+    fn wants(&self) -> StockWants {
+        StockWants { step: self.step, mesh_tolerance: self.mesh_tolerance, certified: self.certified }
+    }
 }
 
 /// A file of the cut part.
@@ -74,13 +95,16 @@ pub(crate) struct Run {
     #[arg(long)]
     compare: bool,
     #[command(flatten)]
+    stock: Stock,
+    #[command(flatten)]
     results: Results,
 }
 
 impl Run {
     /// Runs a job.
     pub(crate) fn answer(&self, args: &Printing) -> Result<u8, Error> {
-        let done = run::run(&self.job, self.compare, &self.results.files(), files::read(), &Bar::new())?;
+        let wants = RunWants { compare: self.compare, stock: self.stock.wants() };
+        let done = run::run(&self.job, &wants, &self.results.files(), files::read(), &Bar::new())?;
         answer(args, self.results.to(), done)
     }
 }
@@ -159,9 +183,8 @@ pub(crate) struct Simulate {
     /// Raw stock: least and greatest corner of a block in coordinates of the work offset, mm
     #[arg(long, value_name = "X0,Y0,Z0,X1,Y1,Z1", value_parser = corners, allow_hyphen_values = true, conflicts_with = "job")]
     stock: Option<[f64; 6]>,
-    /// Distance of the lines of the stock model, mm
-    #[arg(long, value_name = "MM")]
-    step: Option<f64>,
+    #[command(flatten)]
+    cut: Stock,
     #[command(flatten)]
     results: Results,
 }
@@ -171,12 +194,10 @@ impl Simulate {
     pub(crate) fn answer(&self, args: &Printing) -> Result<u8, Error> {
         let path = &self.of.program;
         let done = if path.extension().is_some_and(|e| e.eq_ignore_ascii_case("toml")) {
-            run::simulate_job(path, &self.results.files(), files::read(), &Bar::new())?
+            run::simulate_job(path, &self.cut.wants(), &self.results.files(), files::read(), &Bar::new())?
         } else {
             let mut given = self.of.given(self.by.control.as_ref(), self.stock, true)?;
-            if let Some(step) = self.step {
-                given.set_step(step)?;
-            }
+            given.simulated(&self.cut.wants())?;
             run::simulate_given(given, &self.results.files(), &Bar::new())?
         };
         answer(args, self.results.to(), done)

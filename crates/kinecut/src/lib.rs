@@ -87,7 +87,13 @@ pub fn run(
     progress: &dyn base::Progress,
 ) -> base::Result<Done> {
     let read = base::FilesRead::default();
-    let mut done = verbs::run::run(job, false, &verbs::run::ResultFiles::default(), &read, progress)?;
+    let mut done = verbs::run::run(
+        job,
+        &job::RunWants::default(),
+        &verbs::run::ResultFiles::default(),
+        &read,
+        progress,
+    )?;
     done.outputs.spare(&read);
     done.outputs.write_with(out, progress)?;
     Ok(done)

@@ -175,6 +175,9 @@ codes! {
     TIP_NOT_CONTROLLED = "KC0532", "axes turn in a cut without control of the tool centre point",
         "The axes go straight from position to position, so that the tip leaves the line between two programmed points, by the value given. Mostly `G43.4`, `TRAORI` or `M128` was forgotten, or switched off too early.";
 
+    NOT_CERTIFIED = "KC0533", "the cut stock is not as its certificate wants it",
+        "In the certified mode (`--certified`) each end of a line of the stock is looked for at the tool that cut it. These were not found there: more may have been taken out of the stock than the tool takes. That is a fault of kinecut, not of the program: please report it with the program.";
+
     MESH_UNREADABLE = "KC0601", "a mesh file cannot be read",
         "The file is neither binary nor text STL, ends early, or holds numbers that are not finite.";
     MESH_OPEN = "KC0602", "a mesh does not close",

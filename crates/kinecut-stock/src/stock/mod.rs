@@ -7,6 +7,7 @@
 //!
 //! [`point_engagement`] measures in the stock how much of a drill's point is in material on its way.
 
+pub mod certify;
 pub mod cut;
 mod deviation;
 mod dexel;

@@ -11,7 +11,7 @@ use rayon::prelude::*;
 
 use super::cut::Ceilings;
 use super::tile::{TILE_EDGE, Tile};
-use super::{Axis, DexelGrid, FIXED_STEP, Interval, Lattice};
+use super::{Axis, DexelGrid, EndPoint, FIXED_STEP, Interval, Lattice};
 use crate::base::{Code, Finding, Result};
 use crate::geom::Aabb;
 
@@ -133,6 +133,13 @@ impl TriDexel {
 
     fn volume_along(&self, axis: Axis) -> f64 {
         self.grids[axis.index()].content() as f64 * FIXED_STEP * self.lattice.step * self.lattice.step
+    }
+
+    /// Takes the material between two ends out of a line.
+    pub(crate) fn take_from_line(&mut self, axis: Axis, [a, b]: [u32; 2], lo: EndPoint, hi: EndPoint) {
+        let grid = &mut self.grids[axis.index()];
+        let (tile, line) = place(grid.tiles_across()[0], a, b);
+        grid.tiles[tile].subtract(line, lo, hi);
     }
 
     /// The intervals of one line replaced.

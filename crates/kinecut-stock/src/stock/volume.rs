@@ -3,17 +3,17 @@
 //! The volume of the cut part is taken from its mesh, that of the raw stock from its solid; where the stock has holes
 //! already, from the mesh of the stock with them.
 //!
-//! **Bound.** The vertices of the mesh lie within a fiftieth of a step of the surface, and so do those at its edges; a
-//! facet over a surface of curvature 1 / R leaves it by s^2 / (12 R) in the mean over a step s, a fiftieth of a step at
-//! R = 4 s. Both together: the volume is off by no more than a 25th of a step ([`OFF`]) times the area that is not flat raw
-//! stock. Measured on holes, slots, ball rasters and bars down to R = 1.25 s it is off by half of that at most, and mostly
-//! by a tenth. What is thinner than the lines may not be in the mesh at all.
+//! **Bound.** The vertices of the mesh lie within its tolerance of the surface, and so do those at its edges; a
+//! facet over a surface of curvature 1 / R leaves it by s^2 / (12 R) in the mean over a step s, a fiftieth of a step ([`BENT`]) at
+//! R = 4 s. Both together, times the area that is not flat raw stock, are the most that the volume is off.
+//! Measured with a tolerance of a fiftieth of a step on holes, slots, ball rasters and bars down to R = 1.25 s it is off by half of
+//! that at most, and mostly by a tenth. What is thinner than the lines may not be in the mesh at all.
 
 use crate::geom::{Mesh, Solid};
-use crate::stock::surface::CutSurface;
+use crate::stock::surface::{CutSurface, SurfaceOptions};
 
-/// Distance of the mesh from the surface, in the mean [grid steps].
-const OFF: f64 = 0.04;
+/// Distance of facets from a bent surface, in the mean [grid steps].
+const BENT: f64 = 0.02;
 
 /// A volume.
 ///
@@ -25,8 +25,9 @@ const OFF: f64 = 0.04;
 /// use kinecut::stock::{TriDexel, Volume};
 /// let bounds = Aabb { min: [0.0, 0.0, -10.0].into(), max: [40.0, 20.0, 0.0].into() };
 /// let stock = TriDexel::from_box(bounds, 0.7).unwrap();
-/// let surface = surface_with_cuts(&stock, &SurfaceOptions::default(), &Silent).unwrap();
-/// let removed = Volume::of_solid(&Solid::Box(bounds)).less(Volume::of_surface(&surface, 0.7, true));
+/// let options = SurfaceOptions::default();
+/// let surface = surface_with_cuts(&stock, &options, &Silent).unwrap();
+/// let removed = Volume::of_solid(&Solid::Box(bounds)).less(Volume::of_surface(&surface, &options, 0.7, true));
 /// assert!(removed.value.abs() <= removed.bound + 1e-6);
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -48,14 +49,14 @@ impl Volume {
         Volume { value, bound: 1e-12 * value.abs() }
     }
 
-    /// The volume within a surface made from lines at a distance of `step` [mm]; `exact` when what no move has cut is a
-    /// box, whose faces the mesh has exactly.
-    pub fn of_surface(surface: &CutSurface, step: f64, exact: bool) -> Volume {
+    /// The volume within a surface made with a tolerance from lines at a distance of `step` [mm]; `exact` when what no move has
+    /// cut is a box, whose faces the mesh has exactly.
+    pub fn of_surface(surface: &CutSurface, options: &SurfaceOptions, step: f64, exact: bool) -> Volume {
         let cuts = surface.mesh.triangles.iter().zip(&surface.cuts);
         let area: f64 =
             cuts.filter(|(_, cut)| !exact || **cut > 0).map(|(t, _)| area(&surface.mesh, *t)).sum();
         let value = surface.mesh.volume();
-        Volume { value, bound: OFF * step * area + 1e-12 * value.abs() }
+        Volume { value, bound: (options.tolerance(step) + BENT * step) * area + 1e-12 * value.abs() }
     }
 
     /// The volume taken away to leave `rest`.

@@ -33,6 +33,7 @@ mod subject;
 mod tilt;
 pub(crate) mod unknown;
 mod verdict;
+mod wants;
 
 pub use check::{Design, Job, JobProgram, JobSetup, check};
 pub use external::{
@@ -51,12 +52,13 @@ pub use plan_json::plan_json;
 pub use read::JobText;
 pub use read_back::{ReadBack, compare};
 pub(crate) use run::still_wanted;
-pub use run::{run, run_compared, simulate_given};
+pub use run::{RunWants, run, run_with, simulate_given};
 pub use setup_outcome::SetupOutcome;
 pub use shape::{Deviation, Largest, deviation};
 pub use simulate::{Simulation, simulate};
 pub use subject::{Subject, sha256};
 pub use verdict::{Heading, Judgement, Proof, Unchecked, UncheckedItem, Verdict, VerdictCheck, verify};
+pub use wants::StockWants;
 
 /// A value as JSON text, keys in the order of its type, with a line end.
 pub fn json_text(value: &impl serde::Serialize) -> String {

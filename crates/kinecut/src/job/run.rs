@@ -8,7 +8,7 @@ use crate::operations::known::Known;
 use crate::operations::measured::Loose;
 use crate::operations::setting::corners;
 use crate::stock::Volume;
-use crate::stock::surface::{SurfaceOptions, surface_with_cuts};
+use crate::stock::surface::surface_with_cuts;
 use crate::trace::{Trace, trace, travel_findings};
 
 use super::check::{Job, check};
@@ -23,6 +23,7 @@ use super::setup_outcome::{SetupOutcome, block_of_cut};
 use super::shape::{Deviation, deviation};
 use super::simulate::{self, Simulation, simulate};
 use super::verdict::{banner, not_checked, proven, scope};
+use super::wants::StockWants;
 use super::{Heading, JobText, Judgement, Subject, Verdict, names, parts, sha256};
 
 /// Runs a job from its text.
@@ -31,17 +32,26 @@ use super::{Heading, JobText, Judgement, Subject, Verdict, names, parts, sha256}
 /// One finding about a fault of the job, at its place: see the codes `KC00`, `KC01`, `KC04`, `KC06`, `KC07`. A fault of
 /// the *program* is not an error but a finding in the verdict.
 pub fn run(name: &str, text: &str, loader: &dyn Loader, progress: &dyn Progress) -> Result<Outcome> {
-    run_compared(name, text, false, loader, progress)
+    run_with(name, text, &RunWants::default(), loader, progress)
 }
 
-/// As [`run`]; `compare` plans other ways than those asked for too, each with its price, for the report.
+/// Settings of a run.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct RunWants {
+    /// Other ways than those asked for are planned too, each with its price, for the report.
+    pub compare: bool,
+    /// How the stock is simulated.
+    pub stock: StockWants,
+}
+
+/// As [`run`], with settings that the job does not hold.
 ///
 /// # Errors
-/// As [`run`].
-pub fn run_compared(
+/// As [`run`]; `KC0103` for a setting out of range.
+pub fn run_with(
     name: &str,
     text: &str,
-    compare: bool,
+    wants: &RunWants,
     loader: &dyn Loader,
     progress: &dyn Progress,
 ) -> Result<Outcome> {
@@ -49,7 +59,9 @@ pub fn run_compared(
     let id = sources.add(name, text);
     let job_text = JobText::read(&mut sources, id, loader)?;
     let locate = |e: Error| job_text.locate(&sources, e);
-    let job = Job { compare, ..check(&job_text.file, &stem(name), loader).map_err(locate)? };
+    let mut job =
+        Job { compare: wants.compare, ..check(&job_text.file, &stem(name), loader).map_err(locate)? };
+    wants.stock.apply(&mut job)?;
     let mut inputs = vec![Subject {
         role: "job".to_owned(),
         file: Some(name.to_owned()),
@@ -93,8 +105,8 @@ pub(crate) fn run_checked(
     let measured = measure::judged(&job, &mut setups, wanted, &simulation);
     still_wanted(progress)?;
     progress.stage("surface", 1);
-    let surface = surface_with_cuts(&simulation.stock, &SurfaceOptions::default(), progress)?;
-    let left = Volume::of_surface(&surface, job.step, matches!(job.stock, Solid::Box(_)));
+    let surface = surface_with_cuts(&simulation.stock, &job.surface, progress)?;
+    let left = Volume::of_surface(&surface, &job.surface, job.step, matches!(job.stock, Solid::Box(_)));
     let (removed, part) = (simulation.raw.less(left), surface.mesh);
     still_wanted(progress)?;
     progress.stage("compare", 1);
@@ -114,7 +126,7 @@ pub(crate) fn run_checked(
     proven.extend(measured.iter().filter_map(|m| m.judged.proven.clone()));
     let (claims, left_open) = OperationPlan::sum_up(&tallies(&setups, &measured), job.step);
     proven.extend(claims);
-    let mut unchecked = not_checked(&job, &setups);
+    let mut unchecked = not_checked(&job, &setups, &simulation);
     for thin in found.iter().filter(|f| f.code == Code::OVERLAP_MISSED) {
         unchecked.add(Heading::Moves, thin.message.clone());
     }

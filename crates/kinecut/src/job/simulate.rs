@@ -10,8 +10,9 @@ use super::raw::{drill, off_axis, take_out};
 use crate::base::{Code, Finding, Progress, Result, Severity};
 use crate::geom::Solid;
 use crate::operations::measured::{Loose, Probe, WallProbe};
+use crate::stock::certify::{Certificate, CertifiedRun, certify};
 use crate::stock::cut::{CutAxis, CutMove, CutOptions, MoveEffect, Stance, ToolBody, cut};
-use crate::stock::surface::{SurfaceOptions, surface_with_cuts};
+use crate::stock::surface::surface_with_cuts;
 use crate::stock::{PointEngagement, TriDexel, Volume, WallEnd, point_engagement, wall_ends};
 use crate::sweep::ToolMotion;
 use crate::tool::{Cutter, DrillPoint, Tool, ToolNumber};
@@ -41,6 +42,8 @@ pub struct Simulation {
     pub walls: Vec<Vec<WallEnd>>,
     /// For each setup, what rules have asked of the stock.
     pub looks: Vec<Looks>,
+    /// The proof of the cut stock against the moves, if the job asks for it.
+    pub certificate: Option<Certificate>,
 }
 
 /// Cuts the stock of a job along the trace of each setup's program; `loose` are the cores that are taken out in each,
@@ -82,8 +85,8 @@ pub fn simulate(
     let raw = if job.drilled.is_empty() {
         Volume::of_solid(&job.stock)
     } else {
-        let surface = surface_with_cuts(&stock, &SurfaceOptions::default(), &crate::base::Silent)?;
-        Volume::of_surface(&surface, job.step, matches!(job.stock, Solid::Box(_)))
+        let surface = surface_with_cuts(&stock, &job.surface, &crate::base::Silent)?;
+        Volume::of_surface(&surface, &job.surface, job.step, matches!(job.stock, Solid::Box(_)))
     };
     let bodies = job.tools.iter().map(body).collect::<Result<Vec<_>>>()?;
     let mut simulation = Simulation {
@@ -97,6 +100,7 @@ pub fn simulate(
         engagements: Vec::new(),
         walls: vec![Vec::new(); faces.len()],
         looks: Vec::new(),
+        certificate: None,
     };
     let mut measured: Vec<Option<PointEngagement>> = probes.iter().map(|_| None).collect();
     // Cuts are numbered: drilled holes, cores taken out, then the segments.
@@ -146,6 +150,11 @@ pub fn simulate(
     }
     let story = Story { job, traces, loose, moves: &all, bodies: &bodies };
     look_closer(&story, &mut simulation.effects, progress)?;
+    if job.certified {
+        let runs = simulation.first_cut.iter().zip(&all);
+        let runs: Vec<_> = runs.map(|(first, moves)| CertifiedRun { first_cut: *first, moves }).collect();
+        simulation.certificate = Some(certify(&mut simulation.stock, &bodies, &runs, progress)?);
+    }
     simulation.engagements = measured.into_iter().enumerate().map(found).collect::<Result<_>>()?;
     Ok(simulation)
 }

@@ -9,7 +9,7 @@ use serde::Serialize;
 use super::Answer;
 use crate::base::{Code, DiskLoader, FilesRead, Finding, Loader as _, Location, Progress, Result};
 use crate::geom::{Mesh, write_3mf, write_glb, write_ply, write_stl};
-use crate::job::{self, Outcome, Outputs, Verdict, still_wanted};
+use crate::job::{self, Outcome, Outputs, RunWants, StockWants, Verdict, still_wanted};
 use crate::page::Section;
 
 /// A form in which the cut part is written.
@@ -84,19 +84,18 @@ impl Answer for Done {
     }
 }
 
-/// Runs the job file `job`; `compare` plans other ways than those asked for too, each with its price, for the report. The
-/// files that it reads are noted in `read`.
+/// Runs the job file `job`. The files that it reads are noted in `read`.
 ///
 /// # Errors
 /// One finding that says what is wrong with the job or a file it names.
 pub fn run(
     job: &Path,
-    compare: bool,
+    wants: &RunWants,
     files: &ResultFiles,
     read: &FilesRead,
     progress: &dyn Progress,
 ) -> Result<Done> {
-    done(outcome_of(job, compare, read, progress)?, files, progress)
+    done(outcome_of(job, wants, read, progress)?, files, progress)
 }
 
 /// As [`run`], for a job with programs of others in all its setups: nothing is planned or posted.
@@ -105,11 +104,12 @@ pub fn run(
 /// As [`run`]; `KC0102` when a setup has operations instead.
 pub fn simulate_job(
     job: &Path,
+    wants: &StockWants,
     files: &ResultFiles,
     read: &FilesRead,
     progress: &dyn Progress,
 ) -> Result<Done> {
-    let outcome = outcome_of(job, false, read, progress)?;
+    let outcome = outcome_of(job, &RunWants { compare: false, stock: *wants }, read, progress)?;
     if let Some(planned) = outcome.setups.iter().position(|s| s.external.is_none()) {
         return Err(Finding::error(Code::JOB_SHAPE, "this job plans its program itself")
             .at(Location::whole_file(job.display().to_string()))
@@ -128,7 +128,7 @@ pub fn simulate_given(given: job::GivenJob, files: &ResultFiles, progress: &dyn 
     done(job::simulate_given(given, progress)?, files, progress)
 }
 
-fn outcome_of(job: &Path, compare: bool, read: &FilesRead, progress: &dyn Progress) -> Result<Outcome> {
+fn outcome_of(job: &Path, wants: &RunWants, read: &FilesRead, progress: &dyn Progress) -> Result<Outcome> {
     let folder = job.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
     let loader = DiskLoader::new(folder).noting(read);
     let file = job.file_name().map(|n| n.to_string_lossy().into_owned()).unwrap_or_default();
@@ -136,7 +136,7 @@ fn outcome_of(job: &Path, compare: bool, read: &FilesRead, progress: &dyn Progre
         e.0.place = Some(Location::whole_file(job.display().to_string()));
         e
     })?;
-    job::run_compared(&job.display().to_string(), &text, compare, &loader, progress)
+    job::run_with(&job.display().to_string(), &text, wants, &loader, progress)
 }
 
 fn done(outcome: Outcome, files: &ResultFiles, progress: &dyn Progress) -> Result<Done> {

@@ -55,17 +55,20 @@ use self::polygon::Facets;
 use self::signs::Signs;
 
 /// Fineness of the surface.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct SurfaceOptions {
-    /// Largest distance of an end point from the facets near it, in grid steps. Greater than 0; below about 0.001
-    /// flat faces at an angle to the axes no longer merge, above 0.1 facets become visible.
-    pub tolerance: f64,
+    /// Largest distance of an end point from the facets near it [mm]; default: a fiftieth of a step. Greater than 0; below about
+    /// a thousandth of a step flat faces at an angle to the axes no longer merge, above a tenth facets become visible.
+    pub tolerance: Option<f64>,
 }
 
-impl Default for SurfaceOptions {
-    /// A fiftieth of a step.
-    fn default() -> SurfaceOptions {
-        SurfaceOptions { tolerance: 0.02 }
+/// The default tolerance in grid steps.
+const USUAL: f64 = 0.02;
+
+impl SurfaceOptions {
+    /// The tolerance over a lattice with a step [mm].
+    pub fn tolerance(&self, step: f64) -> f64 {
+        self.tolerance.unwrap_or(USUAL * step)
     }
 }
 
@@ -101,12 +104,16 @@ pub fn surface_with_cuts<G: DexelGrid + ?Sized>(
     options: &SurfaceOptions,
     progress: &dyn Progress,
 ) -> Result<CutSurface> {
-    if !(options.tolerance.is_finite() && options.tolerance > 0.0) {
+    let step = grid.lattice().step;
+    let tolerance = options.tolerance(step);
+    if !(tolerance.is_finite() && tolerance > 0.0) {
         return Err(Finding::error(Code::GEOMETRY, "the tolerance of a surface must be positive")
-            .value(options.tolerance, "grid steps")
-            .bound(0.0, "grid steps")
+            .value_mm(tolerance)
+            .bound_mm(0.0)
             .into());
     }
+    // Inside of here lengths count in steps.
+    let tolerance = tolerance / step;
     let lines = Lines::new(grid);
     progress.stage("surface", 4);
     let go_on = || {
@@ -116,9 +123,9 @@ pub fn surface_with_cuts<G: DexelGrid + ?Sized>(
     };
     let signs = Signs::vote(&lines);
     go_on()?;
-    let mut forest = Forest::grow(&lines, &signs, options.tolerance);
+    let mut forest = Forest::grow(&lines, &signs, tolerance);
     go_on()?;
-    flat::merge(&mut forest, &lines, options.tolerance);
+    flat::merge(&mut forest, &lines, tolerance);
     let vertices = forest.number();
     go_on()?;
     let Facets { mut triangles, normals, cuts } = polygon::polygons(&forest, &lines, &signs, &vertices);

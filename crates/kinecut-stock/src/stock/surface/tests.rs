@@ -297,7 +297,7 @@ fn a_tolerance_must_be_positive_and_work_can_be_cancelled() {
     }
     let grid = noise([3, 3, 3], 1, 2.0, false);
     for tolerance in [0.0, -1.0, f64::NAN] {
-        let error = surface(&grid, &SurfaceOptions { tolerance }, &Silent).unwrap_err();
+        let error = surface(&grid, &SurfaceOptions { tolerance: Some(tolerance) }, &Silent).unwrap_err();
         assert_eq!(error.code(), Code::GEOMETRY);
     }
     let error = surface(&grid, &SurfaceOptions::default(), &Stop).unwrap_err();

@@ -36,7 +36,7 @@ impl ToolMotion {
     }
 
     /// A bound on the acceleration of the points within `reach` of the tip between two moments [mm by `t` squared].
-    fn most_acceleration(&self, from: f64, to: f64, reach: f64) -> f64 {
+    pub(crate) fn most_acceleration(&self, from: f64, to: f64, reach: f64) -> f64 {
         match &self.kind {
             Kind::Turning { curve, rate, .. } => {
                 curve_acceleration(curve, from, to) + rate.length_squared() * reach
@@ -58,6 +58,21 @@ impl ToolMotion {
                 let w = twist.turn;
                 w.cross(twist.shift).length() + w.length_squared() * reach
             }
+        }
+    }
+
+    /// A bound on the rate of turning at all moments [rad by `t`].
+    pub(crate) fn most_turn(&self) -> f64 {
+        let rotary = |chain: &Kinematics, rate: &dyn Fn(usize) -> f64| -> f64 {
+            let twists = chain.jacobian(&[]);
+            twists.twists().iter().enumerate().map(|(i, t)| t.turn.length() * rate(i).abs()).sum()
+        };
+        match &self.kind {
+            Kind::Turning { rate, .. } => rate.length(),
+            Kind::Joints { chain, from, to, .. } | Kind::TipAndJoints { chain, from, to, .. } => {
+                rotary(chain, &|i| to[i] - from[i])
+            }
+            Kind::Screw { twist, .. } => twist.turn.length(),
         }
     }
 

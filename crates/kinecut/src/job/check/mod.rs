@@ -8,7 +8,7 @@ pub(crate) mod machine;
 pub(crate) mod numbers;
 mod program;
 mod setup;
-mod step;
+pub(in crate::job) mod step;
 
 pub use program::JobProgram;
 
@@ -23,6 +23,7 @@ use crate::geom::{Aabb, Mesh, Solid, load_mesh};
 use crate::machine::Machine;
 use crate::nc::{Control, PostSettings};
 use crate::operations::{Clamping, Drilled, Operation, OrientationName};
+use crate::stock::surface::SurfaceOptions;
 use crate::tool::Tool;
 
 /// A checked job; mm, s, rad.
@@ -48,6 +49,10 @@ pub struct Job {
     pub step: f64,
     /// Largest memory of the stock model [bytes].
     pub memory: u64,
+    /// Fineness of the surface of the cut part.
+    pub surface: SurfaceOptions,
+    /// Whether the cut stock is proven against the moves.
+    pub certified: bool,
     /// Clampings, in order.
     pub setups: Vec<JobSetup>,
     /// Whether other ways than the one asked for are planned too, each with its price.
@@ -157,6 +162,8 @@ pub fn check(file: &JobFile, name: &str, loader: &dyn Loader) -> Result<Job> {
         design: design.transpose()?,
         step,
         memory: (memory * 1e6) as u64,
+        surface: step::surface("simulate.mesh_tolerance", file.simulate.mesh_tolerance, step)?,
+        certified: file.simulate.certified,
         setups,
         compare: false,
     })

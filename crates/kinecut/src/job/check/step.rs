@@ -1,8 +1,11 @@
 //! The distance of the lines of the stock model, where the job does not say it.
 
+use crate::base::Result;
+use crate::base::bounded::length;
 use crate::geom::Aabb;
 use crate::operations::Drilled;
 use crate::stock::TriDexel;
+use crate::stock::surface::SurfaceOptions;
 use crate::tool::Tool;
 
 /// Lines of a stock model by default.
@@ -34,6 +37,17 @@ pub(super) fn default_step(bounds: Aabb, thinnest: f64, memory: f64) -> f64 {
     // Down to a tenth of that; a number that is one already stays.
     let rounded = |step: f64| (step / (0.1 * magnitude) + 1e-6).floor() * 0.1 * magnitude;
     tries.map(rounded).find(|step| (TriDexel::memory(bounds, *step) as f64) < 0.5 * memory).unwrap_or(usual)
+}
+
+/// The fineness of the surface of a stock model with a step [mm]; `key` is where the tolerance is said.
+///
+/// # Errors
+/// `KC0103` for a tolerance that is not positive, or larger than the step.
+pub(in crate::job) fn surface(key: &str, tolerance: Option<f64>, step: f64) -> Result<SurfaceOptions> {
+    if let Some(tolerance) = tolerance {
+        length(key, tolerance, 1e-5, step)?;
+    }
+    Ok(SurfaceOptions { tolerance })
 }
 
 #[cfg(test)]

@@ -8,6 +8,7 @@ use super::super::file::{
     BoxTable, JobFile, PostTable, ProgramTable, SetupTable, SimulateTable, StockTable, ToolTable,
 };
 use super::super::read::read_table;
+use super::super::wants::StockWants;
 use super::super::{JobText, Subject, json_text, parts, sha256};
 use crate::base::{Code, Error, FileId, FileKind, Finding, Loader, Result, Sources};
 use crate::machine::Machine;
@@ -76,13 +77,12 @@ impl GivenJob {
         &self.job
     }
 
-    /// Gives the stock model another step [mm].
+    /// Simulates it in another way than its job says.
     ///
     /// # Errors
-    /// `KC0103` for a step out of range.
-    pub fn set_step(&mut self, step: f64) -> Result<()> {
-        self.job.step = crate::base::bounded::length("--step", step, 1e-4, crate::base::bounded::MAX_LENGTH)?;
-        Ok(())
+    /// As [`StockWants::apply`].
+    pub fn simulated(&mut self, wants: &StockWants) -> Result<()> {
+        wants.apply(&mut self.job)
     }
 
     /// The program.
@@ -231,7 +231,7 @@ pub fn given_alone(program: GivenFile<'_>, wants: &ProgramWants, needs_stock: bo
         stock,
         drilled: Vec::new(),
         post: PostTable { control: control.name().to_owned(), ..PostTable::default() },
-        simulate: SimulateTable { step: wants.step, memory: None },
+        simulate: SimulateTable { step: wants.step, ..SimulateTable::default() },
         machine: None,
         holders: tools.holders,
         tools: tools.tools,

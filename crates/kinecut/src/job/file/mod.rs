@@ -182,6 +182,13 @@ pub struct SimulateTable {
     /// Largest memory of the stock model in MB; default 2000.
     #[serde(default)]
     pub memory: Option<f64>,
+    /// Largest distance of the surface of the cut part, as files and report show it, from the ends of the lines; default: a
+    /// fiftieth of their distance.
+    #[serde(default)]
+    pub mesh_tolerance: Option<f64>,
+    /// Prove the cut stock against the moves by branch and bound.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub certified: bool,
 }
 
 /// A clamping of the part.

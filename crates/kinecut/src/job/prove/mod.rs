@@ -5,6 +5,7 @@ mod air;
 mod axis_speed;
 mod below;
 mod carried;
+mod certified;
 mod change;
 mod coolant;
 mod cutting_data;
@@ -141,6 +142,7 @@ const RULES: &[Rule] = &[
     axis_speed::axis_speed,
     inclined_entry::inclined_entry,
     tip_control::tip_control,
+    certified::certified,
 ];
 
 /// Findings of all rules.

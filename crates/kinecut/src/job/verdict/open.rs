@@ -4,10 +4,15 @@ use std::collections::BTreeMap;
 
 use super::super::check::Job;
 use super::super::setup_outcome::SetupOutcome;
+use super::super::simulate::Simulation;
 use super::{Heading, UncheckedList};
 
 /// Items of the programs that were not checked.
-pub(in crate::job) fn not_checked(job: &Job, setups: &[SetupOutcome]) -> UncheckedList {
+pub(in crate::job) fn not_checked(
+    job: &Job,
+    setups: &[SetupOutcome],
+    simulation: &Simulation,
+) -> UncheckedList {
     let mut list = UncheckedList::default();
     if job.design.is_none() {
         let what = if setups.iter().any(|s| s.external.is_none()) {
@@ -26,6 +31,10 @@ pub(in crate::job) fn not_checked(job: &Job, setups: &[SetupOutcome]) -> Uncheck
                 format!("the machine's {count} bodies: moved in drawings only, not compared with the part, the tool and one another"),
             );
         }
+    }
+    if let Some(certificate) = simulation.certificate.filter(|c| c.left_out > 0) {
+        let count = certificate.left_out;
+        list.add(Heading::Moves, format!("{count} moves of drills that leave a core: not certified"));
     }
     tools(job, setups, &mut list);
     travel(job, &mut list);

@@ -7,6 +7,7 @@ use super::super::shape::Deviation;
 use super::super::simulate::Simulation;
 use super::Proof;
 use crate::base::at_most;
+use crate::stock::certify::GAP;
 use crate::trace::{SegmentPace, travel_findings};
 
 /// Claims proven of the programs.
@@ -78,6 +79,26 @@ pub(in crate::job) fn proven(
             };
             add(format!("`{file}` stays within the travel of the axes"), format!("{how}, within 2 \u{b5}m"));
         }
+    }
+    if let Some(certificate) = simulation.certificate.filter(|c| c.strayed == 0 && c.moves > 0) {
+        let taken = match certificate.taken {
+            0 => String::new(),
+            count => {
+                let um = at_most(certificate.deepest * 1e3, 1);
+                format!(", after {count} stretches of lines, {um} \u{b5}m deep, were taken out")
+            }
+        };
+        add(
+            format!(
+                "certified on all lines of the stock model, {step} mm between them: tools reach {} \u{b5}m into the material left{taken}, and ends of lines lie {} \u{b5}m off the tool that cut them",
+                at_most(certificate.gap * 1e3, 2),
+                at_most(GAP * 1e3, 2)
+            ),
+            format!(
+                "branch and bound: {} moves, {} ends, {} boxes",
+                certificate.moves, certificate.ends, certificate.boxes
+            ),
+        );
     }
     for claim in &deviation.proven {
         add(claim.clone(), format!("exact along the lines of the stock model, {step} mm between them"));

@@ -21,10 +21,22 @@ fn removed(solid: &Solid, step: f64, tool: &Profile, moves: &[(Curve, CutAxis)])
     let moves: Vec<CutMove> = moves.iter().map(|(c, axis)| CutMove::new(*c, *axis, 0)).collect();
     let body = [ToolBody::new(tool.clone())];
     cut(&mut stock, &body, &moves, &CutOptions::default(), &Silent).unwrap();
-    let surface = surface_with_cuts(&stock, &SurfaceOptions::default(), &Silent).unwrap();
-    surface.mesh.check_closed().unwrap();
     let is_box = matches!(solid, Solid::Box(_));
-    Volume::of_solid(solid).less(Volume::of_surface(&surface, step, is_box))
+    let mut triangles = usize::MAX;
+    // Finer than by default, and coarser: the bound tells it, and holds.
+    let mut left = [Some(0.005 * step), None, Some(0.2 * step)].map(|tolerance| {
+        let options = SurfaceOptions { tolerance };
+        let surface = surface_with_cuts(&stock, &options, &Silent).unwrap();
+        surface.mesh.check_closed().unwrap();
+        assert!(surface.mesh.triangles.len() <= triangles);
+        triangles = surface.mesh.triangles.len();
+        Volume::of_surface(&surface, &options, step, is_box)
+    });
+    left.sort_by(|a, b| a.bound.total_cmp(&b.bound));
+    for other in [left[0], left[2]] {
+        assert!((left[1].value - other.value).abs() <= left[1].bound + other.bound, "{left:?}");
+    }
+    Volume::of_solid(solid).less(left[1])
 }
 
 /// The true volume lies within the bound, and the bound is not wider than `share` of it.

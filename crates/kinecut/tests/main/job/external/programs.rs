@@ -3,7 +3,9 @@
 use std::f64::consts::PI;
 
 use kinecut::base::{Code, MemoryLoader, Severity, Silent};
-use kinecut::job::{GivenFile, ProgramWants, given_alone, given_with_job, plan_json, run, simulate_given};
+use kinecut::job::{
+    GivenFile, ProgramWants, StockWants, given_alone, given_with_job, plan_json, run, simulate_given,
+};
 use kinecut::verbs::Answer as _;
 use kinecut::verbs::check::program_sheet;
 
@@ -11,6 +13,29 @@ use super::{FANUC, GRBL, HEIDENHAIN, LINUXCNC, PLAIN, SINUMERIK, job, outcome, r
 
 const SLOT: f64 = 3.0 * (30.0 * 8.0 + PI * 16.0);
 const HOLES: f64 = 2.0 * 10.0 * PI * 9.0;
+
+#[test]
+fn a_certified_simulation_says_so_with_its_bounds() {
+    let job = job("fanuc", PLAIN);
+    let loader = MemoryLoader::default().with("P.nc", FANUC.as_bytes());
+    let program = GivenFile { name: "P.nc", bytes: FANUC.as_bytes() };
+    let mut given = given_with_job(program, &ProgramWants::default(), ("job.toml", &job), &loader).unwrap();
+    let wants = StockWants { certified: true, step: Some(1.0), ..StockWants::default() };
+    given.simulated(&wants).unwrap();
+    let too_coarse = StockWants { mesh_tolerance: Some(1.1), ..wants };
+    assert_eq!(given.simulated(&too_coarse).unwrap_err().code(), Code::JOB_VALUE);
+    given.simulated(&wants).unwrap();
+    let done = simulate_given(given, &Silent).unwrap();
+    let certificate = done.simulation.certificate.unwrap();
+    let faults = certificate.taken + certificate.strayed;
+    assert!(
+        certificate.moves == 5 && certificate.left_out == 9 && certificate.ends > 500 && faults == 0,
+        "{certificate:?}"
+    );
+    let proof = done.verdict.proven.iter().find(|p| p.claim.starts_with("certified")).unwrap();
+    assert!(proof.claim.contains("1 mm between"), "{proof:?}");
+    assert!(proof.bound.contains(&format!("{} moves", certificate.moves)), "{proof:?}");
+}
 
 #[test]
 fn programs_for_all_controls_cut_the_same_part_and_are_safe() {
@@ -102,8 +127,11 @@ fn a_program_given_by_itself_is_cut_with_what_is_said_beside_it() {
         ..ProgramWants::default()
     };
     let mut given = given_alone(program, &wants, true).unwrap();
-    given.set_step(0.5).unwrap();
-    assert_eq!(given.set_step(f64::NAN).unwrap_err().code(), Code::JOB_VALUE);
+    given.simulated(&StockWants { step: Some(0.5), ..StockWants::default() }).unwrap();
+    assert_eq!(
+        given.simulated(&StockWants { step: Some(f64::NAN), ..StockWants::default() }).unwrap_err().code(),
+        Code::JOB_VALUE
+    );
     let outcome = simulate_given(given, &Silent).unwrap();
     assert!(outcome.verdict.is_safe() && (removed(&outcome) / (SLOT + HOLES) - 1.0).abs() < 1e-2);
     let roles: Vec<&str> = outcome.verdict.subjects.iter().map(|s| s.role.as_str()).collect();
