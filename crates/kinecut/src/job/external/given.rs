@@ -80,7 +80,7 @@ impl GivenJob {
     /// Simulates it in another way than its job says.
     ///
     /// # Errors
-    /// As [`StockWants::apply`].
+    /// `KC0103` for a step or tolerance out of range.
     pub fn simulated(&mut self, wants: &StockWants) -> Result<()> {
         wants.apply(&mut self.job)
     }
