@@ -12,6 +12,17 @@ use crate::base::Result;
 /// Triangles in a leaf of the tree.
 const LEAF: usize = 4;
 
+/// The point of a surface that is nearest to another.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct NearestPoint {
+    /// Distance [mm]: positive outside of the body, negative inside.
+    pub distance: f64,
+    /// The point of the surface [mm].
+    pub point: DVec3,
+    /// The triangle of the mesh that holds it.
+    pub triangle: u32,
+}
+
 /// A closed mesh prepared for signed distances.
 ///
 /// ```
@@ -36,6 +47,8 @@ struct TreeFace {
     normal: DVec3,
     at_corners: [DVec3; 3],
     at_edges: [DVec3; 3],
+    /// Its number in the mesh.
+    number: u32,
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -66,7 +79,12 @@ impl MeshDistance {
     /// Distance [mm] of a point from the surface: positive outside the body, negative inside. Infinite for a mesh
     /// without triangles.
     pub fn signed(&self, p: DVec3) -> f64 {
-        let mut best = (f64::INFINITY, DVec3::ZERO, DVec3::ZERO);
+        self.nearest(p).map_or(f64::INFINITY, |nearest| nearest.distance)
+    }
+
+    /// The nearest point of the surface; `None` for a mesh without triangles.
+    pub fn nearest(&self, p: DVec3) -> Option<NearestPoint> {
+        let mut best = (f64::INFINITY, DVec3::ZERO, DVec3::ZERO, None);
         // Depth is the logarithm of the count, as each split is at the median.
         let mut stack = [(0u32, 0.0); 64];
         let mut depth = 0;
@@ -86,7 +104,7 @@ impl MeshDistance {
                     let (q, normal) = face.nearest(p);
                     let squared = p.distance_squared(q);
                     if squared < best.0 {
-                        best = (squared, q, normal);
+                        best = (squared, q, normal, Some(face.number));
                     }
                 }
                 continue;
@@ -100,8 +118,9 @@ impl MeshDistance {
             stack[depth + 1] = near;
             depth += 2;
         }
-        let (squared, q, normal) = best;
-        if normal.dot(p - q) < 0.0 { -squared.sqrt() } else { squared.sqrt() }
+        let (squared, point, normal, triangle) = best;
+        let distance = if normal.dot(p - point) < 0.0 { -squared.sqrt() } else { squared.sqrt() };
+        Some(NearestPoint { distance, point, triangle: triangle? })
     }
 }
 
@@ -169,13 +188,14 @@ fn faces(mesh: &Mesh) -> Vec<TreeFace> {
         let at = edges.partition_point(|e| (e.0, e.1) < (b, a));
         edges.get(at).filter(|e| (e.0, e.1) == (b, a)).and_then(|e| normal(&mesh.triangles[e.2 as usize]))
     };
-    let faces = mesh.triangles.iter().filter_map(|t| {
+    let faces = mesh.triangles.iter().zip(0..).filter_map(|(t, number)| {
         let unit = normal(t)?;
         Some(TreeFace {
             corners: corners(t),
             normal: unit,
             at_corners: t.map(|i| at_vertex[i as usize]),
             at_edges: [0, 1, 2].map(|i| unit + across(t[i], t[(i + 1) % 3]).unwrap_or(DVec3::ZERO)),
+            number,
         })
     });
     faces.collect()

@@ -22,8 +22,10 @@ mod mesh_3mf;
 mod mesh_closed;
 mod mesh_distance;
 mod mesh_glb;
+mod mesh_line;
 mod mesh_load;
 mod mesh_ply;
+mod mesh_section;
 mod mesh_stl;
 mod outline;
 mod plane_curve;
@@ -51,10 +53,12 @@ pub use joint::{ContactOrder, CurveJoint, joint};
 pub use line::Line;
 pub use mesh::Mesh;
 pub use mesh_3mf::write_3mf;
-pub use mesh_distance::MeshDistance;
+pub use mesh_distance::{MeshDistance, NearestPoint};
 pub use mesh_glb::write_glb;
+pub use mesh_line::MeshCrossing;
 pub use mesh_load::load_mesh;
 pub use mesh_ply::write_ply;
+pub use mesh_section::SectionOutline;
 pub use mesh_stl::{read_stl, write_stl};
 pub use outline::{
     LengthUnit, LoopEntry, LoopTable, Outline, OutlineEdge, OutlineFile, OutlineLoop, OutlineOptions,

@@ -4,13 +4,13 @@
 //! on a circle are made arcs again ([`recover`]).
 
 mod recover;
-mod section;
 mod top;
 
 use glam::{DVec2, DVec3};
 
 use super::{Outline, OutlineEdge, OutlineOptions, OutlineRead};
 use crate::base::{Code, Finding, Location, Result};
+use crate::geom::mesh_section::section_loops;
 use crate::geom::{Aabb, Mesh, Solid, read_stl};
 use recover::recover;
 
@@ -77,7 +77,10 @@ fn mesh_top(mesh: &Mesh, arc_tolerance: f64) -> Result<OutlineRead> {
 
 fn mesh_section(mesh: &Mesh, z: f64, arc_tolerance: f64) -> Result<OutlineRead> {
     mesh.check_closed()?;
-    let loops = section::section_loops(mesh, z);
+    let loops: Vec<Vec<DVec2>> = section_loops(mesh, DVec3::Z, z)
+        .into_iter()
+        .map(|points| points.into_iter().map(DVec3::truncate).collect())
+        .collect();
     if loops.is_empty() {
         return Err(nothing_at(z, &mesh.bounds()));
     }
