@@ -4,7 +4,10 @@ use std::path::{Path, PathBuf};
 
 use clap::ValueEnum;
 use kinecut::base::{Error, FileKind};
-use kinecut::job::{GivenFile, GivenJob, ProgramWants, RunWants, StockWants, given_alone, given_with_job};
+use kinecut::job::{
+    GivenFile, GivenJob, InspectWants, ProgramWants, RunWants, SectionPlane, StockWants, given_alone,
+    given_with_job,
+};
 use kinecut::nc::{Control, PostSettings};
 use kinecut::operations::OrientationName;
 use kinecut::verbs::check::program_sheet;
@@ -29,6 +32,17 @@ struct Results {
     /// Leave report.html out
     #[arg(long)]
     no_report: bool,
+    /// Section of the cut part by a plane, such as z=-5, of the material just below it; can be given several times
+    #[arg(long, value_name = "AXIS=MM", value_parser = plane)]
+    section: Vec<SectionPlane>,
+    /// Point of the cut part, mm: in material or not, the surfaces about it and the lines that cut them; can be given several times
+    #[arg(long, value_name = "X,Y,Z", value_parser = triple, allow_hyphen_values = true)]
+    probe: Vec<[f64; 3]>,
+}
+
+/// A plane square to an axis.
+fn plane(text: &str) -> Result<SectionPlane, String> {
+    text.parse().map_err(|e: Error| e.0.help)
 }
 
 /// How the stock is simulated.
@@ -79,7 +93,11 @@ impl Results {
                 meshes.push(form);
             }
         }
-        ResultFiles { meshes, report: !self.no_report }
+        let inspect = InspectWants {
+            sections: self.section.clone(),
+            points: self.probe.iter().map(|p| (*p).into()).collect(),
+        };
+        ResultFiles { meshes, report: !self.no_report, inspect }
     }
 
     fn to(&self) -> To<'_> {

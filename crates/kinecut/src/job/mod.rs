@@ -7,6 +7,7 @@ pub mod contour;
 pub(crate) mod external;
 pub mod file;
 pub(crate) mod following;
+pub mod inspect;
 pub(crate) mod items;
 mod look;
 pub mod machine;
@@ -40,6 +41,7 @@ pub use external::{
     ExternalProgram, GivenFile, GivenJob, ProgramWants, Unfollowed, control_of, control_of_name, given_alone,
     given_with_job,
 };
+pub use inspect::{InspectWants, Inspection, SectionPlane};
 pub use items::TextItems;
 pub use look::{Looks, StandContact, SteepDescent};
 pub use measure::Measured;

@@ -8,7 +8,7 @@ use super::simulate::Simulation;
 use super::verdict::Verdict;
 use crate::geom::Mesh;
 use crate::operations::{Operation, OperationPlan, Shown};
-use crate::stock::Volume;
+use crate::stock::{CutId, Volume};
 
 /// All that a run has found out.
 #[derive(Debug)]
@@ -25,6 +25,8 @@ pub struct Outcome {
     pub measured: Vec<Measured>,
     /// Surface of the cut part.
     pub part: Mesh,
+    /// For each triangle of it the cut that made it, 0 for the raw stock; see [`Simulation::first_cut`].
+    pub part_cuts: Vec<CutId>,
     /// Material removed from the stock, loose cores included.
     pub removed: Volume,
     /// The cut part against the wanted one.

@@ -107,7 +107,7 @@ pub(crate) fn run_checked(
     progress.stage("surface", 1);
     let surface = surface_with_cuts(&simulation.stock, &job.surface, progress)?;
     let left = Volume::of_surface(&surface, &job.surface, job.step, matches!(job.stock, Solid::Box(_)));
-    let (removed, part) = (simulation.raw.less(left), surface.mesh);
+    let (removed, part, part_cuts) = (simulation.raw.less(left), surface.mesh, surface.cuts);
     still_wanted(progress)?;
     progress.stage("compare", 1);
     let deviation = deviation(&job, &setups, &simulation, &part)?;
@@ -143,6 +143,7 @@ pub(crate) fn run_checked(
         simulation,
         measured,
         part,
+        part_cuts,
         removed,
         deviation,
         verdict,

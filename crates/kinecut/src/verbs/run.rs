@@ -9,7 +9,9 @@ use serde::Serialize;
 use super::Answer;
 use crate::base::{Code, DiskLoader, FilesRead, Finding, Loader as _, Location, Progress, Result};
 use crate::geom::{Mesh, write_3mf, write_glb, write_ply, write_stl};
-use crate::job::{self, Outcome, Outputs, RunWants, StockWants, Verdict, still_wanted};
+use crate::job::{
+    self, InspectWants, Inspection, Outcome, Outputs, RunWants, StockWants, Verdict, still_wanted,
+};
 use crate::page::Section;
 
 /// A form in which the cut part is written.
@@ -38,17 +40,23 @@ impl MeshForm {
 }
 
 /// Files that are written beside the programs, the plan and the verdict.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct ResultFiles {
     /// Forms of the cut part; default STL and GLB.
     pub meshes: Vec<MeshForm>,
     /// `report.html`; default yes.
     pub report: bool,
+    /// Sections and points of the part: `inspection.json`, a picture for each section, a section of the report.
+    pub inspect: InspectWants,
 }
 
 impl Default for ResultFiles {
     fn default() -> ResultFiles {
-        ResultFiles { meshes: vec![MeshForm::Stl, MeshForm::Glb], report: true }
+        ResultFiles {
+            meshes: vec![MeshForm::Stl, MeshForm::Glb],
+            report: true,
+            inspect: InspectWants::default(),
+        }
     }
 }
 
@@ -141,7 +149,10 @@ fn outcome_of(job: &Path, wants: &RunWants, read: &FilesRead, progress: &dyn Pro
 
 fn done(outcome: Outcome, files: &ResultFiles, progress: &dyn Progress) -> Result<Done> {
     progress.stage("report", 1);
-    let report = job::report::of_job(&outcome);
+    let mut report = job::report::of_job(&outcome);
+    let inspection = Inspection::of(&outcome, &files.inspect)?;
+    let inspected: Vec<Section> = inspection.iter().map(Inspection::shown).collect();
+    report.sections.extend_from_slice(&inspected);
     still_wanted(progress)?;
     let mut outputs = Outputs::default();
     for setup in outcome.setups.iter().filter(|s| s.external.is_none()) {
@@ -156,11 +167,21 @@ fn done(outcome: Outcome, files: &ResultFiles, progress: &dyn Progress) -> Resul
     for (name, bytes) in meshes? {
         outputs.add(name, bytes);
     }
+    if let Some(inspection) = &inspection {
+        outputs.add("inspection.json", inspection.to_json());
+        for (name, picture) in inspection.pictures() {
+            outputs.add(name, picture);
+        }
+    }
     if let Some(page) = page {
         outputs.add("report.html", page);
     }
     // The report tells the verdict, and the verdict is about the report: it has the last word.
     let verdict = outcome.verdict.with_outputs(outputs.files());
     outputs.seal("verdict.json", verdict.to_json());
-    Ok(Done { verdict, sections: job::report::sections(&report), outputs })
+    let mut sections = job::report::sections(&report);
+    // Before the reminder that ends every run.
+    let last = sections.len().saturating_sub(1);
+    sections.splice(last..last, inspected);
+    Ok(Done { verdict, sections, outputs })
 }

@@ -4,6 +4,7 @@ mod errors;
 mod examples;
 mod external;
 mod five_axis;
+mod inspect;
 mod kept;
 mod prove_motion;
 mod prove_rules;

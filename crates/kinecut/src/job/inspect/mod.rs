@@ -1,0 +1,85 @@
+//! Sections and points of the cut part, as a user asks for them.
+//!
+//! Both are taken from the mesh of the part, in the coordinates of the raw stock.
+
+mod page;
+mod plane;
+mod point;
+mod section;
+mod svg;
+
+use glam::DVec3;
+use serde::Serialize;
+
+use super::{Outcome, json_text};
+use crate::base::Result;
+use crate::page::Section;
+
+pub use plane::SectionPlane;
+pub use point::{CutBy, Facing, InspectedPoint, Place};
+pub use section::{OutlineFigures, PartSection};
+
+/// Sections and points that are asked for.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct InspectWants {
+    /// Planes of sections; one that comes twice is shown once.
+    pub sections: Vec<SectionPlane>,
+    /// Points of the part [mm].
+    pub points: Vec<DVec3>,
+}
+
+/// Sections and points of a cut part.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Inspection {
+    /// Version of this form.
+    format: u32,
+    /// Distance of the lines of the stock [mm]: a web or slot thinner than it may be missing in the part.
+    pub step: f64,
+    /// The ends of the lines lie within this of the surface of the part [mm].
+    pub mesh_tolerance: f64,
+    /// The sections, in the order asked for.
+    pub sections: Vec<PartSection>,
+    /// The points, in the order asked for.
+    pub points: Vec<InspectedPoint>,
+}
+
+impl Inspection {
+    /// What is asked for, `None` if that is nothing.
+    ///
+    /// # Errors
+    /// `KC0602` when the surface of the part is not closed.
+    pub fn of(outcome: &Outcome, wants: &InspectWants) -> Result<Option<Inspection>> {
+        if wants.sections.is_empty() && wants.points.is_empty() {
+            return Ok(None);
+        }
+        let mut planes: Vec<SectionPlane> = Vec::new();
+        for plane in &wants.sections {
+            if !planes.contains(plane) {
+                planes.push(*plane);
+            }
+        }
+        let sections = planes.iter().map(|plane| PartSection::of(&outcome.part, *plane));
+        Ok(Some(Inspection {
+            format: 1,
+            step: outcome.job.step,
+            mesh_tolerance: outcome.job.surface.tolerance(outcome.job.step),
+            sections: sections.collect::<Result<_>>()?,
+            points: point::inspected(outcome, &wants.points)?,
+        }))
+    }
+
+    /// The text of `inspection.json`; lengths in mm, areas in mm2.
+    pub fn to_json(&self) -> String {
+        json_text(self)
+    }
+
+    /// The pictures of the sections to the scale of the part: name and text of each.
+    pub fn pictures(&self) -> impl Iterator<Item = (&str, String)> {
+        self.sections.iter().filter_map(|section| Some((section.file.as_deref()?, svg::svg(section))))
+    }
+
+    /// Sections of the report about them.
+    pub(crate) fn shown(&self) -> Section {
+        page::shown(self)
+    }
+}

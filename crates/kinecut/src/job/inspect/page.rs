@@ -1,0 +1,114 @@
+//! Sections and points in the report.
+
+use super::{CutBy, Facing, InspectedPoint, Inspection, PartSection, Place};
+use crate::page::{Block, Cell, Drawing, Look, Row, Section, Table, fixed};
+
+/// Decimals of lengths: micrometres, finer than the tolerance of any usual mesh.
+const DECIMALS: usize = 3;
+
+/// The section of the report.
+pub(super) fn shown(inspection: &Inspection) -> Section {
+    let about = format!(
+        "From the mesh of the part: the ends of its lines lie within {} mm of it, and a web or slot thinner than {} mm, \
+         the distance of the lines, may be missing.",
+        short(inspection.mesh_tolerance),
+        short(inspection.step),
+    );
+    let mut section = Section::new("Sections and points").with(Block::Text(about));
+    for plane in &inspection.sections {
+        add_section(&mut section, plane);
+    }
+    for point in &inspection.points {
+        section = section.with(table(point));
+    }
+    section
+}
+
+fn add_section(section: &mut Section, plane: &PartSection) {
+    let name = format!("Section at {}", plane.plane);
+    let Some(file) = &plane.file else {
+        section.blocks.push(Block::Text(format!("{name}: the plane does not meet the part.")));
+        return;
+    };
+    let [right, up] = plane.plane.seen().map(|i| ["X", "Y", "Z"][i]);
+    let mut table = Table::new(
+        format!("{name}: {} mm\u{b2} of material, picture {file}", fixed(plane.area, DECIMALS)),
+        &format!(
+            "Outline; Area [mm\u{b2}]; Length [mm]; {right} from [mm]; {right} to [mm]; {up} from [mm]; {up} to [mm]"
+        ),
+    );
+    /// Most outlines listed; the rest is counted.
+    const LISTED: usize = 20;
+    table.rows.extend(plane.outlines.iter().take(LISTED).map(|o| {
+        let mut cells = vec![Cell::new(if o.hole { "hole" } else { "outer" })];
+        cells.extend([o.area, o.length].map(|v| Cell::new(fixed(v, DECIMALS))));
+        for i in plane.plane.seen() {
+            cells.extend([o.low[i], o.high[i]].map(|v| Cell::new(fixed(v, DECIMALS))));
+        }
+        Row::new(cells)
+    }));
+    if let Some(more) = plane.outlines.len().checked_sub(LISTED).filter(|more| *more > 0) {
+        table = table.note(format!("and {more} smaller ones, all of them in inspection.json"));
+    }
+    section.blocks.push(table.into());
+    let points = || plane.outlines.iter().flat_map(|o| &o.points);
+    let bound = |i: usize, pick: fn(f64, f64) -> f64| points().map(|p| p[i]).reduce(pick).unwrap_or(0.0);
+    let (low, high) = ([bound(0, f64::min), bound(1, f64::min)], [bound(0, f64::max), bound(1, f64::max)]);
+    let room = 0.03 * (high[0] - low[0]).max(high[1] - low[1]);
+    let window = [low.map(|v| v - room), high.map(|v| v + room)];
+    let mut drawing = Drawing::new(format!("{name}, {right} to the right, {up} upwards"), window);
+    drawing.hatched = plane.outlines.iter().map(|o| o.points.clone()).collect();
+    for outline in &plane.outlines {
+        let ring = outline.points.iter().chain(outline.points.first()).copied().collect();
+        drawing.line(Look::Edge, ring);
+    }
+    section.blocks.push(drawing.into());
+}
+
+fn table(point: &InspectedPoint) -> Table {
+    let at = point.at.map(short).join(", ");
+    let place = match point.place {
+        Place::Material => "in the material",
+        Place::Outside => "outside of the material",
+        Place::Surface => "on the surface, as far as the mesh knows",
+    };
+    let mut table =
+        Table::new(format!("Point {at}: {place}"), "Surface; Distance [mm]; X [mm]; Y [mm]; Z [mm]; Cut by");
+    table.rows = point.surfaces.iter().map(row).collect();
+    if point.surfaces.is_empty() {
+        table = table.note("There is no surface: nothing is left of the part.");
+    }
+    if point.place == Place::Material {
+        let along = |axis: &str| {
+            let towards = |way: &str| {
+                let name = format!("{way}{axis}");
+                point.surfaces.iter().find(|s| s.towards == name).map(|s| s.distance)
+            };
+            Some(format!("{axis} {} mm", fixed(towards("-")? + towards("+")?, DECIMALS)))
+        };
+        let thick: Vec<String> = ["X", "Y", "Z"].into_iter().filter_map(along).collect();
+        table = table.note(format!("Thickness of the material through the point: {}.", thick.join(", ")));
+    }
+    table
+}
+
+fn row(surface: &Facing) -> Row {
+    let (by, block) = match &surface.cut_by {
+        CutBy::RawStock => ("raw stock".to_owned(), None),
+        CutBy::NoMove => ("a hole of the stock, or a core taken out".to_owned(), None),
+        CutBy::Line { program, line, of_all } => (format!("{program} line {line}"), Some((*of_all, *line))),
+    };
+    let mut cells = vec![Cell::new(surface.towards), Cell::new(fixed(surface.distance, DECIMALS))];
+    cells.extend(surface.at.map(|v| Cell::new(fixed(v, DECIMALS))));
+    cells.push(Cell::new(by));
+    let mut row = Row::new(cells);
+    row.block = block.map(|(of_all, _)| of_all);
+    row.line = block.map(|(_, line)| line);
+    row
+}
+
+/// A length without needless digits.
+fn short(mm: f64) -> String {
+    let text = fixed(mm, 6);
+    text.trim_end_matches('0').trim_end_matches('.').to_owned()
+}

@@ -1,0 +1,106 @@
+//! Sections and points of a cut part against closed forms.
+
+use kinecut::base::{Code, Silent};
+use kinecut::job::inspect::{CutBy, Place};
+use kinecut::job::{GivenFile, InspectWants, Inspection, Outcome, ProgramWants, given_alone, simulate_given};
+
+/// A slot 8 mm wide and 3 mm deep along X at Y 15, and a drilled hole through the block at X 30, Y 5.
+const PROGRAM: &str = "G21 G90 G17\nT1 M6\nS8000 M3\nG0 X-10 Y15\nG0 Z5\nG1 Z-3 F500\nG1 X50\nG0 Z20\n\
+                       T2 M6\nS8000 M3\nG0 X30 Y5\nG0 Z5\nG1 Z-14 F200\nG0 Z20\nM2\n";
+const TOOLS: &str = "[[tool]]\nnumber = 1\ntype = \"end-mill\"\ndiameter = 8.0\nflute_length = 20.0\nstickout = 40.0\n\
+                     [[tool]]\nnumber = 2\ntype = \"end-mill\"\ndiameter = 4.0\nflute_length = 20.0\nstickout = 40.0\n";
+
+fn outcome() -> Outcome {
+    let program = GivenFile { name: "P.ngc", bytes: PROGRAM.as_bytes() };
+    let wants = ProgramWants {
+        stock: Some([0.0, 0.0, -10.0, 40.0, 30.0, 0.0]),
+        tools: Some(("tools.toml".to_owned(), TOOLS.to_owned())),
+        ..ProgramWants::default()
+    };
+    simulate_given(given_alone(program, &wants, true).unwrap(), &Silent).unwrap()
+}
+
+fn near(value: f64, wanted: f64, within: f64) {
+    assert!((value - wanted).abs() <= within, "{value} is not {wanted} within {within}");
+}
+
+#[test]
+fn sections_have_the_areas_and_edges_of_slot_and_hole() {
+    let sections = ["z=-1", "z=-5", "x=10", "y=5", "z=-3", "z=7", "z=-5.0"].map(|p| p.parse().unwrap());
+    let wants = InspectWants { sections: sections.to_vec(), points: Vec::new() };
+    let seen = Inspection::of(&outcome(), &wants).unwrap().unwrap();
+    // The same plane in another spelling is shown once.
+    assert_eq!(seen.sections.len(), 6);
+    let hole = std::f64::consts::PI * 4.0;
+    // Ends lie within the tolerance of the mesh, its facets within a fiftieth of a step of a bent wall.
+    let off = seen.mesh_tolerance + 0.02 * seen.step;
+    let around = 4.0 * std::f64::consts::PI;
+    let areas = [1200.0 - 320.0 - hole, 1200.0 - hole, 300.0 - 24.0, 400.0 - 40.0, 1200.0 - hole, 0.0];
+    for (section, area) in seen.sections.iter().zip(areas) {
+        near(section.area, area, off * (around + 1.0));
+        assert_eq!(section.file.is_some(), area > 0.0);
+    }
+    let [cut, whole, across, ..] = seen.sections.as_slice() else { panic!("{seen:?}") };
+    assert_eq!(cut.outlines.iter().map(|o| o.hole).collect::<Vec<_>>(), [false, false, true]);
+    assert_eq!((whole.outlines.len(), whole.file.as_deref()), (2, Some("section-z-5.svg")));
+    near(whole.outlines[1].high[0], 32.0, off);
+    near(whole.outlines[1].length, around, 4.0 * off);
+    near(across.outlines[0].length, 2.0 * (30.0 + 10.0) + 2.0 * 3.0, off);
+    // Corners of flat faces only: eight of them.
+    assert_eq!(across.outlines[0].points.len(), 8, "{:?}", across.outlines[0].points);
+    let pictures: Vec<_> = seen.pictures().collect();
+    assert_eq!(pictures.len(), 5);
+    assert!(
+        pictures[2].1.contains("width=\"32mm\" height=\"12mm\" viewBox=\"-1 -1 32 12\""),
+        "{}",
+        pictures[2].1
+    );
+}
+
+#[test]
+fn points_know_the_surfaces_about_them_and_the_lines_that_cut_them() {
+    let points =
+        [[10.0, 15.0, -1.0], [10.0, 15.0, -5.0], [30.0, 5.0, -5.0], [5.0, 5.0, 0.0], [5.0, 15.0, -3.0]];
+    let wants = InspectWants { points: points.map(Into::into).to_vec(), ..InspectWants::default() };
+    let outcome = outcome();
+    let seen = Inspection::of(&outcome, &wants).unwrap().unwrap();
+    let places: Vec<Place> = seen.points.iter().map(|p| p.place).collect();
+    assert_eq!(places, [Place::Outside, Place::Material, Place::Outside, Place::Surface, Place::Surface]);
+    let off = seen.mesh_tolerance + 0.02 * seen.step;
+    let line = |n: u32| CutBy::Line { program: "P.ngc".to_owned(), line: n, of_all: n - 1 };
+    let all = [
+        // In the slot: floor and walls, open above and to the ends.
+        vec![("nearest", 2.0, line(7)), ("-Y", 4.0, line(7)), ("+Y", 4.0, line(7)), ("-Z", 2.0, line(7))],
+        // Under it.
+        vec![
+            ("nearest", 2.0, line(7)),
+            ("-X", 10.0, CutBy::RawStock),
+            ("+X", 30.0, CutBy::RawStock),
+            ("-Y", 15.0, CutBy::RawStock),
+            ("+Y", 15.0, CutBy::RawStock),
+            ("-Z", 5.0, CutBy::RawStock),
+            ("+Z", 2.0, line(7)),
+        ],
+        // In the hole: its wall on four sides, nothing below or above.
+        ["nearest", "-X", "+X", "-Y", "+Y"].map(|towards| (towards, 2.0, line(13))).to_vec(),
+    ];
+    for (point, wanted) in seen.points.iter().zip(all) {
+        assert_eq!(point.surfaces.len(), wanted.len(), "{point:?}");
+        for (surface, (towards, distance, by)) in point.surfaces.iter().zip(wanted) {
+            assert_eq!((surface.towards, &surface.cut_by), (towards, &by), "{point:?}");
+            near(surface.distance, distance, off);
+        }
+    }
+    assert!(seen.to_json().contains("\"line\": 13"), "{}", seen.to_json());
+    assert!(Inspection::of(&outcome, &InspectWants::default()).unwrap().is_none());
+}
+
+#[test]
+fn planes_that_are_none_are_refused() {
+    for text in ["", "z", "q=1", "z=", "z=NaN", "z=1e999", "z=1=2"] {
+        let error = text.parse::<kinecut::job::SectionPlane>().unwrap_err();
+        assert_eq!(error.code(), Code::JOB_VALUE);
+        assert!(error.0.help.contains("z=-5"), "{error}");
+    }
+    assert_eq!("z=-0".parse::<kinecut::job::SectionPlane>().unwrap().to_string(), "Z 0");
+}
