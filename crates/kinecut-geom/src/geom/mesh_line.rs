@@ -97,7 +97,7 @@ mod tests {
         for round in 0..3000 {
             let axis = round % 3;
             // Every other point on a lattice: through vertices and along edges.
-            let mut p = DVec3::from_array([0, 1, 2].map(|_| (6.0 * (2.0 * random.share() - 1.0))));
+            let mut p = DVec3::from_array([0, 1, 2].map(|_| 12.0 * random.share() - 6.0));
             p = if round % 2 == 0 { p.round() } else { p };
             let mut across = p;
             across[axis] = 0.0;

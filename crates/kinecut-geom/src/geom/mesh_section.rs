@@ -193,9 +193,9 @@ mod tests {
         let mut mesh = hollow();
         let mut random = Random(11);
         for _ in 0..20 {
-            let normal = DVec3::from_array([0, 1, 2].map(|_| (1.0 * (2.0 * random.share() - 1.0))));
+            let normal = DVec3::from_array([0, 1, 2].map(|_| 2.0 * random.share() - 1.0));
             let Some(normal) = normal.try_normalize() else { continue };
-            let shift = normal * (300.0 * (2.0 * random.share() - 1.0));
+            let shift = normal * (600.0 * random.share() - 300.0);
             mesh.vertices.iter_mut().for_each(|v| *v += shift);
             let heights = mesh.vertices.iter().map(|v| normal.dot(*v));
             let (low, high) = heights.fold((f64::MAX, f64::MIN), |(l, h), z| (l.min(z), h.max(z)));
