@@ -112,7 +112,7 @@ fn plan_rough(
         (Entry::Plunge, None) => 0.0,
         (Entry::Plunge, Some(_)) => {
             return Err(Finding::error(Code::PLAN_VALUE, "an elliptic pocket is roughed from its centre")
-                .help("leave out `start`")
+                .help("leave out `rough.start`")
                 .key("rough.start")
                 .into());
         }

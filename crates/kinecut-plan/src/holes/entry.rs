@@ -179,12 +179,12 @@ fn usual_ramp(cutter: &CutterData) -> f64 {
 pub(super) fn check(spec: &BoreSpec, rough: &Rough, entry: Entry, wall: f64) -> Result<()> {
     let a = spec.cutter_radius();
     match (entry, rough.start) {
-        (Entry::PreDrilled { .. }, Some(_)) => {
-            Err(impossible("a pre-drilled hole as the start and as the entry belong together")
-                .help("give both, with the diameter of the hole, or neither")
-                .key("entry")
-                .into())
-        }
+        (Entry::PreDrilled { .. }, Some(_)) => Err(impossible(
+            "roughing from a pre-drilled hole starts in the middle of the hole, not in another point",
+        )
+        .help("leave out `rough.start`, or plunge there")
+        .key("rough.start")
+        .into()),
         (Entry::PreDrilled { diameter }, None) => {
             if diameter > spec.cutter.diameter && diameter.is_finite() {
                 return Ok(());
@@ -193,7 +193,7 @@ pub(super) fn check(spec: &BoreSpec, rough: &Rough, entry: Entry, wall: f64) -> 
                 .value_mm(diameter)
                 .bound_mm(spec.cutter.diameter)
                 .help("drill larger, use a smaller cutter, or enter by a helix from the centre")
-                .key("start")
+                .key("entry.diameter")
                 .into())
         }
         (Entry::Plunge, _) if !spec.cutter.centre_cutting => {

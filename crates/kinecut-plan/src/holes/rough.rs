@@ -83,8 +83,8 @@ fn opening(spec: &BoreSpec, rough: &Rough, entry: Entry, clearing: Clearing, wal
             Code::PLAN_VALUE,
             format!("the strategy `{}` cannot start in a point off the centre", clearing.name()),
         )
-        .help("leave out `start`, or use `involute`")
-        .key("start")
+        .help("leave out `rough.start`, or use the strategy `involute`")
+        .key("rough.start")
         .into()),
         (Entry::PreDrilled { diameter }, None) => {
             let inner = 0.5 * diameter - a;
@@ -93,7 +93,7 @@ fn opening(spec: &BoreSpec, rough: &Rough, entry: Entry, clearing: Clearing, wal
                     .value_mm(diameter)
                     .bound_mm(2.0 * (wall + a))
                     .help("leave out `rough`")
-                    .key("start")
+                    .key("entry.diameter")
                     .into());
             }
             // In a hole hardly larger than the cutter the turn to its wall would be tiny: go as from the centre.
@@ -116,7 +116,8 @@ fn opening(spec: &BoreSpec, rough: &Rough, entry: Entry, clearing: Clearing, wal
 /// The spiral from a point off the centre: a lead-in that reaches the wall in steps of at most the limit.
 fn from_point(spec: &BoreSpec, rough: &Rough, radius: f64, start: [f64; 2]) -> Result<Opening> {
     let n = turns(radius, rough.stepover)?;
-    let lead = lead(radius, n, start, 0.0, spec.resolution, Rounding::Down).map_err(|e| e.under("start"))?;
+    let lead =
+        lead(radius, n, start, 0.0, spec.resolution, Rounding::Down).map_err(|e| e.under("rough.start"))?;
     // After its first turn the cutter must still sweep the centre.
     let mut turned = TAU;
     let mut reached = radius;
@@ -136,7 +137,7 @@ fn from_point(spec: &BoreSpec, rough: &Rough, radius: f64, start: [f64; 2]) -> R
         .value_mm(reached)
         .bound_mm(spec.cutter_radius())
         .help("start nearer to the centre")
-        .key("start")
+        .key("rough.start")
         .into());
     }
     Ok(Opening {

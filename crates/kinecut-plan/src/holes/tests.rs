@@ -345,9 +345,9 @@ fn what_cannot_be_is_refused_with_code_key_and_bound() {
     );
     // A core: the start too far out, the helix too wide.
     let at = |x| with_rough(p, |r| r.start = Some([x, 0.0]));
-    let f = refuse(at(18.0), Code::ENTRY_IMPOSSIBLE, "start");
+    let f = refuse(at(18.0), Code::ENTRY_IMPOSSIBLE, "rough.start");
     assert!(f.value.unwrap().value > 20.0 && f.bound.unwrap().value == 20.0);
-    refuse(at(100.0), Code::START_OUTSIDE, "start");
+    refuse(at(100.0), Code::START_OUTSIDE, "rough.start");
     let helix = |radius, pitch| BoreSpec { entry: Some(Entry::Helix { radius, pitch }), ..p };
     refuse(helix(20.0, 2.0), Code::ENTRY_IMPOSSIBLE, "entry.radius");
     refuse(helix(15.0, 0.0), Code::ENTRY_IMPOSSIBLE, "entry.pitch");
@@ -356,9 +356,9 @@ fn what_cannot_be_is_refused_with_code_key_and_bound() {
     assert!((f.value.unwrap().value - (12.0 / (30.0 * PI)).atan().to_degrees()).abs() < 1e-9);
     let drilled = |diameter| BoreSpec { entry: Some(Entry::PreDrilled { diameter }), ..p };
     let begins = with_rough(drilled(60.0), |r| r.start = Some([3.0, 0.0]));
-    refuse(begins, Code::ENTRY_IMPOSSIBLE, "entry");
-    refuse(drilled(40.0), Code::ENTRY_IMPOSSIBLE, "start");
-    refuse(drilled(198.5), Code::PLAN_VALUE, "start");
+    refuse(begins, Code::ENTRY_IMPOSSIBLE, "rough.start");
+    refuse(drilled(40.0), Code::ENTRY_IMPOSSIBLE, "entry.diameter");
+    refuse(drilled(198.5), Code::PLAN_VALUE, "entry.diameter");
     assert_eq!(plan_bore(&BoreSpec { rough: None, finish: None, ..p }).unwrap_err().code(), Code::PLAN_VALUE);
 }
 
