@@ -35,6 +35,7 @@ mod tilt;
 pub(crate) mod unknown;
 mod verdict;
 mod wants;
+mod wrong_type;
 
 pub use check::{Design, Job, JobProgram, JobSetup, check};
 pub use external::{

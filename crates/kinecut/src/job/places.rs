@@ -8,6 +8,7 @@ use toml::de::{DeTable, DeValue};
 
 use super::renamed;
 use super::unknown::{in_serde_words, nearest};
+use super::wrong_type::wrong_type;
 use crate::base::{Code, Error, FileId, Finding, Result, Sources, Span};
 
 /// Places of the values of a TOML text, by their keys ("setup[0].operation[1].rough.step").
@@ -113,8 +114,11 @@ pub(super) fn parse<'a>(sources: &Sources, id: FileId, text: &'a str) -> Result<
 /// A TOML error as a finding: its place, and for an unknown key the nearest known one.
 pub(super) fn toml_error(sources: &Sources, id: FileId, code: Code, error: &toml::de::Error) -> Error {
     let message = error.message().lines().next().unwrap_or("the text cannot be read");
-    let message = renamed::without_old_names(&in_serde_words(message));
-    let help = nearest(&message).unwrap_or_default();
+    let (message, help) = wrong_type(message).unwrap_or_else(|| {
+        let message = renamed::without_old_names(&in_serde_words(message));
+        let help = nearest(&message).unwrap_or_default();
+        (message, help)
+    });
     let range = error.span().unwrap_or(0..0);
     Finding::error(code, message).at(sources.locate(span(id, &range))).help(help).into()
 }
