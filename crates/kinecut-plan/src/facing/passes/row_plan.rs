@@ -1,7 +1,7 @@
 //! Offsets and directions of rows that leave the least burr.
 //!
 //! Row k owns the strip above what the rows before it reach, c(k-1) + R; its cost there is the closed form of a straight
-//! pass. The best sequence of rows over a grid of offsets is a shortest path. The cost is piecewise linear in each
+//! pass. The best sequences of rows over a grid of offsets are shortest paths. The cost is piecewise linear in each
 //! offset for straight edges: rows, and all rows together, are then moved between its bends until nothing is gained;
 //! bends of arcs are completed by a golden section. Rows by falling ordinate are rows of the part turned by half a turn.
 
@@ -12,6 +12,9 @@ use crate::num::minimum::golden;
 
 /// Offsets of the shortest path: even ones, and bends while these are not more.
 const GRID: usize = 96;
+
+/// Shortest paths from which rows are moved: on parts with arcs the best one of the grid is not always next to the best rows.
+const STARTS: usize = 8;
 
 /// Rounds of moving rows between bends; each gains, most parts need two or three.
 const ROUNDS: usize = 8;
@@ -53,8 +56,12 @@ pub fn best_rows(
     margin: f64,
     ways: RowWays,
 ) -> Option<MilledRows> {
-    let rows = RowGrid::new(case, angle, count, margin)?.rows(count, ways)?;
-    Some(refined_rows(case, rows, margin))
+    let starts = RowGrid::new(case, angle, count, margin)?.best(count, ways, STARTS);
+    let refined = starts.into_iter().map(|rows| {
+        let rows = refined_rows(case, MilledRows { angle, rows }, margin);
+        (rows.bad_length(case), rows)
+    });
+    refined.min_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, rows)| rows)
 }
 
 /// Rows moved between bends of their cost; each keeps its way.
@@ -98,10 +105,12 @@ impl RowGrid<'_> {
 
     /// The shortest path over the grid: within a step of the grid of the best rows.
     pub(super) fn rows(&self, count: usize, ways: RowWays) -> Option<MilledRows> {
-        self.shortest(count, ways).map(|rows| MilledRows { angle: self.angle, rows })
+        let rows = self.best(count, ways, 1).pop()?;
+        Some(MilledRows { angle: self.angle, rows })
     }
 
-    fn shortest(&self, count: usize, ways: RowWays) -> Option<Vec<MilledRow>> {
+    /// Of the shortest paths to each last row the best `most`, the best first.
+    fn best(&self, count: usize, ways: RowWays, most: usize) -> Vec<Vec<MilledRow>> {
         let (planner, grid, table) = (&self.planner, &self.grid, &self.table);
         let [low, high] = planner.cost.heights;
         let (reach, near, m) = (planner.reach, planner.near(), grid.len());
@@ -134,19 +143,21 @@ impl RowGrid<'_> {
             }
             levels.push(level);
         }
-        let last = levels.last()?;
-        let ends = (0..2 * m).filter(|s| grid[s / 2] >= high - reach - near);
-        let mut state = ends.min_by(|a, b| last[*a].0.total_cmp(&last[*b].0))?;
-        if !last[state].0.is_finite() {
-            return None;
-        }
-        let mut rows = Vec::with_capacity(count);
-        for level in levels.iter().rev() {
-            rows.push(MilledRow { offset: grid[state / 2], forward: state % 2 == 0 });
-            state = level[state].1;
-        }
-        rows.reverse();
-        Some(rows)
+        let Some(last) = levels.last() else { return Vec::new() };
+        let mut ends: Vec<usize> =
+            (0..2 * m).filter(|s| grid[s / 2] >= high - reach - near && last[*s].0.is_finite()).collect();
+        ends.sort_by(|a, b| last[*a].0.total_cmp(&last[*b].0));
+        ends.truncate(most);
+        let back = |mut state: usize| {
+            let mut rows = Vec::with_capacity(count);
+            for level in levels.iter().rev() {
+                rows.push(MilledRow { offset: grid[state / 2], forward: state % 2 == 0 });
+                state = level[state].1;
+            }
+            rows.reverse();
+            rows
+        };
+        ends.into_iter().map(back).collect()
     }
 }
 

@@ -291,6 +291,19 @@ proptest! {
 }
 
 #[test]
+fn rows_of_a_flange_that_one_descent_does_not_find() {
+    let case = FaceCase::new(flange(), 30.0, two_parts()).unwrap();
+    let angle = -1.7636276604453798;
+    let best = best_rows(&case, angle, 3, 0.6, RowWays::Free).unwrap();
+    let row = |offset, forward| MilledRow { offset, forward };
+    let rows =
+        vec![row(-54.04432641017894, false), row(-5.875581388568165, true), row(52.33478625514255, true)];
+    let given = MilledRows { angle, rows };
+    let [have, found] = [given.bad_length(&case), best.bad_length(&case)];
+    assert!(found <= have + 1e-9, "{found} {best:?} against {have}");
+}
+
+#[test]
 fn golden_frames_of_the_plate() {
     let case = plate_200_by_120();
     for (outside, clockwise, counter) in [(10.0, 0.0, 90.0), (0.0, 0.0, 120.0), (-20.0, 60.0, 520.0)] {
