@@ -151,7 +151,7 @@ impl RowGrid<'_> {
         let back = |mut state: usize| {
             let mut rows = Vec::with_capacity(count);
             for level in levels.iter().rev() {
-                rows.push(MilledRow { offset: grid[state / 2], forward: state % 2 == 0 });
+                rows.push(MilledRow { offset: grid[state / 2], forward: state.is_multiple_of(2) });
                 state = level[state].1;
             }
             rows.reverse();
