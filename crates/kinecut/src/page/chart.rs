@@ -7,7 +7,7 @@ use maud::{Markup, html};
 
 use super::draw::{BELOW, Ink, Labels, LinePath, Plot, Ticks, room_left, width};
 use super::picture::{Anchor, Picture, drawn, in_widths, sample};
-use super::{Chart, Colour, Dash, Follows, Series, Width, fixed, simplify, visible};
+use super::{Chart, Colour, Dash, Follows, Series, Width, simplify, trimmed, visible};
 
 /// Height of the plot area [px].
 const PLOT: f64 = 180.0;
@@ -209,12 +209,11 @@ pub(crate) fn digits(v: f64) -> String {
         return "0".to_owned();
     }
     let magnitude = v.abs().log10().floor();
-    if !(-6.0..9.0).contains(&magnitude) { format!("{v:.4e}") } else { px5(v, magnitude) }
-}
-
-fn px5(v: f64, magnitude: f64) -> String {
-    let text = fixed(v, (4.0 - magnitude).max(0.0) as usize);
-    if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
+    if !(-6.0..9.0).contains(&magnitude) {
+        format!("{v:.4e}")
+    } else {
+        trimmed(v, (4.0 - magnitude).max(0.0) as usize)
+    }
 }
 
 fn summary(chart: &Chart) -> String {

@@ -27,5 +27,5 @@ pub use shown::{inline_json, terminal, visible};
 pub(crate) use style::{policy_of, style};
 pub use table::{Align, Cell, Column, Mark, Row, Table};
 pub use text::{WIDTH, text};
-pub(crate) use units::px;
 pub use units::{area_share, duration, fixed, length, micrometres};
+pub(crate) use units::{px, trimmed};

@@ -80,10 +80,15 @@ pub fn area_share(share: f64) -> String {
     }
 }
 
+/// A number with as many decimals at most, without zeros at its end.
+pub(crate) fn trimmed(value: f64, decimals: usize) -> String {
+    let text = fixed(value, decimals);
+    if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
+}
+
 /// A coordinate of a drawing.
 pub(crate) fn px(v: f64) -> String {
-    let text = fixed(v, 2);
-    if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
+    trimmed(v, 2)
 }
 
 #[cfg(test)]

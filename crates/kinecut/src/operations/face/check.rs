@@ -103,8 +103,7 @@ impl kind::Table for FacingTable {
 
 /// A length to the hundredth, without zeros at its end.
 fn shown(mm: f64) -> String {
-    let text = format!("{mm:.2}");
-    text.trim_end_matches('0').trim_end_matches('.').to_owned()
+    crate::page::trimmed(mm, 2)
 }
 
 /// Most levels of one operation.

@@ -4,7 +4,7 @@ use super::HoleComparison;
 use crate::holes::compare::{Claim, ComparedStrategy, Comparison, FREE, Figures, Holds};
 use crate::job::report::PathRole;
 use crate::page::{
-    Block, Cell, Chart, Circle, Column, Fact, Plan, PlanLine, Row, Section, Table, fixed, length,
+    Block, Cell, Chart, Circle, Column, Fact, Plan, PlanLine, Row, Section, Table, fixed, length, trimmed,
 };
 
 /// Strategies that share a chart: more curves than this cannot be told apart, and the loops are many times longer.
@@ -17,16 +17,15 @@ const GROUPS: [(&str, &[&str]); 3] = [
 /// A number with the digits that matter; a dash for `None`.
 pub(super) fn number(v: Option<f64>) -> String {
     let Some(v) = v.filter(|v| v.is_finite()) else { return "\u{2013}".to_owned() };
-    let text = match v.abs() {
+    match v.abs() {
         0.0 => "0".to_owned(),
-        a if a >= 1e5 => return format!("{v:.2e}"),
-        a if a >= 1000.0 => fixed(v, 0),
-        a if a >= 100.0 => fixed(v, 1),
-        a if a >= 1.0 => fixed(v, 2),
-        a if a >= 1e-4 => fixed(v, 4),
-        _ => return format!("{v:.1e}"),
-    };
-    if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
+        a if a >= 1e5 => format!("{v:.2e}"),
+        a if a >= 1000.0 => trimmed(v, 0),
+        a if a >= 100.0 => trimmed(v, 1),
+        a if a >= 1.0 => trimmed(v, 2),
+        a if a >= 1e-4 => trimmed(v, 4),
+        _ => format!("{v:.1e}"),
+    }
 }
 
 /// A step; an impulse where a lower derivative steps already.

@@ -8,7 +8,7 @@ use crate::facing::{
     DescentStatistics, Placement, Sweep, ToothedLengths, ToothedPass, bad_length, either_bad_length,
     toothed_lengths,
 };
-use crate::page::{Cell, Fact, Row, Table, area_share, duration, fixed, length};
+use crate::page::{self, Cell, Fact, Row, Table, area_share, duration, fixed, length};
 
 /// A turn [rad] in degrees, 0 included and 360 excluded.
 pub(super) fn turn(angle: f64) -> f64 {
@@ -19,8 +19,7 @@ pub(super) fn turn(angle: f64) -> f64 {
 
 /// A number with three decimals at most, without zeros at its end.
 pub(super) fn trimmed(v: f64) -> String {
-    let text = fixed(v, 3);
-    if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
+    page::trimmed(v, 3)
 }
 
 /// The outline: size, edges, what they count.
