@@ -58,6 +58,8 @@ pub struct Certificate {
     pub moves: usize,
     /// Moves of tools that leave a core, which were not.
     pub left_out: usize,
+    /// Moves along spirals and cubics: the bound on their curvature rests on samples, so that for them the proof is not strict.
+    pub sampled: usize,
     /// No material lies deeper than this in a tool [mm].
     pub gap: f64,
     /// Stretches of lines that were left although a tool reaches into them, and are taken out.
@@ -154,6 +156,7 @@ pub fn certify(
     Ok(Certificate {
         moves: tasks.len(),
         left_out,
+        sampled: tasks.iter().filter(|task| task.motion.is_sampled()).count(),
         gap: all.gap.max(GAP) * if parted { PARTED } else { 1.0 },
         taken: all.taken,
         deepest: all.deepest,

@@ -6,7 +6,7 @@ use glam::{DMat3, DVec3};
 
 use super::{Certificate, CertifiedRun, GAP, certify};
 use crate::base::Silent;
-use crate::geom::{Aabb, Arc, Curve, InvoluteRecord, Line, Profile, ProfileElement, Rigid};
+use crate::geom::{Aabb, Arc, CubicSpan, Curve, InvoluteRecord, Line, Profile, ProfileElement, Rigid};
 use crate::machine::Machine;
 use crate::machine::kinematics::Twist;
 use crate::num::random::Random;
@@ -236,4 +236,15 @@ fn a_flat_end_along_the_lattice_takes_few_boxes() {
     let (lines, proof) = cut_and_certified(&profile, &moves, 0.5, "raster");
     assert!(lines > 1000 && proof.boxes < 200 * lines as u64, "{lines} {proof:?}");
     assert!((proof.gap - GAP).abs() < 1e-9, "{proof:?}");
+}
+
+#[test]
+fn moves_with_a_sampled_bound_are_counted() {
+    let at = |x: f64, y: f64| glam::DVec2::new(x, y);
+    let span = CubicSpan::new([at(-6.0, -5.0), at(-2.0, 6.0), at(2.0, -6.0), at(6.0, 5.0)]).unwrap();
+    let along = |curve| CutMove::new(curve, CutAxis::ALL[4], 0);
+    let line = Line { start: DVec3::new(-6.0, 0.0, -2.0), end: DVec3::new(6.0, 0.0, -2.0) };
+    let moves = [along(line.into()), along(Curve::cubic(span, -3.0))];
+    let (_, proof) = cut_and_certified(&Profile::bull_nose(6.0, 3.0, 9.0).unwrap(), &moves, 1.0, "a cubic");
+    assert_eq!((proof.moves, proof.sampled), (2, 1));
 }

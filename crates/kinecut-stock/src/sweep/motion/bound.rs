@@ -61,6 +61,14 @@ impl ToolMotion {
         }
     }
 
+    /// True if the bound on the acceleration rests on samples of the curvature: the tip goes along a spiral or a cubic.
+    pub(crate) fn is_sampled(&self) -> bool {
+        match &self.kind {
+            Kind::Turning { curve, .. } | Kind::TipAndJoints { curve, .. } => is_sampled(curve),
+            Kind::Joints { .. } | Kind::Screw { .. } => false,
+        }
+    }
+
     /// A bound on the rate of turning at all moments [rad by `t`].
     pub(crate) fn most_turn(&self) -> f64 {
         let rotary = |chain: &Kinematics, rate: &dyn Fn(usize) -> f64| -> f64 {
@@ -81,6 +89,11 @@ impl ToolMotion {
         let twist = self.at(t).twist;
         twist.shift.length() + twist.turn.length() * reach
     }
+}
+
+/// True for a curve whose largest curvature is not known in closed form.
+fn is_sampled(curve: &Curve) -> bool {
+    !matches!(curve.kind(), CurveKind::Line(_) | CurveKind::Arc(_) | CurveKind::Involute { .. })
 }
 
 /// Largest second derivative of the place on a curve run at a constant speed.

@@ -32,9 +32,17 @@ pub(in crate::job) fn not_checked(
             );
         }
     }
-    if let Some(certificate) = simulation.certificate.filter(|c| c.left_out > 0) {
-        let count = certificate.left_out;
-        list.add(Heading::Moves, format!("{count} moves of drills that leave a core: not certified"));
+    if let Some(certificate) = &simulation.certificate {
+        let uncertain = [
+            (certificate.left_out, "moves of drills that leave a core: not certified"),
+            (
+                certificate.sampled,
+                "moves along spirals and cubics: certified with a sampled bound on their curvature",
+            ),
+        ];
+        for (count, what) in uncertain.into_iter().filter(|(count, _)| *count > 0) {
+            list.add(Heading::Moves, format!("{count} {what}"));
+        }
     }
     tools(job, setups, &mut list);
     travel(job, &mut list);
