@@ -1,11 +1,12 @@
 //! The lattice that the three grids share, and the view of a tri-dexel body that its surface is made from.
 
 use glam::DVec3;
+use serde::Serialize;
 
 use super::Interval;
 
 /// A coordinate axis.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize)]
 pub enum Axis {
     /// X.
     X,

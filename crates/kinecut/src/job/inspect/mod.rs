@@ -19,6 +19,9 @@ pub use plane::SectionPlane;
 pub use point::{CutBy, Facing, InspectedPoint, Place};
 pub use section::{OutlineFigures, PartSection};
 
+/// Least radius of a bend for which the sag of facets is known [steps].
+const LEAST_BEND: f64 = 4.0;
+
 /// Sections and points that are asked for.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct InspectWants {
@@ -35,8 +38,9 @@ pub struct Inspection {
     format: u32,
     /// Distance of the lines of the stock [mm]: a web or slot thinner than it may be missing in the part.
     pub step: f64,
-    /// The ends of the lines lie within this of the surface of the part [mm].
-    pub mesh_tolerance: f64,
+    /// Distances from the surface are within this [mm] where it bends with a radius of four steps or more: the tolerance of its
+    /// mesh, and the sag of its facets.
+    pub within: f64,
     /// The sections, in the order asked for.
     pub sections: Vec<PartSection>,
     /// The points, in the order asked for.
@@ -44,7 +48,7 @@ pub struct Inspection {
 }
 
 impl Inspection {
-    /// What is asked for, `None` if that is nothing.
+    /// The sections and points that are asked for; `None` if there are none of either.
     ///
     /// # Errors
     /// `KC0602` when the surface of the part is not closed.
@@ -58,13 +62,16 @@ impl Inspection {
                 planes.push(*plane);
             }
         }
-        let sections = planes.iter().map(|plane| PartSection::of(&outcome.part, *plane));
+        let step = outcome.job.step;
+        // Over the diagonal d of a cell a sphere of radius R rises by d^2 / 8 R.
+        let within = outcome.job.surface.tolerance(step) + step / (4.0 * LEAST_BEND);
+        let sections = planes.iter().map(|plane| PartSection::of(&outcome.part, within, *plane));
         Ok(Some(Inspection {
             format: 1,
-            step: outcome.job.step,
-            mesh_tolerance: outcome.job.surface.tolerance(outcome.job.step),
+            step,
+            within,
             sections: sections.collect::<Result<_>>()?,
-            points: point::inspected(outcome, &wants.points)?,
+            points: point::inspected(outcome, within, &wants.points)?,
         }))
     }
 
@@ -78,7 +85,7 @@ impl Inspection {
         self.sections.iter().filter_map(|section| Some((section.file.as_deref()?, svg::svg(section))))
     }
 
-    /// Sections of the report about them.
+    /// The section of the report about them.
     pub(crate) fn shown(&self) -> Section {
         page::shown(self)
     }

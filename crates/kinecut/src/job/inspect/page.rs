@@ -1,7 +1,7 @@
 //! Sections and points in the report.
 
-use super::{CutBy, Facing, InspectedPoint, Inspection, PartSection, Place};
-use crate::page::{Block, Cell, Drawing, Look, Row, Section, Table, fixed};
+use super::{CutBy, Facing, InspectedPoint, Inspection, LEAST_BEND, PartSection, Place};
+use crate::page::{Block, Cell, Drawing, Look, Row, Section, Table, fixed, trimmed};
 
 /// Decimals of lengths: micrometres, finer than the tolerance of any usual mesh.
 const DECIMALS: usize = 3;
@@ -9,10 +9,11 @@ const DECIMALS: usize = 3;
 /// The section of the report.
 pub(super) fn shown(inspection: &Inspection) -> Section {
     let about = format!(
-        "From the mesh of the part: the ends of its lines lie within {} mm of it, and a web or slot thinner than {} mm, \
-         the distance of the lines, may be missing.",
-        short(inspection.mesh_tolerance),
-        short(inspection.step),
+        "From the mesh of the part: distances are within {} mm where it bends with a radius of {} mm or more, and a web or \
+         slot thinner than {} mm, the distance of the lines, may be missing.",
+        fixed(inspection.within, DECIMALS),
+        trimmed(LEAST_BEND * inspection.step, 6),
+        trimmed(inspection.step, 6),
     );
     let mut section = Section::new("Sections and points").with(Block::Text(about));
     for plane in &inspection.sections {
@@ -31,8 +32,12 @@ fn add_section(section: &mut Section, plane: &PartSection) {
         return;
     };
     let [right, up] = plane.plane.seen().map(|i| ["X", "Y", "Z"][i]);
+    // As many decimals as the bound has a say in, which is rounded up.
+    let decimals = (-plane.area_bound.log10().floor()).clamp(0.0, 6.0) as usize;
+    let unit = 10f64.powi(decimals as i32);
+    let [area, bound] = [plane.area, (plane.area_bound * unit).ceil() / unit].map(|v| fixed(v, decimals));
     let mut table = Table::new(
-        format!("{name}: {} mm\u{b2} of material, picture {file}", fixed(plane.area, DECIMALS)),
+        format!("{name}: {area} \u{b1} {bound} mm\u{b2} of material, picture {file}"),
         &format!(
             "Outline; Area [mm\u{b2}]; Length [mm]; {right} from [mm]; {right} to [mm]; {up} from [mm]; {up} to [mm]"
         ),
@@ -41,7 +46,7 @@ fn add_section(section: &mut Section, plane: &PartSection) {
     const LISTED: usize = 20;
     table.rows.extend(plane.outlines.iter().take(LISTED).map(|o| {
         let mut cells = vec![Cell::new(if o.hole { "hole" } else { "outer" })];
-        cells.extend([o.area, o.length].map(|v| Cell::new(fixed(v, DECIMALS))));
+        cells.extend([(o.area, decimals), (o.length, DECIMALS)].map(|(v, n)| Cell::new(fixed(v, n))));
         for i in plane.plane.seen() {
             cells.extend([o.low[i], o.high[i]].map(|v| Cell::new(fixed(v, DECIMALS))));
         }
@@ -66,11 +71,11 @@ fn add_section(section: &mut Section, plane: &PartSection) {
 }
 
 fn table(point: &InspectedPoint) -> Table {
-    let at = point.at.map(short).join(", ");
+    let at = point.at.map(|v| trimmed(v, 6)).join(", ");
     let place = match point.place {
         Place::Material => "in the material",
         Place::Outside => "outside of the material",
-        Place::Surface => "on the surface, as far as the mesh knows",
+        Place::Surface => "on the surface, as far as the mesh can tell",
     };
     let mut table =
         Table::new(format!("Point {at}: {place}"), "Surface; Distance [mm]; X [mm]; Y [mm]; Z [mm]; Cut by");
@@ -105,10 +110,4 @@ fn row(surface: &Facing) -> Row {
     row.block = block.map(|(of_all, _)| of_all);
     row.line = block.map(|(_, line)| line);
     row
-}
-
-/// A length without needless digits.
-fn short(mm: f64) -> String {
-    let text = fixed(mm, 6);
-    text.trim_end_matches('0').trim_end_matches('.').to_owned()
 }

@@ -16,7 +16,7 @@ pub enum Place {
     Material,
     /// Outside of it.
     Outside,
-    /// Within the tolerance of the mesh of its surface: on which side is not known.
+    /// Nearer to its surface than distances are known: on which side is open.
     Surface,
 }
 
@@ -68,19 +68,18 @@ pub struct InspectedPoint {
 ///
 /// # Errors
 /// `KC0602` when the surface of the part is not closed.
-pub(super) fn inspected(outcome: &Outcome, points: &[DVec3]) -> Result<Vec<InspectedPoint>> {
+pub(super) fn inspected(outcome: &Outcome, within: f64, points: &[DVec3]) -> Result<Vec<InspectedPoint>> {
     if points.is_empty() {
         return Ok(Vec::new());
     }
     let distance = MeshDistance::new(&outcome.part)?;
-    let tolerance = outcome.job.surface.tolerance(outcome.job.step);
-    Ok(points.iter().map(|p| one(outcome, &distance, tolerance, *p)).collect())
+    Ok(points.iter().map(|p| one(outcome, &distance, within, *p)).collect())
 }
 
-fn one(outcome: &Outcome, distance: &MeshDistance, tolerance: f64, p: DVec3) -> InspectedPoint {
+fn one(outcome: &Outcome, distance: &MeshDistance, within: f64, p: DVec3) -> InspectedPoint {
     let nearest = distance.nearest(p);
     let place = match nearest {
-        Some(n) if n.distance.abs() <= tolerance => Place::Surface,
+        Some(n) if n.distance.abs() <= within => Place::Surface,
         Some(n) if n.distance < 0.0 => Place::Material,
         _ => Place::Outside,
     };

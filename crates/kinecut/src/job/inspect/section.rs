@@ -20,6 +20,8 @@ pub struct PartSection {
     pub file: Option<String>,
     /// Area of material [mm2].
     pub area: f64,
+    /// The true area is no farther from it than this [mm2]: the error of distances all along the outlines.
+    pub area_bound: f64,
     /// The outlines; none where the plane does not meet the part.
     pub outlines: Vec<OutlineFigures>,
 }
@@ -43,19 +45,20 @@ pub struct OutlineFigures {
 }
 
 impl PartSection {
-    /// The section of a part; outlines with the largest area first.
+    /// The section of a part whose surface is known `within` [mm]; outlines with the largest area first.
     ///
     /// # Errors
     /// `KC0602` when the mesh is not closed.
-    pub(super) fn of(part: &Mesh, plane: SectionPlane) -> Result<PartSection> {
+    pub(super) fn of(part: &Mesh, within: f64, plane: SectionPlane) -> Result<PartSection> {
         let mut found = part.section(plane.normal(), plane.at)?;
         found.sort_by(|a, b| b.area.abs().total_cmp(&a.area.abs()));
         let outlines: Vec<OutlineFigures> = found.iter().map(|o| figures(o, plane)).collect();
         Ok(PartSection {
             plane,
             file: (!found.is_empty())
-                .then(|| format!("section-{}{}.svg", plane.axis.to_ascii_lowercase(), plane.at)),
+                .then(|| format!("section-{}{}.svg", format!("{:?}", plane.axis).to_lowercase(), plane.at)),
             area: rounded(found.iter().map(|o| o.area).sum::<f64>()),
+            area_bound: rounded(within * found.iter().map(|o| o.length).sum::<f64>()),
             outlines,
         })
     }

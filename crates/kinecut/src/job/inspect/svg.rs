@@ -3,6 +3,10 @@
 use std::fmt::Write as _;
 
 use super::PartSection;
+use crate::page::trimmed;
+
+/// Decimals of coordinates: the step in which ends of lines are kept.
+const DECIMALS: usize = 5;
 
 /// Room around the outlines [mm].
 const ROOM: f64 = 1.0;
@@ -13,6 +17,7 @@ pub(super) fn svg(section: &PartSection) -> String {
     let least = |i: usize| points().map(|p| p[i]).fold(f64::INFINITY, f64::min) - ROOM;
     let most = |i: usize| points().map(|p| p[i]).fold(f64::NEG_INFINITY, f64::max) + ROOM;
     let [left, right, low, high] = [least(0), most(0), least(1), most(1)];
+    let number = |mm: f64| trimmed(mm, DECIMALS);
     let (width, height) = (right - left, high - low);
     let mut path = String::new();
     for outline in &section.outlines {
@@ -30,10 +35,4 @@ pub(super) fn svg(section: &PartSection) -> String {
          <path d=\"{path}\" fill=\"#c9d3dd\" fill-rule=\"evenodd\" stroke=\"#1c242c\" stroke-width=\"1\" vector-effect=\"non-scaling-stroke\"/>\n\
          </svg>\n"
     )
-}
-
-/// A coordinate to a hundred-thousandth of a millimetre, without needless digits.
-fn number(mm: f64) -> String {
-    let text = crate::page::fixed(mm, 5);
-    text.trim_end_matches('0').trim_end_matches('.').to_owned()
 }

@@ -1,5 +1,7 @@
 //! Sections and points of a cut part against closed forms.
 
+use crate::common::random::Random;
+use glam::{DVec2, DVec3};
 use kinecut::base::{Code, Silent};
 use kinecut::job::inspect::{CutBy, Place};
 use kinecut::job::{GivenFile, InspectWants, Inspection, Outcome, ProgramWants, given_alone, simulate_given};
@@ -11,10 +13,15 @@ const TOOLS: &str = "[[tool]]\nnumber = 1\ntype = \"end-mill\"\ndiameter = 8.0\n
                      [[tool]]\nnumber = 2\ntype = \"end-mill\"\ndiameter = 4.0\nflute_length = 20.0\nstickout = 40.0\n";
 
 fn outcome() -> Outcome {
-    let program = GivenFile { name: "P.ngc", bytes: PROGRAM.as_bytes() };
+    cut(PROGRAM, TOOLS, None)
+}
+
+fn cut(program: &str, tools: &str, step: Option<f64>) -> Outcome {
+    let program = GivenFile { name: "P.ngc", bytes: program.as_bytes() };
     let wants = ProgramWants {
+        step,
         stock: Some([0.0, 0.0, -10.0, 40.0, 30.0, 0.0]),
-        tools: Some(("tools.toml".to_owned(), TOOLS.to_owned())),
+        tools: Some(("tools.toml".to_owned(), tools.to_owned())),
         ..ProgramWants::default()
     };
     simulate_given(given_alone(program, &wants, true).unwrap(), &Silent).unwrap()
@@ -32,12 +39,13 @@ fn sections_have_the_areas_and_edges_of_slot_and_hole() {
     // The same plane in another spelling is shown once.
     assert_eq!(seen.sections.len(), 6);
     let hole = std::f64::consts::PI * 4.0;
-    // Ends lie within the tolerance of the mesh, its facets within a fiftieth of a step of a bent wall.
-    let off = seen.mesh_tolerance + 0.02 * seen.step;
+    let off = seen.within;
     let around = 4.0 * std::f64::consts::PI;
     let areas = [1200.0 - 320.0 - hole, 1200.0 - hole, 300.0 - 24.0, 400.0 - 40.0, 1200.0 - hole, 0.0];
     for (section, area) in seen.sections.iter().zip(areas) {
-        near(section.area, area, off * (around + 1.0));
+        near(section.area, area, section.area_bound);
+        // Of no use if it were wide.
+        assert!(section.area_bound <= 260.0 * off, "{section:?}");
         assert_eq!(section.file.is_some(), area > 0.0);
     }
     let [cut, whole, across, ..] = seen.sections.as_slice() else { panic!("{seen:?}") };
@@ -50,11 +58,13 @@ fn sections_have_the_areas_and_edges_of_slot_and_hole() {
     assert_eq!(across.outlines[0].points.len(), 8, "{:?}", across.outlines[0].points);
     let pictures: Vec<_> = seen.pictures().collect();
     assert_eq!(pictures.len(), 5);
-    assert!(
-        pictures[2].1.contains("width=\"32mm\" height=\"12mm\" viewBox=\"-1 -1 32 12\""),
-        "{}",
-        pictures[2].1
-    );
+    // Seen along X: Y to the right, Z upwards; along Y: X to the right, Z upwards.
+    for (i, shown) in [
+        (2, "width=\"32mm\" height=\"12mm\" viewBox=\"-1 -1 32 12\""),
+        (3, "width=\"42mm\" height=\"12mm\" viewBox=\"-1 -1 42 12\""),
+    ] {
+        assert!(pictures[i].1.contains(shown), "{}", pictures[i].1);
+    }
 }
 
 #[test]
@@ -66,7 +76,7 @@ fn points_know_the_surfaces_about_them_and_the_lines_that_cut_them() {
     let seen = Inspection::of(&outcome, &wants).unwrap().unwrap();
     let places: Vec<Place> = seen.points.iter().map(|p| p.place).collect();
     assert_eq!(places, [Place::Outside, Place::Material, Place::Outside, Place::Surface, Place::Surface]);
-    let off = seen.mesh_tolerance + 0.02 * seen.step;
+    let off = seen.within;
     let line = |n: u32| CutBy::Line { program: "P.ngc".to_owned(), line: n, of_all: n - 1 };
     let all = [
         // In the slot: floor and walls, open above and to the ends.
@@ -93,6 +103,58 @@ fn points_know_the_surfaces_about_them_and_the_lines_that_cut_them() {
     }
     assert!(seen.to_json().contains("\"line\": 13"), "{}", seen.to_json());
     assert!(Inspection::of(&outcome, &InspectWants::default()).unwrap().is_none());
+}
+
+/// Distance of a point from the upright body that a tool sweeps along a line: of radius `r` about the segment seen from above, with a
+/// round or flat end at the height `z`, open above.
+fn from_sweep(p: DVec3, [from, to]: [DVec2; 2], r: f64, z: f64, is_round: bool) -> f64 {
+    let (q, along) = (p.truncate() - from, to - from);
+    let share = (q.dot(along) / along.length_squared().max(1e-300)).clamp(0.0, 1.0);
+    let aside = q.distance(along * share);
+    match is_round {
+        true => aside.hypot((p.z - z - r).min(0.0)) - r,
+        false => (aside - r).max(0.0).hypot((z - p.z).max(0.0)),
+    }
+}
+
+#[test]
+fn distances_in_a_coarse_part_are_within_what_is_said() {
+    let groove = "T3 M6\nS8000 M3\nG0 X-10 Y25\nG0 Z5\nG1 Z-2 F500\nG1 X50\nG0 Z20\nM2\n";
+    let program = PROGRAM.replace("M2\n", groove);
+    let ball =
+        "[[tool]]\nnumber = 3\ntype = \"ball-nose\"\ndiameter = 6.0\nflute_length = 20.0\nstickout = 40.0\n";
+    let outcome = cut(&program, &format!("{TOOLS}{ball}"), Some(0.5));
+    let (low, high) = (DVec3::new(0.0, 0.0, -10.0), DVec3::new(40.0, 30.0, 0.0));
+    let mut random = Random(5);
+    let mut points = Vec::new();
+    for _ in 0..4000 {
+        points.push(low + DVec3::from_array([0; 3].map(|_| random.share())) * (high - low));
+    }
+    let wants = InspectWants { points, ..InspectWants::default() };
+    let seen = Inspection::of(&outcome, &wants).unwrap().unwrap();
+    assert!(seen.within < 0.05, "{}", seen.within);
+    let (mut inside, mut farthest) = (0, 0.0f64);
+    for point in &seen.points {
+        let p = DVec3::from_array(point.at);
+        let line = |y| [DVec2::new(-10.0, y), DVec2::new(50.0, y)];
+        let hole = [DVec2::new(30.0, 5.0); 2];
+        // From inside the nearest place is on a face of the block, or on one of the bodies taken out.
+        let faces = (p - low).min(high - p).min_element();
+        let exact = faces
+            .min(from_sweep(p, line(15.0), 4.0, -3.0, false))
+            .min(from_sweep(p, hole, 2.0, -14.0, false))
+            .min(from_sweep(p, line(25.0), 3.0, -2.0, true));
+        if exact > seen.within {
+            assert!(point.place == Place::Material || exact < 2.0 * seen.within, "{point:?} {exact}");
+            if point.place == Place::Material {
+                inside += 1;
+                farthest = farthest.max((point.surfaces[0].distance - exact).abs());
+            }
+        } else if exact < -seen.within {
+            assert_ne!(point.place, Place::Material, "{point:?} {exact}");
+        }
+    }
+    assert!(inside > 2000 && farthest <= seen.within, "{inside} {farthest}");
 }
 
 #[test]
