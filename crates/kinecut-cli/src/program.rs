@@ -45,7 +45,7 @@ fn plane(text: &str) -> Result<SectionPlane, String> {
     text.parse().map_err(|e: Error| e.0.help)
 }
 
-/// How the stock is simulated.
+/// Settings of the simulation.
 #[derive(Debug, clap::Args)]
 struct Stock {
     /// Distance of the lines of the stock model, mm; default: that of the job, then that of about 2 million lines

@@ -40,7 +40,7 @@ pub fn run(name: &str, text: &str, loader: &dyn Loader, progress: &dyn Progress)
 pub struct RunWants {
     /// Other ways than those asked for are planned too, each with its price, for the report.
     pub compare: bool,
-    /// How the stock is simulated.
+    /// Settings of the simulation.
     pub stock: StockWants,
 }
 

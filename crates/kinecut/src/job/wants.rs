@@ -1,4 +1,4 @@
-//! How the stock is simulated, said beside the job.
+//! Settings of the simulation that are given beside the job.
 
 use super::check::{Job, step};
 use crate::base::Result;

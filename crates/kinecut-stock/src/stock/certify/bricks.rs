@@ -44,7 +44,7 @@ pub(super) struct Stretch {
     pub(super) faces: [u8; 2],
 }
 
-/// What a brick has shown.
+/// Result of a brick.
 #[derive(Default)]
 pub(super) struct Found {
     pub(super) checked: Checked,

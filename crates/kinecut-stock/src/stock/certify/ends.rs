@@ -13,7 +13,7 @@ use crate::stock::{Axis, CutId, DexelGrid, TriDexel, unfixed};
 /// Time below which a stretch of a move is no longer divided.
 const SHORTEST: f64 = 1e-12;
 
-/// How far the distance of an end that has strayed may be off [mm].
+/// Error of the distance of an end that has strayed [mm].
 const FINE: f64 = 1e-6;
 
 /// Ends that were looked for.
