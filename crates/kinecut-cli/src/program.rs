@@ -62,7 +62,8 @@ struct Stock {
 
 impl Stock {
     fn wants(&self) -> StockWants {
-        StockWants { step: self.step, mesh_tolerance: self.mesh_tolerance, certified: self.certified }
+        let Stock { step, mesh_tolerance, certified } = *self;
+        StockWants { step, mesh_tolerance, certified, ..StockWants::default() }
     }
 }
 

@@ -5,14 +5,20 @@
 //! fixed step (5 nm) from its lattice point towards plus, in both directions across it: then the three lines through a
 //! lattice point ask about one and the same point of space and agree on whether it is material, also where a face of
 //! the tool or of the stock runs exactly through the lattice.
+//!
+//! **Late lines.** Moves of an upright tool cut the lines along it; the lines across it are cut when something asks for them
+//! (`cut/above/late.rs`). Whoever reads lines does not see a difference.
+
+use std::sync::OnceLock;
+use std::thread::{self, ScopedJoinHandle};
 
 use glam::DVec3;
 use rayon::prelude::*;
 
-use super::cut::Ceilings;
+use super::cut::FromAbove;
 use super::tile::{TILE_EDGE, Tile};
 use super::{Axis, DexelGrid, EndPoint, FIXED_STEP, Interval, Lattice};
-use crate::base::{Code, Finding, Result};
+use crate::base::{Code, Finding, Progress, Result, Silent};
 use crate::geom::Aabb;
 
 /// Offset of lines from their lattice points [mm]; see the head of the file.
@@ -43,6 +49,11 @@ impl Grid {
         Grid { axis, counts, tiles: vec![Tile::of(alike); tiles] }
     }
 
+    /// A grid of the same shape, of no use but for it.
+    pub(crate) fn without_lines(&self) -> Grid {
+        Grid { axis: self.axis, counts: self.counts, tiles: Vec::new() }
+    }
+
     /// Number of tiles along the two directions across the lines.
     pub(crate) fn tiles_across(&self) -> [u32; 2] {
         self.counts.map(|n| n.div_ceil(TILE_EDGE))
@@ -54,6 +65,12 @@ impl Grid {
         let (i, j) = (tile as u32 % across, tile as u32 / across);
         let first = [i * TILE_EDGE, j * TILE_EDGE];
         (first, [0, 1].map(|k| (self.counts[k] - first[k]).min(TILE_EDGE)))
+    }
+
+    /// The intervals of a line.
+    pub(crate) fn line(&self, a: u32, b: u32) -> &[Interval] {
+        let (tile, line) = place(self.tiles_across()[0], a, b);
+        self.tiles[tile].line(line)
     }
 
     /// Length of all lines [fixed steps].
@@ -79,9 +96,12 @@ impl Grid {
 pub struct TriDexel {
     lattice: Lattice,
     bounds: Aabb,
-    pub(crate) grids: [Grid; 3],
-    /// Heights above which nothing is left, known from cutting; they hold as long as material is only taken out.
-    pub(super) ceilings: Option<Ceilings>,
+    pub(super) grids: [Grid; 3],
+    /// Knowledge from cutting from above, and the moves that have still to cut the lines across their axis; it holds as long as
+    /// material is only taken out.
+    pub(super) above: Option<FromAbove>,
+    /// The grids across that axis with all moves cut, made where somebody reads them before they are.
+    whole: OnceLock<Box<[Grid; 3]>>,
 }
 
 impl TriDexel {
@@ -98,7 +118,7 @@ impl TriDexel {
     pub(crate) fn filled(bounds: Aabb, step: f64, alike: [Option<Interval>; 3]) -> Result<TriDexel> {
         let lattice = lattice_of(bounds, step)?;
         let grids = Axis::ALL.map(|axis| Grid::new(axis, &lattice, alike[axis.index()]));
-        Ok(TriDexel { lattice, bounds, grids, ceilings: None })
+        Ok(TriDexel { lattice, bounds, grids, above: None, whole: OnceLock::new() })
     }
 
     /// Memory that a stock in a box needs at a grid step [bytes], at most two intervals a line. It grows with the
@@ -132,19 +152,84 @@ impl TriDexel {
     }
 
     fn volume_along(&self, axis: Axis) -> f64 {
-        self.grids[axis.index()].content() as f64 * FIXED_STEP * self.lattice.step * self.lattice.step
+        self.grid(axis).content() as f64 * FIXED_STEP * self.lattice.step * self.lattice.step
+    }
+
+    /// The lines along an axis, with all moves cut.
+    pub(super) fn grid(&self, axis: Axis) -> &Grid {
+        match &self.above {
+            Some(above) if above.owes(axis) => &self.whole.get_or_init(|| self.settled_apart())[axis.index()],
+            _ => &self.grids[axis.index()],
+        }
+    }
+
+    /// The grids that moves have still to cut, cut by them, by threads of their own: those that wait for the result cannot be asked to
+    /// help with it.
+    fn settled_apart(&self) -> Box<[Grid; 3]> {
+        let settle = || {
+            let mut grids = self.grids.each_ref().map(|grid| match &self.above {
+                Some(above) if above.owes(grid.axis) => grid.clone(),
+                _ => grid.without_lines(),
+            });
+            if let Some(above) = &self.above {
+                above.clone().settle(&mut grids, (&self.lattice, self.bounds), &Silent);
+            }
+            Box::new(grids)
+        };
+        let threads = rayon::current_num_threads();
+        // Where there are no threads nobody waits.
+        let Ok(pool) = rayon::ThreadPoolBuilder::new().num_threads(threads).build() else { return settle() };
+        thread::scope(|scope| {
+            let made = thread::Builder::new().spawn_scoped(scope, || pool.install(settle));
+            match made.map(ScopedJoinHandle::join) {
+                Ok(Ok(grids)) => grids,
+                Ok(Err(panic)) => std::panic::resume_unwind(panic),
+                Err(_) => settle(),
+            }
+        })
+    }
+
+    /// All grids, to be changed: moves that have not cut all lines do so first.
+    pub(super) fn settled(&mut self, progress: &dyn Progress) -> &mut [Grid; 3] {
+        self.settle(progress);
+        &mut self.grids
+    }
+
+    /// Before more is cut: lines that were cut apart, as somebody has read them, become the stock's own.
+    pub(super) fn take_back(&mut self) {
+        if self.whole.get().is_some() {
+            self.settle(&Silent);
+        }
+    }
+
+    /// Lets moves cut the lines that they have left for later: those across the axis of upright tools. Whoever reads these lines without
+    /// this waits for it then. When it is cancelled they are left for later still.
+    pub fn settle(&mut self, progress: &dyn Progress) {
+        let Some(above) = &mut self.above else { return };
+        match self.whole.take() {
+            Some(whole) => {
+                for (own, grid) in self.grids.iter_mut().zip(*whole) {
+                    if above.owes(grid.axis) {
+                        *own = grid;
+                    }
+                }
+                above.owe_nothing();
+            }
+            None => above.settle(&mut self.grids, (&self.lattice, self.bounds), progress),
+        }
     }
 
     /// Takes the material between two ends out of a line.
     pub(crate) fn take_from_line(&mut self, axis: Axis, [a, b]: [u32; 2], lo: EndPoint, hi: EndPoint) {
-        let grid = &mut self.grids[axis.index()];
+        let grid = &mut self.settled(&Silent)[axis.index()];
         let (tile, line) = place(grid.tiles_across()[0], a, b);
         grid.tiles[tile].subtract(line, lo, hi);
     }
 
     /// The intervals of one line replaced.
     pub(crate) fn set_line(&mut self, axis: Axis, a: u32, b: u32, intervals: &[Interval]) {
-        self.ceilings = None;
+        self.settle(&Silent);
+        self.above = None;
         let grid = &mut self.grids[axis.index()];
         let (tile, line) = place(grid.tiles_across()[0], a, b);
         grid.tiles[tile].set(line, intervals);
@@ -157,9 +242,7 @@ impl DexelGrid for TriDexel {
     }
 
     fn line(&self, axis: Axis, a: u32, b: u32) -> &[Interval] {
-        let grid = &self.grids[axis.index()];
-        let (tile, line) = place(grid.tiles_across()[0], a, b);
-        grid.tiles[tile].line(line)
+        self.grid(axis).line(a, b)
     }
 }
 

@@ -6,6 +6,7 @@
 
 use std::collections::BTreeMap;
 use std::f64::consts::SQRT_2;
+use std::sync::Arc;
 
 use super::bins::Bins;
 use super::check::Job;
@@ -15,7 +16,7 @@ use crate::base::{Progress, Result};
 use crate::geom::Aabb;
 use crate::operations::measured::Loose;
 use crate::stock::TriDexel;
-use crate::stock::cut::{CutMove, CutOptions, Edge, MoveEffect, ToolBody, cut};
+use crate::stock::cut::{CutList, CutMove, CutOptions, Edge, MoveEffect, ToolBody, cut};
 use crate::trace::Trace;
 
 /// Lines are brought so much nearer together at a time.
@@ -39,7 +40,7 @@ pub(super) struct Story<'a> {
     /// For each setup, the cores that are taken out.
     pub(super) loose: &'a [Vec<Loose>],
     /// For each setup the moves.
-    pub(super) moves: &'a [Vec<CutMove>],
+    pub(super) moves: &'a [Arc<CutList>],
     pub(super) bodies: &'a [ToolBody],
 }
 
@@ -62,7 +63,7 @@ pub(super) fn look_closer(
     if passing.is_empty() {
         return Ok(());
     }
-    let swept: Vec<Swept> = story.moves.iter().map(|list| Swept::of(list, story)).collect();
+    let swept: Vec<Swept> = story.moves.iter().map(|list| Swept::of(list.moves(), story)).collect();
     let mut left = MOST_BYTES_OF_ALL;
     while !passing.is_empty() && SQRT_2 * step > Missed::UNTOLD {
         let margin = ROOM * step;
@@ -266,7 +267,8 @@ fn cut_part(
         let mut run = |stock: &mut TriDexel, to: usize| -> Result<()> {
             let indices = &reaching[done..reaching.partition_point(|i| *i < to).max(done)];
             done += indices.len();
-            let moves: Vec<CutMove> = indices.iter().map(|i| story.moves[setup][*i].clone()).collect();
+            let moves: Vec<CutMove> =
+                indices.iter().map(|i| story.moves[setup].moves()[*i].clone()).collect();
             let effects = cut(stock, story.bodies, &moves, &CutOptions::default(), &Quiet(progress))?;
             for (index, effect) in indices.iter().zip(effects) {
                 if let Some(k) = places.get(&(setup, *index)) {

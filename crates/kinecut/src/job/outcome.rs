@@ -23,7 +23,7 @@ pub struct Outcome {
     pub simulation: Simulation,
     /// The operations in their order, with what was measured for each.
     pub measured: Vec<Measured>,
-    /// Surface of the cut part.
+    /// Surface of the cut part; empty where none was wanted, see [`StockWants::no_surface`](super::StockWants::no_surface).
     pub part: Mesh,
     /// For each triangle of it the cut that made it, 0 for the raw stock; see [`Simulation::first_cut`].
     pub part_cuts: Vec<CutId>,

@@ -1,14 +1,13 @@
 //! The main job: plan, post, read back, compare, trace, cut, compare with the wanted part, judge.
 
 use crate::base::{Code, Error, Finding, Loader, Location, Progress, Result, Sources};
-use crate::geom::{Aabb, Solid};
+use crate::geom::Aabb;
 use crate::nc::{self, PostSettings, Posted};
 use crate::operations::OperationPlan;
 use crate::operations::known::Known;
 use crate::operations::measured::Loose;
 use crate::operations::setting::corners;
-use crate::stock::Volume;
-use crate::stock::surface::surface_with_cuts;
+use crate::stock::surface::{CutSurface, surface_with_cuts};
 use crate::trace::{Trace, trace, travel_findings};
 
 use super::check::{Job, check};
@@ -21,7 +20,7 @@ use super::prove::{self, Simulated};
 use super::read_back::{ReadBack, compare};
 use super::setup_outcome::{SetupOutcome, block_of_cut};
 use super::shape::{Deviation, deviation};
-use super::simulate::{self, Simulation, simulate};
+use super::simulate::{self, Simulation, left, simulate};
 use super::verdict::{banner, not_checked, proven, scope};
 use super::wants::StockWants;
 use super::{Heading, JobText, Judgement, Subject, Verdict, names, parts, sha256};
@@ -100,14 +99,19 @@ pub(crate) fn run_checked(
     let loose: Vec<Vec<Loose>> =
         setups.iter().enumerate().map(|(i, done)| loose_cores(&job, i, done)).collect();
     let wanted = measure::wanted(&job, &setups);
-    let simulation =
+    let mut simulation =
         simulate(&job, &traces, &loose, &wanted.points, &wanted.walls, progress).map_err(locate)?;
     let measured = measure::judged(&job, &mut setups, wanted, &simulation);
     still_wanted(progress)?;
-    progress.stage("surface", 1);
-    let surface = surface_with_cuts(&simulation.stock, &job.surface, progress)?;
-    let left = Volume::of_surface(&surface, &job.surface, job.step, matches!(job.stock, Solid::Box(_)));
-    let (removed, part, part_cuts) = (simulation.raw.less(left), surface.mesh, surface.cuts);
+    let surface = match job.no_surface {
+        true => None,
+        false => {
+            simulation.stock.settle(progress);
+            Some(surface_with_cuts(&simulation.stock, &job.surface, progress)?)
+        }
+    };
+    let removed = simulation.raw.less(left(&job, &simulation.stock, surface.as_ref()));
+    let CutSurface { mesh: part, cuts: part_cuts } = surface.unwrap_or_default();
     still_wanted(progress)?;
     progress.stage("compare", 1);
     let deviation = deviation(&job, &setups, &simulation, &part)?;

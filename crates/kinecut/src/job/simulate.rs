@@ -11,8 +11,8 @@ use crate::base::{Code, Finding, Progress, Result, Severity};
 use crate::geom::Solid;
 use crate::operations::measured::{Loose, Probe, WallProbe};
 use crate::stock::certify::{Certificate, CertifiedRun, certify};
-use crate::stock::cut::{CutAxis, CutMove, CutOptions, MoveEffect, Stance, ToolBody, cut};
-use crate::stock::surface::surface_with_cuts;
+use crate::stock::cut::{CutAxis, CutList, CutMove, CutOptions, MoveEffect, Stance, ToolBody, cut_list};
+use crate::stock::surface::{CutSurface, surface_with_cuts};
 use crate::stock::{PointEngagement, TriDexel, Volume, WallEnd, point_engagement, wall_ends};
 use crate::sweep::ToolMotion;
 use crate::tool::{Cutter, DrillPoint, Tool, ToolNumber};
@@ -85,8 +85,11 @@ pub fn simulate(
     let raw = if job.drilled.is_empty() {
         Volume::of_solid(&job.stock)
     } else {
-        let surface = surface_with_cuts(&stock, &job.surface, &crate::base::Silent)?;
-        Volume::of_surface(&surface, &job.surface, job.step, matches!(job.stock, Solid::Box(_)))
+        let surface = match job.no_surface {
+            true => None,
+            false => Some(surface_with_cuts(&stock, &job.surface, &crate::base::Silent)?),
+        };
+        left(job, &stock, surface.as_ref())
     };
     let bodies = job.tools.iter().map(body).collect::<Result<Vec<_>>>()?;
     let mut simulation = Simulation {
@@ -106,10 +109,17 @@ pub fn simulate(
     // Cuts are numbered: drilled holes, cores taken out, then the segments.
     let mut taken = job.drilled.len() as u32;
     let mut first = taken + loose.iter().map(|l| l.len() as u32).sum::<u32>();
-    let all = traces.iter().map(|trace| moves(job, trace)).collect::<Result<Vec<_>>>()?;
-    for (i, (trace, moves)) in traces.iter().zip(&all).enumerate() {
-        progress.stage("cut", moves.len() as u64);
-        let mut effects = Vec::with_capacity(moves.len());
+    let mut all = Vec::new();
+    for trace in traces {
+        let options = CutOptions { first_cut: first, ..CutOptions::default() };
+        all.push(CutList::new(&bodies, moves(job, trace)?, &options, job.step)?);
+        simulation.first_cut.push(first);
+        first += trace.segments.len() as u32;
+    }
+    for (i, (trace, list)) in traces.iter().zip(&all).enumerate() {
+        let count = list.moves().len();
+        progress.stage("cut", count as u64);
+        let mut effects = Vec::with_capacity(count);
         let mut done = 0;
         let cores = loose.get(i).map_or(&[][..], Vec::as_slice);
         let mut looked = Looks::default();
@@ -117,9 +127,7 @@ pub fn simulate(
             let to = trace.segments.partition_point(|s| s.item < item);
             // Pauses before the same segment share it.
             if to > done {
-                let options = CutOptions { first_cut: first + done as u32, ..CutOptions::default() };
-                let run = &moves[done..to];
-                effects.extend(cut(&mut simulation.stock, &bodies, run, &options, progress)?);
+                effects.extend(cut_list(&mut simulation.stock, list, done..to, progress)?);
                 done = to;
             }
             match pause {
@@ -139,10 +147,7 @@ pub fn simulate(
                 Pause::Look(look) => looked.answer(look, (job, trace), &bodies, &simulation.stock),
             }
         }
-        let options = CutOptions { first_cut: first + done as u32, ..CutOptions::default() };
-        effects.extend(cut(&mut simulation.stock, &bodies, &moves[done..], &options, progress)?);
-        simulation.first_cut.push(first);
-        first += moves.len() as u32;
+        effects.extend(cut_list(&mut simulation.stock, list, done..count, progress)?);
         simulation.path_error =
             effects.iter().fold(simulation.path_error, |worst, e| worst.max(e.path_error));
         simulation.effects.push(effects);
@@ -152,11 +157,20 @@ pub fn simulate(
     look_closer(&story, &mut simulation.effects, progress)?;
     if job.certified {
         let runs = simulation.first_cut.iter().zip(&all);
-        let runs: Vec<_> = runs.map(|(first, moves)| CertifiedRun { first_cut: *first, moves }).collect();
+        let runs: Vec<_> =
+            runs.map(|(first, list)| CertifiedRun { first_cut: *first, moves: list.moves() }).collect();
         simulation.certificate = Some(certify(&mut simulation.stock, &bodies, &runs, progress)?);
     }
     simulation.engagements = measured.into_iter().enumerate().map(found).collect::<Result<_>>()?;
     Ok(simulation)
+}
+
+/// Volume of a stock of a job, from its lines or its surface: whichever has the lesser bound.
+pub(super) fn left(job: &Job, stock: &TriDexel, surface: Option<&CutSurface>) -> Volume {
+    let by_lines = Volume::of_lines(stock);
+    let is_box = matches!(job.stock, Solid::Box(_));
+    let by_surface = surface.map(|s| Volume::of_surface(s, &job.surface, job.step, is_box));
+    by_surface.filter(|v| v.bound < by_lines.bound).unwrap_or(by_lines)
 }
 
 /// Action on the stock between two cuts.

@@ -13,6 +13,9 @@ pub struct StockWants {
     pub mesh_tolerance: Option<f64>,
     /// Whether the cut stock is proven against the moves; if not, the job may still say so.
     pub certified: bool,
+    /// Whether no surface of the cut part is wanted, for meshes, sections and the picture of the report: its volume is then known by its
+    /// lines alone.
+    pub no_surface: bool,
 }
 
 impl StockWants {
@@ -29,6 +32,7 @@ impl StockWants {
             None => step::surface("simulate.mesh_tolerance", job.surface.tolerance, job.step)?,
         };
         job.certified |= self.certified;
+        job.no_surface |= self.no_surface;
         Ok(())
     }
 }

@@ -60,6 +60,19 @@ impl Default for ResultFiles {
     }
 }
 
+impl ResultFiles {
+    /// Whether one of them shows the surface of the cut part.
+    fn show_surface(&self) -> bool {
+        let InspectWants { sections, points } = &self.inspect;
+        self.report || !(self.meshes.is_empty() && sections.is_empty() && points.is_empty())
+    }
+
+    /// The settings of a simulation for these files.
+    fn settings(&self, wants: &StockWants) -> StockWants {
+        StockWants { no_surface: wants.no_surface || !self.show_surface(), ..*wants }
+    }
+}
+
 /// A job that was planned or read, simulated and judged.
 #[derive(Clone, Debug, Serialize)]
 #[serde(transparent)]
@@ -103,7 +116,8 @@ pub fn run(
     read: &FilesRead,
     progress: &dyn Progress,
 ) -> Result<Done> {
-    done(outcome_of(job, wants, read, progress)?, files, progress)
+    let wants = RunWants { stock: files.settings(&wants.stock), ..*wants };
+    done(outcome_of(job, &wants, read, progress)?, files, progress)
 }
 
 /// As [`run`], for a job with programs of others in all its setups: nothing is planned or posted.
@@ -117,7 +131,8 @@ pub fn simulate_job(
     read: &FilesRead,
     progress: &dyn Progress,
 ) -> Result<Done> {
-    let outcome = outcome_of(job, &RunWants { compare: false, stock: *wants }, read, progress)?;
+    let outcome =
+        outcome_of(job, &RunWants { compare: false, stock: files.settings(wants) }, read, progress)?;
     if let Some(planned) = outcome.setups.iter().position(|s| s.external.is_none()) {
         return Err(Finding::error(Code::JOB_SHAPE, "this job plans its program itself")
             .at(Location::whole_file(job.display().to_string()))
@@ -132,7 +147,12 @@ pub fn simulate_job(
 ///
 /// # Errors
 /// As [`run`].
-pub fn simulate_given(given: job::GivenJob, files: &ResultFiles, progress: &dyn Progress) -> Result<Done> {
+pub fn simulate_given(
+    mut given: job::GivenJob,
+    files: &ResultFiles,
+    progress: &dyn Progress,
+) -> Result<Done> {
+    given.simulated(&files.settings(&StockWants::default()))?;
     done(job::simulate_given(given, progress)?, files, progress)
 }
 

@@ -120,6 +120,7 @@ pub fn certify(
     let (tasks, left_out) = tasks(bodies, &gauges, runs)?;
     let parted = gauges.iter().any(Gauges::is_parted);
     let mut all = Checked::default();
+    stock.settle(progress);
     let bricks = Bricks::new(stock);
     progress.stage("certify", 2 * tasks.len() as u64);
     let mut next = 0;

@@ -37,6 +37,7 @@ mod face;
 mod hollow;
 mod in_order;
 mod leaning;
+mod list;
 mod piece;
 mod plan;
 mod run;
@@ -57,11 +58,12 @@ use crate::geom::{Aabb, Curve, EdgeProfile, Profile};
 use crate::stock::CutId;
 use crate::sweep::ToolMotion;
 
-pub(in crate::stock) use above::Ceilings;
+pub(in crate::stock) use above::FromAbove;
 pub use axis::CutAxis;
 pub use face::SweptFace;
 pub(in crate::stock) use leaning::meets_at_rest;
-pub use run::cut;
+pub use list::CutList;
+pub use run::{cut, cut_list};
 pub use stance::Stance;
 
 /// A tool: the part that cuts, and the parts that must not touch.

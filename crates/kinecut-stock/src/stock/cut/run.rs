@@ -1,9 +1,11 @@
 //! Cutting a list of moves: what comes from outside is checked, runs of moves go to those that cut them.
 
 use std::f64::consts::TAU;
+use std::ops::Range;
+use std::sync::Arc;
 
 use super::leaning::cut_leaning;
-use super::task::Tool;
+use super::list::CutList;
 use super::upright::cut_upright;
 use super::{CutMove, CutOptions, MoveEffect, Stance, ToolBody};
 use crate::base::{Code, Error, Finding, Progress, Result};
@@ -57,7 +59,22 @@ pub fn cut(
     options: &CutOptions,
     progress: &dyn Progress,
 ) -> Result<Vec<MoveEffect>> {
-    cut_as(stock, bodies, moves, options, Order::InRuns, progress)
+    let list = CutList::new(bodies, moves.to_vec(), options, stock.lattice().step)?;
+    cut_list(stock, &list, 0..moves.len(), progress)
+}
+
+/// As [`cut`], with moves made ready: a range of them. The moves are kept by the stock until they have cut all of its lines, which
+/// happens when these are asked for.
+///
+/// # Errors
+/// `KC0801` for a range that the list does not have, or a list for another step; `KC0009` as [`cut`].
+pub fn cut_list(
+    stock: &mut TriDexel,
+    list: &Arc<CutList>,
+    range: Range<usize>,
+    progress: &dyn Progress,
+) -> Result<Vec<MoveEffect>> {
+    cut_as(stock, list, range, Order::InRuns, progress)
 }
 
 /// The way in which moves are cut; the lines are the same.
@@ -73,28 +90,40 @@ pub(super) enum Order {
 /// Cuts moves in one of two ways.
 pub(super) fn cut_as(
     stock: &mut TriDexel,
-    bodies: &[ToolBody],
-    moves: &[CutMove],
-    options: &CutOptions,
+    list: &Arc<CutList>,
+    range: Range<usize>,
     order: Order,
     progress: &dyn Progress,
 ) -> Result<Vec<MoveEffect>> {
-    check(bodies, moves, options)?;
-    let tools: Vec<Tool> = bodies.iter().map(|b| Tool::new(b, options, stock.lattice().step)).collect();
-    let mut effects = Vec::with_capacity(moves.len());
-    progress.stage("cut", moves.len() as u64);
-    for run in moves.chunk_by(|a, b| a.stance.axis() == b.stance.axis()) {
-        if let Some(axis) = run[0].stance.axis() {
-            cut_upright(stock, (axis, order), &tools, run, options, &mut effects, progress)?;
-            continue;
+    if range.start > range.end || range.end > list.moves.len() {
+        return Err(Finding::error(Code::GEOMETRY, "the list has no moves there")
+            .value(range.end as f64, "")
+            .bound(list.moves.len() as f64, "")
+            .into());
+    }
+    if list.step != stock.lattice().step {
+        return Err(Finding::error(
+            Code::GEOMETRY,
+            "the moves were made ready for a stock with another step",
+        )
+        .value_mm(list.step)
+        .bound_mm(stock.lattice().step)
+        .into());
+    }
+    stock.take_back();
+    let mut effects = Vec::with_capacity(range.len());
+    progress.stage("cut", range.len() as u64);
+    for stretch in list.stretches(range) {
+        match list.moves[stretch.start].stance.axis() {
+            Some(axis) => cut_upright(stock, (axis, order), list, stretch, &mut effects, progress)?,
+            None => cut_leaning(stock, order, list, stretch, &mut effects, progress)?,
         }
-        cut_leaning(stock, order, &tools, run, options, &mut effects, progress)?;
     }
     Ok(effects)
 }
 
 /// Checks what comes from outside.
-fn check(bodies: &[ToolBody], moves: &[CutMove], options: &CutOptions) -> Result<()> {
+pub(super) fn check(bodies: &[ToolBody], moves: &[CutMove], options: &CutOptions) -> Result<()> {
     let values = [("path_tolerance", options.path_tolerance, FINEST), ("clearance", options.clearance, 0.0)];
     for (key, value, least) in values {
         if !(value.is_finite() && value >= least) {

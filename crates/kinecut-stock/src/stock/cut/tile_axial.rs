@@ -86,8 +86,14 @@ pub(super) fn cut_above(tile: &mut Tile, l: usize, over: DVec2, task: &Task) {
         });
     }
     let Some((part, hit)) = lowest else { return };
-    let (lo, hi) = if task.frame.sign > 0.0 { (fixed(hit.lo), i32::MAX) } else { (i32::MIN, fixed(-hit.lo)) };
-    let [lower, upper] = Cutter { task, ends: None }.ends_of(part, over, &hit, lo, hi);
+    let (normal, face) = surface(&task.tool.cutting.parts[part], &task.piece, over, hit.lo_at);
+    let end = |at: i32| task.end(at, normal, face.class(part));
+    // Nothing is left beyond the other end.
+    let beyond = |at: i32| EndPoint { at, ..EndPoint::default() };
+    let (lower, upper) = match task.frame.sign > 0.0 {
+        true => (end(fixed(hit.lo)), beyond(i32::MAX)),
+        false => (beyond(i32::MIN), end(fixed(-hit.lo))),
+    };
     tile.subtract(l, lower, upper);
 }
 

@@ -1,14 +1,18 @@
 //! Moves of tools that stand along one axis: in long runs from above, and line by line where a move has to be looked at so.
 
-use super::above::{Done, cut_from_above};
+use std::ops::Range;
+use std::sync::Arc;
+
+use super::above::{Done, cut_from_above, settle_near};
 use super::axis::ToolFrame;
 use super::effect::Sum;
 use super::hollow::standing;
 use super::in_order::cut_in_order;
-use super::piece::pieces;
+use super::list::CutList;
+use super::piece::{MovePiece, pieces};
 use super::run::{BATCH, Order};
-use super::task::{Task, Tool};
-use super::{CutAxis, CutMove, CutOptions, MoveEffect};
+use super::task::Task;
+use super::{CutAxis, MoveEffect};
 use crate::base::{Code, Finding, Progress, Result};
 use crate::stock::{DexelGrid, FIXED_STEP, TriDexel};
 
@@ -28,64 +32,72 @@ struct Batch<'a> {
 }
 
 impl<'a> Batch<'a> {
-    /// Of moves before `first_cut`, as many as there is room for.
-    fn new(
-        moves: &[CutMove],
-        frame: &ToolFrame,
-        tools: &'a [Tool],
-        options: &CutOptions,
-        step: f64,
-    ) -> Batch<'a> {
+    /// Of a range of moves, as many as there is room for; tasks count them from its start.
+    fn new(list: &'a CutList, range: Range<usize>, frame: &ToolFrame) -> Batch<'a> {
         let mut batch = Batch { tasks: Vec::new(), errors: Vec::new(), filled: Vec::new() };
-        for (i, m) in moves.iter().enumerate() {
+        for i in range.clone() {
             if batch.tasks.len() >= MOST_TASKS {
                 break;
             }
-            let tool = &tools[m.body as usize];
-            let (list, error) = pieces(&m.curve, frame, options.path_tolerance);
-            let filled = tool.hollow.is_some() && list.iter().any(|piece| standing(&piece.plan).is_none());
+            let (error, filled) = tasks_of(list, i, frame, (i - range.start) as u32, &mut batch.tasks);
             batch.errors.push(error);
             batch.filled.push(filled);
-            batch.tasks.extend(list.into_iter().map(|piece| Task {
-                piece,
-                index: i as u32,
-                cut: options.first_cut.wrapping_add(i as u32).wrapping_add(1),
-                removes: m.removes,
-                watch: m.watch || tool.hollow.is_some() && standing(&piece.plan).is_none(),
-                frame: *frame,
-                tool,
-                clearance: options.clearance,
-                step,
-                plan_box: piece.plan.bounds(),
-            }));
         }
         batch
     }
 
     /// The tasks of a range of moves.
-    fn tasks_of(&self, moves: std::ops::Range<usize>) -> &[Task<'a>] {
+    fn tasks_of(&self, moves: Range<usize>) -> &[Task<'a>] {
         let at = |index: usize| self.tasks.partition_point(|t| (t.index as usize) < index);
         &self.tasks[at(moves.start)..at(moves.end)]
     }
+}
+
+/// Adds the tasks of a move, which carry an index; tells how far its path was replaced [mm], and whether a hollow tool is cut as if
+/// it were none.
+pub(super) fn tasks_of<'a>(
+    list: &'a CutList,
+    at: usize,
+    frame: &ToolFrame,
+    index: u32,
+    tasks: &mut Vec<Task<'a>>,
+) -> (f64, bool) {
+    let m = &list.moves[at];
+    let tool = &list.tools[m.body as usize];
+    let (pieces, error) = pieces(&m.curve, frame, list.options.path_tolerance);
+    let across = |piece: &MovePiece| tool.hollow.is_some() && standing(&piece.plan).is_none();
+    let filled = pieces.iter().any(across);
+    tasks.extend(pieces.into_iter().map(|piece| Task {
+        piece,
+        index,
+        cut: list.cut(at),
+        removes: m.removes,
+        watch: m.watch || across(&piece),
+        frame: *frame,
+        tool,
+        clearance: list.options.clearance,
+        step: list.step,
+        plan_box: piece.plan.bounds(),
+    }));
+    (error, filled)
 }
 
 /// Cuts moves of tools that stand along an axis, and adds their effects.
 pub(super) fn cut_upright(
     stock: &mut TriDexel,
     (axis, order): (CutAxis, Order),
-    tools: &[Tool],
-    moves: &[CutMove],
-    options: &CutOptions,
+    list: &Arc<CutList>,
+    moves: Range<usize>,
     effects: &mut Vec<MoveEffect>,
     progress: &dyn Progress,
 ) -> Result<()> {
     let (frame, step) = (ToolFrame::new(axis), stock.lattice().step);
-    let (mut next, mut size, mut singly) = (0, BATCH, 1);
-    while next < moves.len() {
-        let first_cut = options.first_cut.wrapping_add(effects.len() as u32);
-        let options = CutOptions { first_cut, ..*options };
-        let some = &moves[next..moves.len().min(next + size)];
-        let batch = Batch::new(some, &frame, tools, &options, step);
+    if stock.above.as_ref().is_some_and(|above| !above.is_along(axis)) {
+        stock.settle(progress);
+    }
+    let (mut next, mut size, mut singly) = (moves.start, BATCH, 1);
+    while next < moves.end {
+        let batch = Batch::new(list, next..moves.end.min(next + size), &frame);
         let count = batch.errors.len();
         // What is cut from above, by move: length removed, depth, a contact.
         let mut sums = vec![(0, 0, None::<(f64, [f64; 3])>); count];
@@ -105,6 +117,9 @@ pub(super) fn cut_upright(
             Order::OneByOne => Some(0),
         };
         let from_above = stopped.map_or(count, |index| index as usize);
+        if let Some(above) = &mut stock.above {
+            above.owe(list, next..next + from_above);
+        }
         effects.extend(sums[..from_above].iter().zip(&batch.errors).map(
             |((removed, deepest, first), error)| MoveEffect {
                 removed: *removed as f64 * FIXED_STEP * step * step,
@@ -124,6 +139,7 @@ pub(super) fn cut_upright(
             for task in &mut tasks {
                 task.index -= from_above as u32;
             }
+            settle_near(stock, &frame, &tasks, progress);
             cut_in_order(stock, &frame, &tasks, &mut sums, progress);
             let told = sums.iter().zip(&batch.errors[from_above..]).zip(&batch.filled[from_above..]);
             effects.extend(told.map(|((sum, error), filled)| sum.effect(step, *error, *filled)));

@@ -53,6 +53,8 @@ pub struct Job {
     pub surface: SurfaceOptions,
     /// Whether the cut stock is proven against the moves.
     pub certified: bool,
+    /// Whether no surface of the cut part is wanted.
+    pub no_surface: bool,
     /// Clampings, in order.
     pub setups: Vec<JobSetup>,
     /// Whether other ways than the one asked for are planned too, each with its price.
@@ -164,6 +166,7 @@ pub fn check(file: &JobFile, name: &str, loader: &dyn Loader) -> Result<Job> {
         memory: (memory * 1e6) as u64,
         surface: step::surface("simulate.mesh_tolerance", file.simulate.mesh_tolerance, step)?,
         certified: file.simulate.certified,
+        no_surface: false,
         setups,
         compare: false,
     })

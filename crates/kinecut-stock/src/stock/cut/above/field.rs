@@ -1,5 +1,7 @@
 //! The grid along the tool axis as patches see it.
 
+use std::ops::Range;
+
 use glam::DVec2;
 use pulp::Arch;
 
@@ -7,6 +9,7 @@ use super::super::axis::ToolFrame;
 use super::super::task::Task;
 use super::patch::SIDE;
 use super::sweep::Sweep;
+use crate::geom::Aabb;
 use crate::stock::tile::TILE_EDGE;
 use crate::stock::tri_dexel::{Grid, LINE_OFFSET};
 use crate::stock::{Axis, FIXED_STEP, Interval, Lattice};
@@ -33,8 +36,11 @@ pub(super) struct Field<'a> {
 }
 
 impl<'a> Field<'a> {
-    pub(super) fn new(grid: &'a Grid, lattice: &Lattice, frame: &ToolFrame, highest: f64) -> Field<'a> {
+    /// The field of a grid of a stock within `bounds`.
+    pub(super) fn new(grid: &'a Grid, lattice: &Lattice, frame: &ToolFrame, bounds: Aabb) -> Field<'a> {
         let axes: [Axis; 2] = grid.axis.others().into();
+        let along = grid.axis.index();
+        let highest = if frame.sign > 0.0 { bounds.max[along] } else { -bounds.min[along] };
         Field {
             grid,
             sign: frame.sign,
@@ -99,6 +105,13 @@ impl<'a> Field<'a> {
     pub(super) fn bins(&self, tasks: &[Task]) -> Vec<Vec<u32>> {
         let patches = self.patches();
         let mut bins = vec![Vec::new(); patches[0] * patches[1]];
+        self.each_near(tasks, |patch, task| bins[patch].push(task));
+        bins
+    }
+
+    /// Calls for each task, in order, with each patch that it may reach.
+    pub(super) fn each_near(&self, tasks: &[Task], mut each: impl FnMut(usize, u32)) {
+        let patches = self.patches();
         let half = 0.5 * (SIDE - 1) as f64 * self.step;
         let middle = |k: usize, p: usize| self.place(k, p as i64 * OWN - 1) + half;
         // The nearest patches by index, one more on either side than needed.
@@ -117,12 +130,21 @@ impl<'a> Field<'a> {
                 for p in range(0, min.x, max.x) {
                     let centre = Sweep::exchanged(task, DVec2::new(middle(0, p), middle(1, q)));
                     if task.piece.plan.distance_squared(centre) <= far * far {
-                        bins[q * patches[0] + p].push(i as u32);
+                        each(q * patches[0] + p, i as u32);
                     }
                 }
             }
         }
-        bins
+    }
+
+    /// The bands of patches along both directions that lines in a box across the axis may lie in, in grid coordinates.
+    pub(super) fn bands(&self, (min, max): (DVec2, DVec2)) -> [Range<usize>; 2] {
+        let patches = self.patches();
+        [0, 1].map(|k| {
+            let of = |x: f64| ((x - self.origin[k]) / self.step / OWN as f64).floor();
+            let inside = |band: f64| band.clamp(0.0, patches[k] as f64) as usize;
+            inside(of(min[k] - self.step))..inside(of(max[k] + self.step) + 1.0)
+        })
     }
 }
 

@@ -8,39 +8,45 @@
 //!
 //! Material that a rapid, a shank or a holder may meet, an edge that leaves a core, or a top of a tool under material end the
 //! run before that move: it is cut line by line, then the next run begins. Ceilings are kept for it: material never grows.
+//!
+//! The lines across the axis are cut late, by all moves since the last time together: where a move is looked at line by line those
+//! near it, and all when something asks for them (`late.rs`). The lower the ceilings have become, the less is left to do.
 
 mod claims;
 mod column;
 mod field;
+mod late;
 mod layers;
 mod patch;
 mod sides;
 mod sweep;
 
+use std::sync::Arc;
 use std::sync::atomic::{AtomicU32, Ordering::Relaxed};
 
 use glam::DVec2;
 use rayon::prelude::*;
 
-use self::claims::Claim;
-use self::field::{Field, Line};
-use self::layers::Layers;
-use self::patch::{Patch, PatchCeilings};
+use self::field::{Field, OWN};
+use self::late::Late;
+use self::patch::{NONE, Patch, PatchCeilings, Winners};
 use super::CutAxis;
 use super::axis::ToolFrame;
 use super::task::{Task, TileLines};
 use super::tile_axial::cut_above;
 use crate::base::Progress;
 use crate::stock::tile::TILE_EDGE;
-use crate::stock::tri_dexel::Grid;
 use crate::stock::{DexelGrid, Lattice, TriDexel};
 
-/// Heights above which nothing is left on the ways between the lines along one tool axis.
+pub(super) use self::late::settle_near;
+
+/// What cutting from above along one axis leaves for the next time.
 #[derive(Clone, Debug)]
-pub(in crate::stock) struct Ceilings {
+pub(in crate::stock) struct FromAbove {
     axis: CutAxis,
-    /// By patch; `None` where they are as high as the stock.
-    patches: Vec<Option<Box<PatchCeilings>>>,
+    /// By patch, heights above which nothing is left on the ways between lines; `None` where they are as high as the stock.
+    ceilings: Vec<Option<Arc<PatchCeilings>>>,
+    late: Late,
 }
 
 /// What a task did in a patch.
@@ -58,11 +64,10 @@ pub(in crate::stock::cut) struct Done {
 
 /// The outcome of a run in a patch.
 struct Outcome {
-    /// Lines that were cut, each with the task that went lowest.
-    cut: Vec<(Line, u32)>,
+    /// The tasks that went lowest.
+    winners: Winners,
     done: Vec<Done>,
-    ceilings: Box<PatchCeilings>,
-    claims: [Vec<Claim>; 2],
+    ceilings: Arc<PatchCeilings>,
 }
 
 /// Cuts tasks, in order, up to the first move that has to be looked at line by line; returns its index, and tells by `each` what
@@ -75,23 +80,19 @@ pub(super) fn cut_from_above(
     mut each: impl FnMut(&Done),
 ) -> Option<u32> {
     let lattice = *stock.lattice();
-    let bounds = stock.bounds();
     let along = frame.axes[2].index();
-    let highest = if frame.sign > 0.0 { bounds.max[along] } else { -bounds.min[along] };
-    let mut ceilings = match stock.ceilings.take() {
-        Some(kept) if kept.axis == axis => kept,
-        _ => Ceilings { axis, patches: Vec::new() },
-    };
-    let field = Field::new(&stock.grids[along], &lattice, frame, highest);
+    let field = Field::new(&stock.grids[along], &lattice, frame, stock.bounds());
     let patches = field.patches();
-    ceilings.patches.resize_with(patches[0] * patches[1], || None);
+    let mut above = match stock.above.take() {
+        Some(kept) if kept.axis == axis => kept,
+        _ => FromAbove::new(axis, patches),
+    };
     let bins = field.bins(tasks);
-    let layers = Layers::new(&lattice, frame);
     let run = |patches: &mut dyn Iterator<Item = usize>, limit: &AtomicU32| -> Vec<(usize, Outcome)> {
         let patches: Vec<usize> = patches.collect();
         let one = |patch: usize| {
-            let (bin, known) = (&bins[patch], ceilings.patches[patch].as_deref());
-            Some((patch, pass(&field, (patch, known), (bin, tasks), &layers, limit, progress)?))
+            let (bin, known) = (&bins[patch], above.ceilings[patch].as_deref());
+            Some((patch, pass(&field, (patch, known), (bin, tasks), limit, progress)?))
         };
         patches.into_par_iter().filter_map(one).collect()
     };
@@ -103,7 +104,7 @@ pub(super) fn cut_from_above(
     }
     let stopped = limit.load(Relaxed);
     if stopped == 0 || progress.cancelled() {
-        stock.ceilings = Some(ceilings);
+        stock.above = Some(above);
         return Some(0);
     }
     if stopped < u32::MAX {
@@ -121,18 +122,13 @@ pub(super) fn cut_from_above(
     for done in outcomes.iter().flatten().flat_map(|o| &o.done) {
         each(done);
     }
-    cut_lines(stock, &lattice, along, tasks, &mut outcomes);
-    for grid in &mut stock.grids {
-        if grid.axis != frame.axes[2] {
-            sides::cut_sides(grid, (&lattice, frame), tasks, (&mut outcomes, &ceilings), patches, progress);
-        }
-    }
-    for (kept, outcome) in ceilings.patches.iter_mut().zip(outcomes) {
+    cut_lines(stock, &lattice, along, (tasks, patches), &outcomes);
+    for (kept, outcome) in above.ceilings.iter_mut().zip(outcomes) {
         if let Some(outcome) = outcome {
             *kept = Some(outcome.ceilings);
         }
     }
-    stock.ceilings = Some(ceilings);
+    stock.above = Some(above);
     (stopped < u32::MAX).then_some(stopped)
 }
 
@@ -142,22 +138,19 @@ fn pass(
     field: &Field,
     (patch, known): (usize, Option<&PatchCeilings>),
     (bin, tasks): (&[u32], &[Task]),
-    layers: &Layers,
     limit: &AtomicU32,
     progress: &dyn Progress,
 ) -> Option<Outcome> {
     /// Tasks between two looks whether the caller still waits: a fraction of a millisecond.
     const LOOK: usize = 64;
-    let mut patch = Patch::new(field, patch, known);
+    let mut patch = Patch::new(field, patch, known).with_lines(field);
     let mut all = Vec::new();
-    let mut end = bin.len();
     for (n, index) in bin.iter().enumerate() {
         if n % LOOK == 0 && progress.cancelled() {
             return None;
         }
         let task = &tasks[*index as usize];
         if task.index >= limit.load(Relaxed) {
-            end = n;
             break;
         }
         let Some(done) = patch.take(field, *index, task) else {
@@ -168,19 +161,8 @@ fn pass(
             all.push(done);
         }
     }
-    let ceilings = patch.keep_ceilings();
-    let mut claims = [Vec::new(), Vec::new()];
-    for (n, index) in bin[..end].iter().enumerate() {
-        if n % LOOK == 0 && progress.cancelled() {
-            return None;
-        }
-        let task = &tasks[*index as usize];
-        if !task.watch {
-            patch.claim(layers, *index, task, &mut claims);
-        }
-    }
-    let cut = patch.cut_lines(field);
-    Some(Outcome { cut, done: all, ceilings, claims })
+    let ceilings = Arc::new(patch.kept_ceilings());
+    Some(Outcome { winners: patch.winners(), done: all, ceilings })
 }
 
 /// Cuts the lines along the tool axis, each by one task.
@@ -188,26 +170,41 @@ fn cut_lines(
     stock: &mut TriDexel,
     lattice: &Lattice,
     along: usize,
-    tasks: &[Task],
-    outcomes: &mut [Option<Outcome>],
+    (tasks, patches): (&[Task], [usize; 2]),
+    outcomes: &[Option<Outcome>],
 ) {
+    let (own, edge) = (OWN as usize, TILE_EDGE as usize);
     let grid = &mut stock.grids[along];
-    let mut of_tile: Vec<Vec<(usize, u32)>> = vec![Vec::new(); grid.tiles.len()];
-    for outcome in outcomes.iter_mut().flatten() {
-        for ((tile, line), task) in std::mem::take(&mut outcome.cut) {
-            of_tile[tile].push((line, task));
+    let across = grid.tiles_across().map(|n| n as usize);
+    // A tile has lines of up to two patches along both directions.
+    let mut reached = vec![false; grid.tiles.len()];
+    for (p, _) in outcomes.iter().enumerate().filter(|(_, outcome)| outcome.is_some()) {
+        let tiles = |at: usize, across: usize| at * own / edge..((at * own + own - 1) / edge + 1).min(across);
+        for row in tiles(p / patches[0], across[1]) {
+            for column in tiles(p % patches[0], across[0]) {
+                reached[row * across[0] + column] = true;
+            }
         }
     }
-    let empty = Grid { axis: grid.axis, counts: grid.counts, tiles: Vec::new() };
-    let work = grid.tiles.par_iter_mut().zip(&of_tile).enumerate().filter(|(_, (_, list))| !list.is_empty());
-    work.for_each(|(t, (tile, list))| {
+    let empty = grid.without_lines();
+    let work = grid.tiles.par_iter_mut().enumerate().filter(|(t, _)| reached[*t]);
+    work.for_each(|(t, tile)| {
         let places = TileLines::new(&empty, lattice, t);
-        for (line, task) in list {
-            let task = &tasks[*task as usize];
-            let edge = TILE_EDGE as usize;
-            let (p, q) = (places.at[0][line % edge], places.at[1][line / edge]);
-            let over = if task.frame.sign < 0.0 { DVec2::new(q, p) } else { DVec2::new(p, q) };
-            cut_above(tile, *line, over, task);
+        let (first, size) = empty.tile_lines(t);
+        for j in 0..size[1] as usize {
+            let b = first[1] as usize + j;
+            for i in 0..size[0] as usize {
+                let a = first[0] as usize + i;
+                let Some(outcome) = &outcomes[b / own * patches[0] + a / own] else { continue };
+                let winner = outcome.winners[b % own * own + a % own];
+                if winner == NONE {
+                    continue;
+                }
+                let task = &tasks[winner as usize];
+                let (p, q) = (places.at[0][i], places.at[1][j]);
+                let over = if task.frame.sign < 0.0 { DVec2::new(q, p) } else { DVec2::new(p, q) };
+                cut_above(tile, j * edge + i, over, task);
+            }
         }
     });
 }

@@ -14,7 +14,7 @@ use super::super::effect::Looked;
 use super::super::task::Task;
 use super::Done;
 use super::column::Column;
-use super::field::{Field, Line, rounded};
+use super::field::{Field, rounded};
 use super::sweep::{BLOCK, BlockOf, Sweep, least, most};
 use crate::stock::FIXED_STEP;
 
@@ -34,6 +34,12 @@ pub(super) const ROUNDING: f64 = 2.0 * FIXED_STEP;
 
 /// The task of a line that none has cut.
 const NO_TASK: f64 = -1.0;
+
+/// For each own line of a patch, row by row, a task or [`NONE`].
+pub(super) type Winners = Box<[u32]>;
+
+/// The winner of a line that no task has cut.
+pub(super) const NONE: u32 = u32::MAX;
 
 /// Ceilings of a patch as they are kept between calls: along the first direction across the tool axis and the second, each of
 /// the way to a line from its neighbour before [mm]; rounded upwards.
@@ -100,7 +106,7 @@ pub(super) struct Patch {
 }
 
 impl Patch {
-    /// A patch of a field with its ceilings so far.
+    /// A patch of a field with its ceilings so far, as if no line had material.
     pub(super) fn new(field: &Field, patch: usize, known: Option<&PatchCeilings>) -> Patch {
         let first = field.first(patch);
         let places =
@@ -132,10 +138,6 @@ impl Patch {
         for r in 1..SIDE {
             for c in 1..SIDE {
                 let (l, a, b) = (r * SIDE + c, first[0] + c as i64, first[1] + r as i64);
-                if let Some(line) = field.line(a, b) {
-                    [made.bottom[l], made.top[l]] = field.ends(line);
-                    made.simple &= field.material(line).len() < 2;
-                }
                 for (k, ceilings) in made.ceilings.iter_mut().enumerate() {
                     if field.has_way(k, a, b) {
                         ceilings[l] = known.map_or(field.highest, |known| f64::from(known[k][l]));
@@ -149,14 +151,30 @@ impl Patch {
         made
     }
 
-    /// The ceilings, rounded upwards; those of the patch become the same.
-    pub(super) fn keep_ceilings(&mut self) -> Box<PatchCeilings> {
-        let mut kept = Box::new([[f32::NEG_INFINITY; LINES]; 2]);
-        for (kept, own) in kept.iter_mut().zip(&mut self.ceilings) {
-            for (kept, own) in kept.iter_mut().zip(own.iter_mut()) {
+    /// The patch with the material of its own lines.
+    pub(super) fn with_lines(mut self, field: &Field) -> Patch {
+        for r in 1..SIDE {
+            for c in 1..SIDE {
+                let (l, a, b) = (r * SIDE + c, self.first[0] + c as i64, self.first[1] + r as i64);
+                if let Some(line) = field.line(a, b) {
+                    [self.bottom[l], self.top[l]] = field.ends(line);
+                    self.simple &= field.material(line).len() < 2;
+                }
+            }
+        }
+        for b in 0..BLOCKS {
+            self.hull[b] = self.hull_of(b);
+        }
+        self
+    }
+
+    /// The ceilings, rounded upwards.
+    pub(super) fn kept_ceilings(&self) -> PatchCeilings {
+        let mut kept = [[f32::NEG_INFINITY; LINES]; 2];
+        for (kept, own) in kept.iter_mut().zip(&self.ceilings) {
+            for (kept, own) in kept.iter_mut().zip(own.iter()) {
                 let near = *own as f32;
                 *kept = if f64::from(near) < *own { near.next_up() } else { near };
-                *own = f64::from(*kept);
             }
         }
         kept
@@ -392,13 +410,12 @@ impl Patch {
         }
     }
 
-    /// The lines that were cut, each with the task that went lowest.
-    pub(super) fn cut_lines(&self, field: &Field) -> Vec<(Line, u32)> {
-        let of = |(l, task): (usize, &f64)| {
-            let (c, r) = ((l % SIDE) as i64, (l / SIDE) as i64);
-            Some((field.line(self.first[0] + c, self.first[1] + r)?, *task as u32))
-        };
-        self.task.iter().enumerate().filter(|(_, task)| **task != NO_TASK).filter_map(of).collect()
+    /// For each of its own lines, row by row, the task that went lowest; [`NONE`] where none did.
+    pub(super) fn winners(&self) -> Winners {
+        let of = |task: f64| if task == NO_TASK { NONE } else { task as u32 };
+        (1..SIDE)
+            .flat_map(|r| self.task[r * SIDE + 1..(r + 1) * SIDE].iter().map(move |task| of(*task)))
+            .collect()
     }
 }
 

@@ -1,6 +1,7 @@
 //! Cutting the lines across the tool axis: by the tasks that claim them, then what lies above the ceilings.
 
 use std::ops::Range;
+use std::sync::Arc;
 
 use rayon::prelude::*;
 
@@ -12,7 +13,6 @@ use super::claims::Claim;
 use super::field::OWN;
 use super::layers::Layers;
 use super::patch::{PatchCeilings, SIDE};
-use super::{Ceilings as Before, Outcome};
 use crate::base::Progress;
 use crate::stock::tile::TILE_EDGE;
 use crate::stock::tri_dexel::{Grid, LINE_OFFSET};
@@ -21,25 +21,38 @@ use crate::stock::{Axis, EndPoint, Lattice, fixed};
 /// Ends of what lies above ceilings keep clear of what the tasks leave by this [fixed steps].
 const CLEAR: i32 = 3;
 
-/// Cuts a grid across the tool axis.
-pub(super) fn cut_sides(
+/// Cuts the claims of tasks in a grid across the tool axis.
+pub(super) fn cut_claims(
     grid: &mut Grid,
     (lattice, frame): (&Lattice, &ToolFrame),
-    tasks: &[Task],
-    (outcomes, before): (&mut [Option<Outcome>], &Before),
-    patches: [usize; 2],
+    (tasks, claims): (&[Task], Vec<Claim>),
     progress: &dyn Progress,
 ) {
     let axis = grid.axis;
-    // Lines along the first direction across the tool axis, or the second.
-    let k = usize::from(axis != frame.axes[2].others().0);
     let (rows, heights) = strip_lines(grid, lattice, frame);
-    let mut claims: Vec<Vec<Claim>> = vec![Vec::new(); rows.len().div_ceil(TILE_EDGE as usize)];
-    for outcome in outcomes.iter_mut().flatten() {
-        for claim in std::mem::take(&mut outcome.claims[k]) {
-            claims[(claim.row / TILE_EDGE) as usize].push(claim);
-        }
+    let mut of_strip: Vec<Vec<Claim>> = vec![Vec::new(); rows.len().div_ceil(TILE_EDGE as usize)];
+    for claim in claims {
+        of_strip[(claim.row / TILE_EDGE) as usize].push(claim);
     }
+    let work = strips(grid, frame, &rows, &heights).into_par_iter().zip(of_strip);
+    work.filter(|(_, claims)| !claims.is_empty()).for_each(|(mut strip, mut claims)| {
+        if !progress.cancelled() {
+            claims.sort_unstable();
+            cut_in_strip(&mut strip, axis, tasks, &claims);
+        }
+    });
+}
+
+/// Takes what lies above the ceilings out of the lines of a grid, in bands of patches; `before` are the ceilings of the last time.
+pub(super) fn clear(
+    grid: &mut Grid,
+    (lattice, frame): (&Lattice, &ToolFrame),
+    (now, before): (&[Option<Arc<PatchCeilings>>], &[Option<Arc<PatchCeilings>>]),
+    (patches, bands): ([usize; 2], &Range<usize>),
+    progress: &dyn Progress,
+) {
+    let axis = grid.axis;
+    let k = direction(axis, frame);
     let layers = Layers::new(lattice, frame);
     let mut ends: Vec<i32> = (-1..=i64::from(lattice.counts[axis.index()]))
         .map(|i| fixed(lattice.origin[axis.index()] + i as f64 * lattice.step + LINE_OFFSET))
@@ -48,24 +61,17 @@ pub(super) fn cut_sides(
     if let [first, .., last] = &mut ends[..] {
         (*first, *last) = (*first - CLEAR, *last + CLEAR);
     }
-    let across = |p: usize| if k == 0 { p / patches[0] } else { p % patches[0] };
-    let mut reached = vec![false; patches[1 - k]];
-    for (p, _) in outcomes.iter().enumerate().filter(|(_, outcome)| outcome.is_some()) {
-        reached[across(p)] = true;
-    }
-    let ceilings = Ceilings { outcomes, before, patches, reached, k };
-    let work = strips(grid, frame, &rows, &heights).into_par_iter().zip(claims);
-    work.enumerate().for_each(|(s, (mut strip, mut claims))| {
-        if progress.cancelled() {
-            return;
-        }
-        claims.sort_unstable();
-        cut_claims(&mut strip, axis, tasks, &claims);
+    let ceilings = Ceilings { now, before, patches, k };
+    let lower: Vec<bool> =
+        (0..patches[1 - k]).map(|band| bands.contains(&band) && ceilings.are_lower(band)).collect();
+    let (rows, heights) = strip_lines(grid, lattice, frame);
+    let work = strips(grid, frame, &rows, &heights).into_par_iter().enumerate();
+    work.for_each(|(s, mut strip)| {
         let mut clear = Clear { layers: &layers, ends: &ends, starts: vec![0; layers.count()], open: 0..0 };
         let mut ways = Vec::new();
         for row in 0..strip.rows.len() {
             let index = s * TILE_EDGE as usize + row;
-            if ceilings.reach(index) {
+            if lower[index / OWN as usize] && !progress.cancelled() {
                 ceilings.of_row(index, &layers, &mut ways);
                 clear.cut(&mut strip, row, &ways);
             }
@@ -73,8 +79,13 @@ pub(super) fn cut_sides(
     });
 }
 
+/// Direction of lines across the tool axis: along the first direction across it, or the second.
+pub(super) fn direction(axis: Axis, frame: &ToolFrame) -> usize {
+    usize::from(axis != frame.axes[2].others().0)
+}
+
 /// Cuts the tasks in the rows and layers that they claim.
-fn cut_claims(strip: &mut Strip, axis: Axis, tasks: &[Task], claims: &[Claim]) {
+fn cut_in_strip(strip: &mut Strip, axis: Axis, tasks: &[Task], claims: &[Claim]) {
     for of_task in claims.chunk_by(|a, b| a.task == b.task) {
         let view = Strip::view(axis, &tasks[of_task[0].task as usize]);
         for of_row in of_task.chunk_by(|a, b| a.row == b.row) {
@@ -93,11 +104,9 @@ fn cut_claims(strip: &mut Strip, axis: Axis, tasks: &[Task], claims: &[Claim]) {
 
 /// The ceilings of a grid's ways.
 struct Ceilings<'a> {
-    outcomes: &'a [Option<Outcome>],
-    before: &'a Before,
+    now: &'a [Option<Arc<PatchCeilings>>],
+    before: &'a [Option<Arc<PatchCeilings>>],
     patches: [usize; 2],
-    /// By row of patches: a task came into one of them.
-    reached: Vec<bool>,
     k: usize,
 }
 
@@ -112,21 +121,36 @@ struct Way {
 }
 
 impl Ceilings<'_> {
-    /// True if tasks came into patches that a row runs through.
-    fn reach(&self, row: usize) -> bool {
-        self.reached[row / OWN as usize]
+    /// Index of a patch of a band.
+    fn patch(&self, band: usize, q: usize) -> usize {
+        if self.k == 0 { band * self.patches[0] + q } else { q * self.patches[0] + band }
     }
 
-    /// The ways of a row that tasks came to.
+    /// True if a patch is as it was the last time.
+    fn is_old(&self, patch: usize) -> bool {
+        match (&self.now[patch], &self.before[patch]) {
+            (Some(now), Some(before)) => Arc::ptr_eq(now, before),
+            (now, _) => now.is_none(),
+        }
+    }
+
+    /// True if there are new ceilings in a band.
+    fn are_lower(&self, band: usize) -> bool {
+        (0..self.patches[self.k]).any(|q| !self.is_old(self.patch(band, q)))
+    }
+
+    /// The ways of a row that have new ceilings.
     fn of_row(&self, row: usize, layers: &Layers, ways: &mut Vec<Way>) {
         let own = OWN as usize;
-        let (p, within) = (row / own, row % own + 1);
+        let (band, within) = (row / own, row % own + 1);
         ways.clear();
         for q in 0..self.patches[self.k] {
-            let patch = if self.k == 0 { p * self.patches[0] + q } else { q * self.patches[0] + p };
-            let Some(outcome) = &self.outcomes[patch] else { continue };
-            let ceilings: &PatchCeilings = &outcome.ceilings;
-            let before = self.before.patches[patch].as_deref();
+            let patch = self.patch(band, q);
+            if self.is_old(patch) {
+                continue;
+            }
+            let Some(ceilings) = &self.now[patch] else { continue };
+            let before = self.before[patch].as_deref();
             for i in 1..SIDE {
                 let l = if self.k == 0 { within * SIDE + i } else { i * SIDE + within };
                 let ceiling = ceilings[self.k][l];

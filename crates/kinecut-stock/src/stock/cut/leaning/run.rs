@@ -1,9 +1,11 @@
 //! Moves of tools that lean or turn: long runs of which only the outcome counts at once, the others in order.
 
+use std::ops::Range;
+
+use super::super::MoveEffect;
 use super::super::effect::Sum;
+use super::super::list::CutList;
 use super::super::run::Order;
-use super::super::task::Tool;
-use super::super::{CutMove, CutOptions, MoveEffect};
 use super::at_once::{Cells, LEAST, cut_at_once, may_be_cut_at_once};
 use super::task::Batch;
 use super::tiles::cut_in_order;
@@ -14,16 +16,16 @@ use crate::stock::{DexelGrid, TriDexel};
 pub(in super::super) fn cut_leaning(
     stock: &mut TriDexel,
     order: Order,
-    tools: &[Tool],
-    moves: &[CutMove],
-    options: &CutOptions,
+    list: &CutList,
+    moves: Range<usize>,
     effects: &mut Vec<MoveEffect>,
     progress: &dyn Progress,
 ) -> Result<()> {
     let step = stock.lattice().step;
-    let mut next = 0;
-    while next < moves.len() {
-        let batch = Batch::new(stock, tools, &moves[next..], effects.len(), options);
+    stock.settle(progress);
+    let mut next = moves.start;
+    while next < moves.end {
+        let batch = Batch::new(stock, list, next..moves.end);
         let mut sums: Vec<Sum> = batch.moves.iter().map(|_| Sum::new(true)).collect();
         let at_once = match order {
             Order::InRuns if batch.tasks.len() >= LEAST => {

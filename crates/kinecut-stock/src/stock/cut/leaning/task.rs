@@ -1,10 +1,13 @@
 //! Spans of moves with their tools, and moves made ready.
 
+use std::ops::Range;
+
 use glam::DVec3;
 
 use super::super::body::RevolvedParts;
+use super::super::list::CutList;
 use super::super::task::{Tool, beside};
-use super::super::{CutMove, CutOptions, Stance};
+use super::super::{CutMove, Stance};
 use super::hollow::Plunge;
 use super::span::spans;
 use super::swept::SpanPoses;
@@ -54,18 +57,12 @@ pub(super) struct Batch<'a> {
 }
 
 impl<'a> Batch<'a> {
-    /// Of moves, as many as there is room for; `first` is the number of moves before them.
-    pub(super) fn new(
-        stock: &TriDexel,
-        tools: &'a [Tool],
-        moves: &'a [CutMove],
-        first: usize,
-        options: &CutOptions,
-    ) -> Batch<'a> {
+    /// Of a range of moves, as many as there is room for.
+    pub(super) fn new(stock: &TriDexel, list: &'a CutList, range: Range<usize>) -> Batch<'a> {
+        let (first, moves) = (list.cut(range.start), &list.moves[range]);
         let step = stock.lattice().step;
         let margin = beside(step).unwrap_or(0.0);
         let within = stock.bounds().grown(step);
-        let first = options.first_cut.wrapping_add(first as u32).wrapping_add(1);
         let mut batch =
             Batch { moves: &[], first, tasks: vec![], errors: vec![], filled: vec![], main: vec![] };
         for (i, one) in moves.iter().enumerate() {
@@ -73,7 +70,7 @@ impl<'a> Batch<'a> {
                 break;
             }
             let Stance::Leaning(motion) = &one.stance else { break };
-            let tool = &tools[one.body as usize];
+            let tool = &list.tools[one.body as usize];
             let all = [&tool.cutting, &tool.shank, &tool.holder];
             let reach: f64 = all.iter().map(|b| b.top.max(-b.bottom).max(0.0) + b.radius).fold(0.0, f64::max);
             let thinnest = tool.cutting.parts.iter().map(|p| p.r1).fold(f64::INFINITY, f64::min);
@@ -81,9 +78,9 @@ impl<'a> Batch<'a> {
                 let swept = ends.map(|pose| bounds(pose.translation, pose.rotation.z_axis, &all));
                 !swept[0].union(swept[1]).grown(off + margin).meets(within)
             };
-            let (list, mut error) = spans(motion, reach, thinnest.max(LEAST_TRAVEL), is_far);
+            let (spans, mut error) = spans(motion, reach, thinnest.max(LEAST_TRAVEL), is_far);
             let mut filled = false;
-            for span in list {
+            for span in spans {
                 let poses = SpanPoses::new(span);
                 let middle = &poses.poses[1];
                 let bounds = bounds(middle.tip, middle.axis, &all).grown(span.stray(reach) + margin);
@@ -95,7 +92,7 @@ impl<'a> Batch<'a> {
                 filled |= tool.hollow.is_some() && plunge.is_none();
                 batch.tasks.push(SpanTask {
                     plunge,
-                    clearance: options.clearance,
+                    clearance: list.options.clearance,
                     before: middle.tip_rate.dot(middle.axis) > 0.0,
                     bend: span.bend(reach),
                     travel: 2.0 * span.stray(reach),
@@ -116,7 +113,7 @@ impl<'a> Batch<'a> {
     }
 
     /// The spans of a range of moves.
-    pub(super) fn tasks_of(&self, moves: std::ops::Range<usize>) -> &[SpanTask<'a>] {
+    pub(super) fn tasks_of(&self, moves: Range<usize>) -> &[SpanTask<'a>] {
         let at = |index: usize| self.tasks.partition_point(|t| (t.index as usize) < index);
         &self.tasks[at(moves.start)..at(moves.end)]
     }

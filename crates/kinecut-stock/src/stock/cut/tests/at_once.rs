@@ -9,7 +9,6 @@ use super::in_two_ways::{compare, compare_lines};
 use super::reference::Random;
 use crate::base::Silent;
 use crate::geom::{Aabb, Arc, Curve, Line, Profile};
-use crate::stock::cut::run::{Order, cut_as};
 use crate::stock::cut::{BodyContact, CutMove, CutOptions, MoveEffect, ToolBody};
 use crate::stock::{Interval, TriDexel};
 use crate::sweep::ToolMotion;
@@ -146,7 +145,7 @@ fn the_lines_are_the_same_with_any_number_of_threads() {
         let mut stock = TriDexel::from_box(block(), 0.2).unwrap();
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
         let bodies = [body.clone()];
-        let cut = || cut_as(&mut stock, &bodies, &moves, &CutOptions::default(), Order::InRuns, &Silent);
+        let cut = || crate::stock::cut::cut(&mut stock, &bodies, &moves, &CutOptions::default(), &Silent);
         let effects = pool.install(cut).unwrap();
         (stock, effects)
     };

@@ -2,7 +2,7 @@
 
 use crate::base::Silent;
 use crate::stock::cut::run::{Order, cut_as};
-use crate::stock::cut::{CutMove, CutOptions, MoveEffect, ToolBody};
+use crate::stock::cut::{CutList, CutMove, CutOptions, MoveEffect, ToolBody};
 use crate::stock::{Axis, DexelGrid, Interval, TriDexel};
 
 /// Cuts a stock in runs and move after move, and compares all lines; returns the effects of both.
@@ -13,9 +13,11 @@ pub(super) fn compare(
     what: &str,
     is_same: fn(&[Interval], &[Interval]) -> bool,
 ) -> [Vec<MoveEffect>; 2] {
+    let step = stock.lattice().step;
+    let list = CutList::new(bodies, moves.to_vec(), &CutOptions::default(), step).unwrap();
     let cut = [Order::InRuns, Order::OneByOne].map(|order| {
         let mut stock = stock.clone();
-        let effects = cut_as(&mut stock, bodies, moves, &CutOptions::default(), order, &Silent).unwrap();
+        let effects = cut_as(&mut stock, &list, 0..moves.len(), order, &Silent).unwrap();
         (stock, effects)
     });
     compare_lines([&cut[0].0, &cut[1].0], what, is_same);

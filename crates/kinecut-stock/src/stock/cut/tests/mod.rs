@@ -7,5 +7,6 @@ mod closed_forms;
 mod from_above;
 mod hollow;
 mod in_two_ways;
+mod late;
 mod leaning;
 mod reference;

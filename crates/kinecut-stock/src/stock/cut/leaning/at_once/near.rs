@@ -124,8 +124,7 @@ impl<'a> SweptPart<'a> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::super::super::task::Tool;
-    use super::super::super::super::{CutMove, CutOptions, ToolBody};
+    use super::super::super::super::{CutList, CutMove, CutOptions, ToolBody};
     use super::super::super::task::Batch;
     use super::super::cells::Cells;
     use super::*;
@@ -144,9 +143,10 @@ mod tests {
         let bounds = Aabb { min: DVec3::splat(-8.0), max: DVec3::splat(8.0) };
         let stock = TriDexel::from_box(bounds, 0.25).unwrap();
         let options = CutOptions::default();
-        let tools = [Tool::new(&ToolBody::new(profile.clone()), &options, 0.25)];
-        let moves = [CutMove::leaning(motion.clone(), curve, 0)];
-        let batch = Batch::new(&stock, &tools, &moves, 0, &options);
+        let bodies = [ToolBody::new(profile.clone())];
+        let moves = vec![CutMove::leaning(motion.clone(), curve, 0)];
+        let list = CutList::new(&bodies, moves, &options, 0.25).unwrap();
+        let batch = Batch::new(&stock, &list, 0..1);
         let cells = Cells::new(&stock);
         let (mut least, mut held) = (f64::INFINITY, 0);
         for (task, part) in batch.tasks.iter().flat_map(|t| t.tool.cutting.parts.iter().map(move |p| (t, p)))
