@@ -71,8 +71,9 @@ impl Patch {
         let mut below = [0.0; BLOCK];
         for r in r0..r0 + BLOCK {
             let (at, start) = (height_at(r, c0), r * SIDE + c0);
-            let [before, from, to, behind] =
-                [at - 2 * back, at - back, at, at + back].map(|at| row_at(&self.heights[..], at));
+            let heights = &self.heights[..];
+            let (before, from) = (row_at(heights, at - 2 * back), row_at(heights, at - back));
+            let (to, behind) = (row_at(heights, at), row_at(heights, at + back));
             let ceilings = row_at(&self.ceilings[k][..], start);
             let mut lows = [0.0; BLOCK];
             for c in 0..BLOCK {

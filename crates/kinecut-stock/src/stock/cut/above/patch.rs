@@ -236,7 +236,7 @@ impl Patch {
 
     #[inline(always)]
     fn places(&self, (c, r): (usize, usize)) -> [[f64; BLOCK]; 2] {
-        [std::array::from_fn(|i| self.x[c + i]), std::array::from_fn(|i| self.y[r + i])]
+        [row_at(&self.x, c), row_at(&self.y, r)]
     }
 
     #[inline(always)]
@@ -349,29 +349,41 @@ impl Patch {
         // The part made smaller by the clearance passes higher by the clearance at least.
         let clearance = task.clearance / FIXED_STEP - 1.0;
         let told = |overlap: f64, done: &Done| overlap > clearance && overlap > done.deepest as f64;
-        if greatest > 0.0 && (!self.simple || told(greatest, done)) {
-            for i in 0..BLOCK * BLOCK {
-                let (r, c) = (r0 + i / BLOCK, c0 + i % BLOCK);
-                let overlap = self.overlap[r * SIDE + c];
-                if overlap == 0.0 {
-                    continue;
-                }
-                let Some(line) = field.line(self.first[0] + c as i64, self.first[1] + r as i64) else {
-                    continue;
-                };
-                let floor = self.top[r * SIDE + c];
-                let over = Sweep::exchanged(task, DVec2::new(self.x[c], self.y[r]));
-                let column = Column { over, floor: floor as i32, top: (floor + overlap) as i32 };
-                let mut taken = overlap as i64;
-                if !self.simple {
-                    taken = column.taken(field.material(line), task);
-                    done.removed += taken;
-                }
-                if told(overlap, done) {
-                    column.note(field.material(line), taken, task, done);
-                }
+        if greatest == 0.0 || (self.simple && !told(greatest, done)) {
+            return;
+        }
+        // The deepest first: after it no other one has to be told.
+        let at = |i: usize| (r0 + i / BLOCK, c0 + i % BLOCK);
+        let deepest = |i: &usize| self.overlap_at(at(*i)) == greatest;
+        let first = (0..BLOCK * BLOCK).find(deepest).unwrap_or(0);
+        for i in std::iter::once(first).chain((0..BLOCK * BLOCK).filter(|i| *i != first)) {
+            let (r, c) = at(i);
+            let overlap = self.overlap_at((r, c));
+            if overlap == 0.0 || (self.simple && !told(overlap, done)) {
+                continue;
+            }
+            let Some(line) = field.line(self.first[0] + c as i64, self.first[1] + r as i64) else {
+                continue;
+            };
+            let floor = self.top[r * SIDE + c];
+            let over = Sweep::exchanged(task, DVec2::new(self.x[c], self.y[r]));
+            let column = Column { over, floor: floor as i32, top: (floor + overlap) as i32 };
+            let mut taken = overlap as i64;
+            if !self.simple {
+                taken = column.taken(field.material(line), task);
+                done.removed += taken;
+            }
+            if told(overlap, done) {
+                column.note(field.material(line), taken, task, done);
+            }
+            if self.simple && !told(greatest, done) {
+                break;
             }
         }
+    }
+
+    fn overlap_at(&self, (r, c): (usize, usize)) -> f64 {
+        self.overlap[r * SIDE + c]
     }
 
     /// Lowers the ceilings of a block to where a part has taken both ends of a way, and all between.
@@ -381,7 +393,9 @@ impl Patch {
         let [along, up] = &mut self.ceilings;
         for r in r0..r0 + BLOCK {
             let (start, at) = (r * SIDE + c0, height_at(r, c0));
-            let [here, left, below] = [at, at - 1, at - HEIGHTS].map(|at| row_at(heights, at));
+            // Not by `map`, which does not become part of this.
+            let (here, left, below) =
+                (row_at(heights, at), row_at(heights, at - 1), row_at(heights, at - HEIGHTS));
             let (mut a, mut u) = (row_at(&along[..], start), row_at(&up[..], start));
             for c in 0..BLOCK {
                 a[c] = least(a[c], most(here[c], left[c]));
