@@ -1,7 +1,7 @@
 //! A tile: 16 x 16 neighbouring lines of one direction, the unit of work and of memory of the stock.
 //!
-//! A line holds up to two intervals in place; a line with more keeps them in a run of the tile's arena. A tile
-//! whose lines are all alike (raw stock) holds one line only, until one of them is changed.
+//! A line holds one interval in place, or up to two in a tile where one has ever had two; a line with more keeps them in a run of
+//! the tile's arena. A tile whose lines are all alike (raw stock) holds one line only, until one of them is changed.
 
 use super::{EndPoint, Interval};
 
@@ -9,7 +9,7 @@ use super::{EndPoint, Interval};
 pub(crate) const TILE_EDGE: u32 = 16;
 /// Lines of a tile.
 pub(crate) const TILE_LINES: usize = (TILE_EDGE * TILE_EDGE) as usize;
-/// Intervals held in place.
+/// Most intervals held in place.
 const IN_PLACE: usize = 2;
 
 /// Intervals of one line in the arena.
@@ -26,9 +26,11 @@ pub(crate) struct Tile {
     /// The line that all are like, while `heads` is empty.
     alike: Option<Interval>,
     /// Per line: number of intervals in place, or `IN_PLACE + 1` + index of its run.
-    heads: Vec<u32>,
-    /// Intervals in place.
-    places: Vec<[Interval; IN_PLACE]>,
+    heads: Vec<u16>,
+    /// Intervals in place, `room` for each line.
+    places: Vec<Interval>,
+    /// Intervals that a line may have in place: one or two.
+    room: u8,
     runs: Vec<Run>,
     /// Indices of runs that no line uses.
     idle: Vec<u32>,
@@ -38,7 +40,7 @@ pub(crate) struct Tile {
 impl Tile {
     /// Bytes of a tile without arena, all lines apart.
     pub(crate) const BYTES: usize =
-        size_of::<Tile>() + TILE_LINES * (size_of::<u32>() + size_of::<[Interval; IN_PLACE]>());
+        size_of::<Tile>() + TILE_LINES * (size_of::<u16>() + size_of::<[Interval; IN_PLACE]>());
 
     /// A tile of equal lines.
     pub(crate) fn of(alike: Option<Interval>) -> Tile {
@@ -46,6 +48,7 @@ impl Tile {
             alike,
             heads: Vec::new(),
             places: Vec::new(),
+            room: 1,
             runs: Vec::new(),
             idle: Vec::new(),
             arena: Vec::new(),
@@ -56,7 +59,9 @@ impl Tile {
     pub(crate) fn line(&self, line: usize) -> &[Interval] {
         match self.heads.get(line) {
             None => self.alike.as_slice(),
-            Some(&head) if head as usize <= IN_PLACE => &self.places[line][..head as usize],
+            Some(&head) if head as usize <= IN_PLACE => {
+                &self.places[line * self.room as usize..][..head as usize]
+            }
             Some(&head) => {
                 let run = self.runs[head as usize - IN_PLACE - 1];
                 &self.arena[run.start as usize..][..run.len as usize]
@@ -91,8 +96,9 @@ impl Tile {
             if head > IN_PLACE {
                 self.idle.push((head - IN_PLACE - 1) as u32);
             }
-            self.places[line][..intervals.len()].copy_from_slice(intervals);
-            self.heads[line] = intervals.len() as u32;
+            self.make_room(intervals.len());
+            self.places[line * self.room as usize..][..intervals.len()].copy_from_slice(intervals);
+            self.heads[line] = intervals.len() as u16;
             return;
         }
         let run = if head > IN_PLACE {
@@ -103,7 +109,7 @@ impl Tile {
             self.runs.push(Run::default());
             self.runs.len() - 1
         };
-        self.heads[line] = (run + IN_PLACE + 1) as u32;
+        self.heads[line] = (run + IN_PLACE + 1) as u16;
         if (self.runs[run].room as usize) < intervals.len() {
             let room = intervals.len().next_power_of_two();
             self.runs[run] = Run { start: self.arena.len() as u32, len: 0, room: room as u32 };
@@ -126,16 +132,16 @@ impl Tile {
             // Nearly all calls.
             let (from, to) = (i.lo.at.max(lo.at), i.hi.at.min(hi.at));
             self.part();
-            let place = &mut self.places[line];
-            let left = i.lo.at < lo.at;
+            let (left, right) = (i.lo.at < lo.at, hi.at < i.hi.at);
+            self.make_room(usize::from(left) + usize::from(right));
+            let place = line * self.room as usize;
             if left {
-                place[0] = Interval { lo: i.lo, hi: lo };
+                self.places[place] = Interval { lo: i.lo, hi: lo };
             }
-            let right = hi.at < i.hi.at;
             if right {
-                place[usize::from(left)] = Interval { lo: hi, hi: i.hi };
+                self.places[place + usize::from(left)] = Interval { lo: hi, hi: i.hi };
             }
-            self.heads[line] = u32::from(left) + u32::from(right);
+            self.heads[line] = u16::from(left) + u16::from(right);
             return i64::from(to) - i64::from(from);
         }
         let mut kept = [Interval::default(); 8];
@@ -184,8 +190,16 @@ impl Tile {
     fn part(&mut self) {
         if self.is_alike() {
             let first = self.alike.unwrap_or_default();
-            self.heads = vec![u32::from(self.alike.is_some()); TILE_LINES];
-            self.places = vec![[first, Interval::default()]; TILE_LINES];
+            self.heads = vec![u16::from(self.alike.is_some()); TILE_LINES];
+            self.places = vec![first; TILE_LINES];
+        }
+    }
+
+    /// Lets lines have so many intervals in place, if as many may be.
+    fn make_room(&mut self, count: usize) {
+        if count > self.room as usize {
+            self.places = self.places.iter().flat_map(|own| [*own, Interval::default()]).collect();
+            self.room = IN_PLACE as u8;
         }
     }
 
@@ -208,7 +222,7 @@ impl Tile {
         let mut runs = Vec::with_capacity(self.runs.len());
         for head in self.heads.iter_mut().filter(|h| **h as usize > IN_PLACE) {
             let run = self.runs[*head as usize - IN_PLACE - 1];
-            *head = (runs.len() + IN_PLACE + 1) as u32;
+            *head = (runs.len() + IN_PLACE + 1) as u16;
             runs.push(Run { start: arena.len() as u32, ..run });
             arena.extend_from_slice(&self.arena[run.start as usize..][..run.room as usize]);
         }

@@ -36,7 +36,7 @@ const LEAST: f64 = 1e-3;
 /// A job's moves, cores and tools: all that changes the stock, in order.
 pub(super) struct Story<'a> {
     pub(super) job: &'a Job,
-    pub(super) traces: &'a [Trace],
+    pub(super) traces: &'a [&'a Trace],
     /// For each setup, the cores that are taken out.
     pub(super) loose: &'a [Vec<Loose>],
     /// For each setup the moves.

@@ -95,7 +95,7 @@ pub(crate) fn run_checked(
     };
     let mut setups = post(&planned, &head_line(&[]))?;
     still_wanted(progress)?;
-    let traces: Vec<Trace> = setups.iter().map(|s| s.trace.clone()).collect();
+    let traces: Vec<&Trace> = setups.iter().map(|s| &s.trace).collect();
     let loose: Vec<Vec<Loose>> =
         setups.iter().enumerate().map(|(i, done)| loose_cores(&job, i, done)).collect();
     let wanted = measure::wanted(&job, &setups);

@@ -54,7 +54,7 @@ pub struct Simulation {
 /// lie along an axis of the part; `KC0801` for a probe of a setup that is not there; errors of the tools' profiles.
 pub fn simulate(
     job: &Job,
-    traces: &[Trace],
+    traces: &[&Trace],
     loose: &[Vec<Loose>],
     probes: &[Probe],
     faces: &[WallProbe],
@@ -110,13 +110,13 @@ pub fn simulate(
     let mut taken = job.drilled.len() as u32;
     let mut first = taken + loose.iter().map(|l| l.len() as u32).sum::<u32>();
     let mut all = Vec::new();
-    for trace in traces {
+    for &trace in traces {
         let options = CutOptions { first_cut: first, ..CutOptions::default() };
         all.push(CutList::new(&bodies, moves(job, trace)?, &options, job.step)?);
         simulation.first_cut.push(first);
         first += trace.segments.len() as u32;
     }
-    for (i, (trace, list)) in traces.iter().zip(&all).enumerate() {
+    for (i, (&trace, list)) in traces.iter().zip(&all).enumerate() {
         let count = list.moves().len();
         progress.stage("cut", count as u64);
         let mut effects = Vec::with_capacity(count);

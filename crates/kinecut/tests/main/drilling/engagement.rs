@@ -323,11 +323,11 @@ fn probes_measure_between_the_holes_of_a_program_and_a_core_can_be_taken_out() {
     ];
     let loose =
         Loose { item: 4, centre: DVec3::new(-10.5, 0.3, 0.0), out: DVec3::Z, diameter: 9.0, depth: 12.0 };
-    let again = simulate(&job, &traces, &[vec![]], &probes, &[], &Silent).unwrap();
+    let again = simulate(&job, &[&traces[0]], &[vec![]], &probes, &[], &Silent).unwrap();
     // Both cores stand.
     assert!((removed(&again) / (2.0 * (hole - core)) - 1.0).abs() < 0.01);
     // To measure changes nothing.
-    let unmeasured = simulate(&job, &traces, &[], &[], &[], &Silent).unwrap();
+    let unmeasured = simulate(&job, &[&traces[0]], &[], &[], &[], &Silent).unwrap();
     assert_eq!((again.stock.volumes(), &again.effects), (unmeasured.stock.volumes(), &unmeasured.effects));
     let shares = |s: &Simulation| -> Vec<f64> { s.engagements.iter().map(|e| e.share(-6.0)).collect() };
     // Solid before each hole; the ring is gone after it, the core is not.
@@ -339,7 +339,7 @@ fn probes_measure_between_the_holes_of_a_program_and_a_core_can_be_taken_out() {
     assert_eq!((stages.len(), stages[0].engaged), (1, Engaged::Fully));
     assert!(stages[0].from.abs() < 1e-9 && (stages[0].to + 12.0).abs() < 1e-9, "{stages:?}");
     // Taken out before the second hole, and before what is measured there.
-    let taken = simulate(&job, &traces, &[vec![loose]], &probes, &[], &Silent).unwrap();
+    let taken = simulate(&job, &[&traces[0]], &[vec![loose]], &probes, &[], &Silent).unwrap();
     assert!(((removed(&taken) - removed(&again)) / core - 1.0).abs() < 0.02);
     let found = shares(&taken);
     assert_eq!(found[..4], [1.0, 1.0, 0.0, 0.0]);
@@ -348,7 +348,7 @@ fn probes_measure_between_the_holes_of_a_program_and_a_core_can_be_taken_out() {
     let deepest = again.effects[0].iter().filter_map(|e| e.core).map(|c| c.depth).fold(0.0, f64::max);
     assert!((deepest - 12.0).abs() < 0.01, "{deepest}");
     let wrong = Probe { setup: 1, ..probe(PLACES[0], 0, edge) };
-    let error = simulate(&job, &traces, &[vec![]], &[wrong], &[], &Silent).unwrap_err();
+    let error = simulate(&job, &[&traces[0]], &[vec![]], &[wrong], &[], &Silent).unwrap_err();
     assert_eq!(error.0.key.as_deref(), Some("probes[0].setup"));
 }
 

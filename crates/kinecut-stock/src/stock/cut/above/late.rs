@@ -18,7 +18,7 @@ use super::FromAbove;
 use super::claims::Claim;
 use super::field::Field;
 use super::layers::Layers;
-use super::patch::{Patch, PatchCeilings};
+use super::patch::{Known, Patch};
 use super::sides::{clear, cut_claims, direction};
 use super::sweep::Sweep;
 use crate::base::Progress;
@@ -47,7 +47,7 @@ pub(super) struct Late {
     /// By direction of the lines, and band: the number of moves that have been paid.
     paid: [Vec<usize>; 2],
     /// By direction and patch: the ceilings at that time, above which the lines were cleared.
-    cleared: [Vec<Option<Arc<PatchCeilings>>>; 2],
+    cleared: [Vec<Known>; 2],
 }
 
 impl FromAbove {

@@ -29,7 +29,7 @@ use rayon::prelude::*;
 
 use self::field::{Field, OWN};
 use self::late::Late;
-use self::patch::{NONE, Patch, PatchCeilings, Winners};
+use self::patch::{Known, NONE, Patch, PatchCeilings, Winners};
 use super::CutAxis;
 use super::axis::ToolFrame;
 use super::task::{Task, TileLines};
@@ -45,7 +45,7 @@ pub(super) use self::late::settle_near;
 pub(in crate::stock) struct FromAbove {
     axis: CutAxis,
     /// By patch, heights above which nothing is left on the ways between lines; `None` where they are as high as the stock.
-    ceilings: Vec<Option<Arc<PatchCeilings>>>,
+    ceilings: Vec<Known>,
     late: Late,
 }
 

@@ -5,6 +5,7 @@
 //! between. Tasks come in order. Blocks of 8 x 8 lines are left out where a bound says that a task goes nowhere lower.
 
 use std::f64::consts::SQRT_2;
+use std::sync::Arc;
 
 use glam::DVec2;
 use pulp::{Arch, NullaryFnOnce};
@@ -44,6 +45,9 @@ pub(super) const NONE: u32 = u32::MAX;
 /// Ceilings of a patch as they are kept between calls: along the first direction across the tool axis and the second, each of
 /// the way to a line from its neighbour before [mm]; rounded upwards.
 pub(in crate::stock) type PatchCeilings = [[f32; LINES]; 2];
+
+/// Ceilings of a patch, shared by the times at which they were the same; `None` where they are as high as the stock.
+pub(super) type Known = Option<Arc<PatchCeilings>>;
 
 /// Index of the height over a line in row `r` and column `c`.
 #[inline(always)]

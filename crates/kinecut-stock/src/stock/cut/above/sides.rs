@@ -12,7 +12,7 @@ use super::super::task::Task;
 use super::claims::Claim;
 use super::field::OWN;
 use super::layers::Layers;
-use super::patch::{PatchCeilings, SIDE};
+use super::patch::{Known, SIDE};
 use crate::base::Progress;
 use crate::stock::tile::TILE_EDGE;
 use crate::stock::tri_dexel::{Grid, LINE_OFFSET};
@@ -47,7 +47,7 @@ pub(super) fn cut_claims(
 pub(super) fn clear(
     grid: &mut Grid,
     (lattice, frame): (&Lattice, &ToolFrame),
-    (now, before): (&[Option<Arc<PatchCeilings>>], &[Option<Arc<PatchCeilings>>]),
+    (now, before): (&[Known], &[Known]),
     (patches, bands): ([usize; 2], &Range<usize>),
     progress: &dyn Progress,
 ) {
@@ -104,8 +104,8 @@ fn cut_in_strip(strip: &mut Strip, axis: Axis, tasks: &[Task], claims: &[Claim])
 
 /// The ceilings of a grid's ways.
 struct Ceilings<'a> {
-    now: &'a [Option<Arc<PatchCeilings>>],
-    before: &'a [Option<Arc<PatchCeilings>>],
+    now: &'a [Known],
+    before: &'a [Known],
     patches: [usize; 2],
     k: usize,
 }
