@@ -69,6 +69,18 @@ impl Tile {
         }
     }
 
+    /// The intervals of a line of its own.
+    fn line_mut(&mut self, line: usize) -> &mut [Interval] {
+        self.part();
+        match self.heads[line] as usize {
+            head if head <= IN_PLACE => &mut self.places[line * self.room as usize..][..head],
+            head => {
+                let run = self.runs[head - IN_PLACE - 1];
+                &mut self.arena[run.start as usize..][..run.len as usize]
+            }
+        }
+    }
+
     /// True if all lines are alike.
     pub(crate) fn is_alike(&self) -> bool {
         self.heads.is_empty()
@@ -122,10 +134,19 @@ impl Tile {
     }
 
     /// Takes the material from `lo.at` to `hi.at` out of a line; the new ends of what remains get normal, class
-    /// and cut of `lo` and `hi`. Returns the length removed [fixed steps].
+    /// and cut of `lo` and `hi`. An end that two moves leave is that of the earlier one, in whichever order they come. Returns the length
+    /// removed [fixed steps].
     pub(crate) fn subtract(&mut self, line: usize, lo: EndPoint, hi: EndPoint) -> i64 {
         let old = self.line(line);
-        if !old.iter().any(|i| i.lo.at < hi.at && lo.at < i.hi.at) || lo.at >= hi.at {
+        if lo.at >= hi.at {
+            return 0;
+        }
+        if !old.iter().any(|i| i.lo.at < hi.at && lo.at < i.hi.at) {
+            if old.iter().any(|i| is_later(&i.lo, &hi) || is_later(&i.hi, &lo)) {
+                for i in self.line_mut(line) {
+                    *i = kept_beside(i, lo, hi);
+                }
+            }
             return 0;
         }
         if let &[i] = old {
@@ -156,7 +177,7 @@ impl Tile {
         for i in old {
             let (from, to) = (i.lo.at.max(lo.at), i.hi.at.min(hi.at));
             if from >= to {
-                kept[n] = *i;
+                kept[n] = kept_beside(i, lo, hi);
                 n += 1;
                 continue;
             }
@@ -231,6 +252,19 @@ impl Tile {
     }
 }
 
+/// True if an end was left by a later move than a new one in the same place.
+fn is_later(old: &EndPoint, new: &EndPoint) -> bool {
+    old.at == new.at && 0 < new.cut && new.cut < old.cut
+}
+
+/// An interval beside a stretch that is taken out.
+fn kept_beside(i: &Interval, lo: EndPoint, hi: EndPoint) -> Interval {
+    Interval {
+        lo: if is_later(&i.lo, &hi) { hi } else { i.lo },
+        hi: if is_later(&i.hi, &lo) { lo } else { i.hi },
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -270,6 +304,34 @@ mod tests {
                 }
             }
             prop_assert_eq!(tile.line(200).len(), 1);
+        }
+    }
+
+    #[test]
+    fn an_end_left_twice_is_that_of_the_earlier_cut() {
+        let full = Interval { lo: end(0, 0), hi: end(100, 0) };
+        // On a line with one interval, two, and more.
+        for holes in [&[][..], &[60], &[60, 70, 80]] {
+            let made = [(4, 9), (9, 4)].map(|(first, second)| {
+                let mut tile = Tile::of(Some(full));
+                for hole in holes {
+                    tile.subtract(5, end(*hole, 2), end(hole + 4, 2));
+                }
+                assert_eq!(tile.subtract(5, end(20, first), end(30, first)), 10);
+                assert_eq!(tile.subtract(5, end(20, second), end(25, second)), 0);
+                assert_eq!(tile.subtract(5, end(25, second), end(30, second)), 0);
+                // What is known to be void, and the face of the raw stock, belong to no move.
+                tile.subtract(5, end(20, 0), end(30, 0));
+                tile.subtract(5, end(-9, 1), end(0, 1));
+                assert_eq!(
+                    tile.subtract(5, end(20, second), end(62, second)),
+                    if holes.is_empty() { 32 } else { 30 }
+                );
+                tile.line(5).iter().map(|i| (i.lo.at, i.lo.cut, i.hi.at, i.hi.cut)).collect::<Vec<_>>()
+            });
+            for line in &made {
+                assert_eq!((line[0].1, line[0].2, line[0].3), (0, 20, 4), "{made:?}");
+            }
         }
     }
 

@@ -197,6 +197,11 @@ fn lesser(a: i64, b: i64) -> i64 {
     if a == 0 || b == 0 { a.max(b) } else { a.min(b) }
 }
 
+/// True if a line has material between two coordinates, or ends at one of them: an end that an earlier move leaves as well.
+pub(super) fn reaches(line: &[Interval], lo: i32, hi: i32) -> bool {
+    line.iter().any(|i| i.lo.at <= hi && lo <= i.hi.at)
+}
+
 /// Length of the material of a line between two coordinates, and the ends of what is met.
 pub(super) fn met(line: &[Interval], lo: i32, hi: i32) -> (i64, i32, i32) {
     let (mut length, mut first, mut last) = (0, i32::MAX, i32::MIN);

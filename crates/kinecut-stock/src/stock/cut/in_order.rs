@@ -1,6 +1,7 @@
 //! Upright tools line by line in the order of the moves: tasks to tiles and strips, these to threads.
 
 use std::f64::consts::SQRT_2;
+use std::ops::Range;
 
 use glam::DVec2;
 use rayon::prelude::*;
@@ -105,7 +106,8 @@ fn cut_strips(
 ) {
     let axis = grid.axis;
     let (rows, heights) = strip_lines(grid, lattice, frame);
-    let done: Vec<Effects> = strips(grid, frame, &rows, &heights)
+    let some = reached(axis, &rows, tasks);
+    let done: Vec<Effects> = strips(grid, frame, (&rows, &heights), some)
         .into_par_iter()
         .map(|mut strip| {
             let mut effects = Effects::default();
@@ -134,21 +136,35 @@ pub(super) fn strip_lines(grid: &Grid, lattice: &Lattice, frame: &ToolFrame) -> 
     (coordinates(side), coordinates(frame.axes[2]))
 }
 
-/// The strips of a grid across the tool axis, in the order of its rows.
+/// Some strips of a grid across the tool axis, in the order of its rows.
 pub(super) fn strips<'a>(
     grid: &'a mut Grid,
     frame: &ToolFrame,
-    rows: &[f64],
-    heights: &'a [f64],
+    (rows, heights): (&[f64], &'a [f64]),
+    some: Range<usize>,
 ) -> Vec<Strip<'a>> {
     let up = usize::from(grid.axis.others().0 != frame.axes[2]);
-    let across = grid.tiles_across();
+    let across = grid.tiles_across()[0] as usize;
     let mut columns: Vec<Vec<&mut Tile>> = Vec::new();
-    columns.resize_with(across[1 - up] as usize, Vec::new);
+    columns.resize_with(some.len(), Vec::new);
     for (t, tile) in grid.tiles.iter_mut().enumerate() {
-        let place = [t % across[0] as usize, t / across[0] as usize];
-        columns[place[1 - up]].push(tile);
+        let place = [t % across, t / across];
+        if let Some(column) = place[1 - up].checked_sub(some.start).and_then(|c| columns.get_mut(c)) {
+            column.push(tile);
+        }
     }
-    let rows = rows.chunks(TILE_EDGE as usize);
+    let rows = rows.chunks(TILE_EDGE as usize).skip(some.start);
     columns.into_iter().zip(rows).map(|(tiles, rows)| Strip::new(tiles, up, rows, heights)).collect()
+}
+
+/// The strips that tasks may reach.
+fn reached(axis: Axis, rows: &[f64], tasks: &[Task]) -> Range<usize> {
+    let edge = TILE_EDGE as usize;
+    let (mut first, mut last) = (rows.len(), 0);
+    for task in tasks {
+        let y = Strip::view(axis, task).y;
+        first = first.min(rows.partition_point(|row| *row < y.0 - task.tool.radius));
+        last = last.max(rows.partition_point(|row| *row <= y.1 + task.tool.radius));
+    }
+    if first < last { first / edge..last.div_ceil(edge) } else { 0..0 }
 }

@@ -10,7 +10,7 @@ use super::across::{CoveredSpan, Mark, spans};
 use super::across_slope::{Cut, slope_spans, surface};
 use super::body::{ConvexPart, RevolvedParts};
 use super::edge::from_beside;
-use super::effect::{Effects, Looked, met};
+use super::effect::{Effects, Looked, reaches};
 use super::face::{Station, SweptFace};
 use super::strip::{Strip, View};
 use super::strip_hollow;
@@ -126,7 +126,7 @@ impl Strip<'_> {
         }
         if layers.1 - layers.0 == 1 {
             let (tile, line) = self.place(row, layers.0);
-            if met(self.tiles[tile].line(line), fixed(from), fixed(to)).0 == 0 {
+            if !reaches(self.tiles[tile].line(line), fixed(from), fixed(to)) {
                 return;
             }
         }
@@ -138,7 +138,7 @@ impl Strip<'_> {
             let mut ends = None;
             for layer in layers.0..layers.1 {
                 let (tile, line) = self.place(row, layer);
-                if met(self.tiles[tile].line(line), lo, hi).0 > 0 {
+                if reaches(self.tiles[tile].line(line), lo, hi) {
                     let [lower, upper] =
                         *ends.get_or_insert_with(|| level_ends(view, &section, span, lo, hi));
                     self.tiles[tile].subtract(line, lower, upper);
@@ -164,12 +164,12 @@ impl Strip<'_> {
                     let y = self.rows[row];
                     let Some((from, to)) = view.outer(most, y) else { continue };
                     let (tile, line) = self.place(row, layer);
-                    if met(self.tiles[tile].line(line), fixed(from), fixed(to)).0 == 0 {
+                    if !reaches(self.tiles[tile].line(line), fixed(from), fixed(to)) {
                         continue;
                     }
                     slope_spans(part, piece, &view.plan, y, w, |found| {
                         let (lo, hi) = (fixed(found.span.lo.x), fixed(found.span.hi.x));
-                        if met(self.tiles[tile].line(line), lo, hi).0 == 0 {
+                        if !reaches(self.tiles[tile].line(line), lo, hi) {
                             return;
                         }
                         let end = |at: i32, mark: &Mark, cut: Cut| {

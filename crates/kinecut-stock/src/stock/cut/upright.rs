@@ -3,7 +3,7 @@
 use std::ops::Range;
 use std::sync::Arc;
 
-use super::above::{Done, cut_from_above, settle_near};
+use super::above::{Done, are_clear, cut_from_above, settle_near};
 use super::axis::ToolFrame;
 use super::effect::Sum;
 use super::hollow::standing;
@@ -12,7 +12,7 @@ use super::list::CutList;
 use super::piece::{MovePiece, pieces};
 use super::run::{BATCH, Order};
 use super::task::Task;
-use super::{CutAxis, MoveEffect};
+use super::{CutAxis, CutMove, MoveEffect};
 use crate::base::{Code, Finding, Progress, Result};
 use crate::stock::{DexelGrid, FIXED_STEP, TriDexel};
 
@@ -51,6 +51,59 @@ impl<'a> Batch<'a> {
         let at = |index: usize| self.tasks.partition_point(|t| (t.index as usize) < index);
         &self.tasks[at(moves.start)..at(moves.end)]
     }
+
+    /// Cuts a range of moves line by line and tells what they do.
+    fn cut_in_order(
+        &self,
+        stock: &mut TriDexel,
+        frame: &ToolFrame,
+        moves: Range<usize>,
+        progress: &dyn Progress,
+    ) -> Vec<MoveEffect> {
+        let mut sums: Vec<Sum> = moves.clone().map(|_| Sum::new(false)).collect();
+        let mut tasks = self.tasks_of(moves.clone()).to_vec();
+        for task in &mut tasks {
+            task.index -= moves.start as u32;
+        }
+        settle_near(stock, &tasks, progress);
+        cut_in_order(stock, frame, &tasks, &mut sums, progress);
+        let step = stock.lattice().step;
+        let told = sums.iter().zip(&self.errors[moves.clone()]).zip(&self.filled[moves]);
+        told.map(|((sum, error), filled)| sum.effect(step, *error, *filled)).collect()
+    }
+}
+
+fn still_wanted(progress: &dyn Progress) -> Result<()> {
+    match progress.cancelled() {
+        true => Err(Finding::error(Code::CANCELLED, "cutting was cancelled").into()),
+        false => Ok(()),
+    }
+}
+
+/// Whether a move may bring its tool below the top of the box of the stock.
+fn goes_below(stock: &TriDexel, frame: &ToolFrame, m: &CutMove) -> bool {
+    let (bounds, path, along) = (stock.bounds(), m.curve.bounds(), frame.axes[2].index());
+    // Whether it may meet something is asked more closely then.
+    let room = 2.0 * stock.lattice().step;
+    match frame.sign > 0.0 {
+        true => path.min[along] - room < bounds.max[along],
+        false => path.max[along] + room > bounds.min[along],
+    }
+}
+
+/// Looks at a move that should meet nothing: line by line where that is not known without.
+fn look(
+    stock: &mut TriDexel,
+    (axis, frame): (CutAxis, &ToolFrame),
+    list: &CutList,
+    at: usize,
+    progress: &dyn Progress,
+) -> MoveEffect {
+    let batch = Batch::new(list, at..at + 1, frame);
+    if are_clear(stock, (axis, frame), &batch.tasks) {
+        return MoveEffect { path_error: batch.errors[0], ..MoveEffect::default() };
+    }
+    batch.cut_in_order(stock, frame, 0..1, progress)[0]
 }
 
 /// Adds the tasks of a move, which carry an index; tells how far its path was replaced [mm], and whether a hollow tool is cut as if
@@ -97,7 +150,20 @@ pub(super) fn cut_upright(
     }
     let (mut next, mut size, mut singly) = (moves.start, BATCH, 1);
     while next < moves.end {
-        let batch = Batch::new(list, next..moves.end.min(next + size), &frame);
+        let mut some = next..moves.end.min(next + size);
+        if order == Order::InRuns {
+            let low = list.moves[some.clone()].iter().position(|m| m.watch && goes_below(stock, &frame, m));
+            some.end = low.map_or(some.end, |low| next + low);
+        }
+        if some.is_empty() {
+            let effect = look(stock, (axis, &frame), list, next, progress);
+            effects.push(effect);
+            still_wanted(progress)?;
+            progress.advance(1);
+            next += 1;
+            continue;
+        }
+        let batch = Batch::new(list, some, &frame);
         let count = batch.errors.len();
         // What is cut from above, by move: length removed, depth, a contact.
         let mut sums = vec![(0, 0, None::<(f64, [f64; 3])>); count];
@@ -134,23 +200,13 @@ pub(super) fn cut_upright(
             // The more often it stops, the more moves are looked at line by line before it is tried again.
             end = count.min(from_above + singly);
             singly = if from_above < singly { (2 * singly).min(BATCH) } else { 1 };
-            let mut sums: Vec<Sum> = (from_above..end).map(|_| Sum::new(false)).collect();
-            let mut tasks = batch.tasks_of(from_above..end).to_vec();
-            for task in &mut tasks {
-                task.index -= from_above as u32;
-            }
-            settle_near(stock, &frame, &tasks, progress);
-            cut_in_order(stock, &frame, &tasks, &mut sums, progress);
-            let told = sums.iter().zip(&batch.errors[from_above..]).zip(&batch.filled[from_above..]);
-            effects.extend(told.map(|((sum, error), filled)| sum.effect(step, *error, *filled)));
+            effects.extend(batch.cut_in_order(stock, &frame, from_above..end, progress));
             size = (size / 2).max(2 * singly);
         } else {
             size = (2 * size).min(MOST);
             singly = 1;
         }
-        if progress.cancelled() {
-            return Err(Finding::error(Code::CANCELLED, "cutting was cancelled").into());
-        }
+        still_wanted(progress)?;
         progress.advance(end as u64);
         next += end;
     }

@@ -33,14 +33,8 @@ fn push(claims: &mut Vec<Claim>, new: Claim) {
 }
 
 impl Patch {
-    /// Adds the claims of a task in the patch, on lines along those of the two directions across its axis that are wanted.
-    pub(super) fn claim(
-        &mut self,
-        layers: &Layers,
-        (index, task): (u32, &Task),
-        wanted: [bool; 2],
-        claims: &mut [Vec<Claim>; 2],
-    ) {
+    /// Adds the claims of a task in the patch, on lines along the two directions across its axis.
+    pub(super) fn claim(&mut self, layers: &Layers, index: u32, task: &Task, claims: &mut [Vec<Claim>; 2]) {
         for part in &task.tool.cutting.parts {
             let sweep = Sweep::new(task, part);
             let blocks = self.active(&sweep, 4.0 * ROUNDING);
@@ -49,7 +43,7 @@ impl Patch {
             }
             let claimed = self.arch.dispatch(Bound { patch: self, sweep: &sweep, blocks });
             for ((c0, r0), claimed) in blocks.corners().zip(claimed) {
-                for k in (0..2).filter(|k| wanted[*k] && claimed[*k]) {
+                for k in (0..2).filter(|k| claimed[*k]) {
                     for i in 0..BLOCK {
                         for j in 0..BLOCK {
                             // One way after the other along a row.

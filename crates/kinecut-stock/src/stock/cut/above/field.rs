@@ -137,12 +137,12 @@ impl<'a> Field<'a> {
         }
     }
 
-    /// The bands of patches along both directions that lines in a box across the axis may lie in, in grid coordinates.
-    pub(super) fn bands(&self, (min, max): (DVec2, DVec2)) -> [Range<usize>; 2] {
+    /// The rectangle of patches that lines in a box across the axis may lie in, in grid coordinates.
+    pub(super) fn rectangle(&self, (min, max): (DVec2, DVec2)) -> [Range<usize>; 2] {
         let patches = self.patches();
         [0, 1].map(|k| {
             let of = |x: f64| ((x - self.origin[k]) / self.step / OWN as f64).floor();
-            let inside = |band: f64| band.clamp(0.0, patches[k] as f64) as usize;
+            let inside = |patch: f64| patch.clamp(0.0, patches[k] as f64) as usize;
             inside(of(min[k] - self.step))..inside(of(max[k] + self.step) + 1.0)
         })
     }

@@ -1,6 +1,6 @@
 //! Lines across the tool axis that are cut late.
 //!
-//! Moves that were cut from above owe these lines. They are paid by bands of patches: all that is owed on the lines of a band, by all
+//! Moves that were cut from above owe these lines. They are paid by rectangles of patches: all that is owed on the ways within, by all
 //! moves since the last time, at the ceilings of today.
 
 use std::ops::Range;
@@ -44,10 +44,10 @@ pub(super) struct Late {
     debts: Vec<Debt>,
     /// Number of all moves that were ever owed.
     count: usize,
-    /// By direction of the lines, and band: the number of moves that have been paid.
-    paid: [Vec<usize>; 2],
-    /// By direction and patch: the ceilings at that time, above which the lines were cleared.
-    cleared: [Vec<Known>; 2],
+    /// By patch: the number of moves that have been paid on its ways.
+    paid: Vec<usize>,
+    /// By patch: the ceilings at that time, above which the ways were cleared.
+    cleared: Vec<Known>,
 }
 
 impl FromAbove {
@@ -57,13 +57,7 @@ impl FromAbove {
         FromAbove {
             axis,
             ceilings: vec![None; all],
-            late: Late {
-                debts: Vec::new(),
-                count: 0,
-                // Lines along the first direction lie in rows of patches, those along the second in columns.
-                paid: [vec![0; patches[1]], vec![0; patches[0]]],
-                cleared: [vec![None; all], vec![None; all]],
-            },
+            late: Late { debts: Vec::new(), count: 0, paid: vec![0; all], cleared: vec![None; all] },
         }
     }
 
@@ -97,10 +91,8 @@ impl FromAbove {
     pub(in crate::stock) fn owe_nothing(&mut self) {
         let late = &mut self.late;
         late.debts.clear();
-        for k in 0..2 {
-            late.paid[k].fill(late.count);
-            late.cleared[k].clone_from(&self.ceilings);
-        }
+        late.paid.fill(late.count);
+        late.cleared.clone_from(&self.ceilings);
     }
 
     /// Cuts all lines that are behind.
@@ -111,31 +103,34 @@ impl FromAbove {
         progress: &dyn Progress,
     ) {
         if !self.late.debts.is_empty() {
-            let all = self.late.paid.each_ref().map(|paid| 0..paid.len());
-            self.pay(grids, stock, all, progress);
+            self.pay(grids, stock, |field| field.patches().map(|n| 0..n), progress);
             if !progress.cancelled() {
                 self.owe_nothing();
             }
         }
     }
 
-    /// Cuts the lines of some bands: of lines along the first direction across the axis, and of those along the second.
+    /// Cuts the lines of a rectangle of patches, as far as these reach.
     fn pay(
         &mut self,
         grids: &mut [Grid; 3],
         (lattice, bounds): (&Lattice, Aabb),
-        bands: [Range<usize>; 2],
+        rectangle: impl Fn(&Field) -> [Range<usize>; 2],
         progress: &dyn Progress,
     ) {
         let frame = ToolFrame::new(self.axis);
         let along = frame.axes[2];
         let shape = grids[along.index()].without_lines();
         let field = Field::new(&shape, lattice, &frame, bounds);
-        let patches = field.patches();
-        let open = Open { patches, bands, paid: &self.late.paid };
-        let mut next = open.first();
+        let open =
+            Open { patches: field.patches(), rectangle: rectangle(&field), paid: self.late.paid.clone() };
+        // First what is known to be gone: the lines are then short.
+        for grid in grids.iter_mut().filter(|grid| grid.axis != along) {
+            clear(grid, (lattice, &frame), (&self.ceilings, &self.late.cleared), &open, progress);
+        }
+        let mut next = open.inside().map(|patch| open.paid[patch]).min().unwrap_or(usize::MAX);
         while next < self.late.count && !progress.cancelled() {
-            let (tasks, end) = self.late.tasks(next, &frame, &(&field, &open));
+            let (tasks, end) = self.late.tasks(next, &frame, &field, &open);
             next = end;
             let mut claims = self.claims(&field, &open, &tasks, &Layers::new(lattice, &frame), progress);
             for grid in grids.iter_mut().filter(|grid| grid.axis != along) {
@@ -143,28 +138,17 @@ impl FromAbove {
                 cut_claims(grid, (lattice, &frame), (&tasks, claims), progress);
             }
         }
-        for grid in grids.iter_mut().filter(|grid| grid.axis != along) {
-            let k = direction(grid.axis, &frame);
-            let ceilings = (&self.ceilings[..], &self.late.cleared[k][..]);
-            clear(grid, (lattice, &frame), ceilings, (patches, &open.bands[k]), progress);
-        }
         if progress.cancelled() {
             // What was cut may be cut again.
             return;
         }
-        let Open { bands, .. } = open;
-        for (k, bands) in bands.into_iter().enumerate() {
-            for band in bands {
-                self.late.paid[k][band] = self.late.count;
-                for q in 0..patches[k] {
-                    let patch = if k == 0 { band * patches[0] + q } else { q * patches[0] + band };
-                    self.late.cleared[k][patch].clone_from(&self.ceilings[patch]);
-                }
-            }
+        for patch in open.inside() {
+            self.late.paid[patch] = self.late.count;
+            self.late.cleared[patch].clone_from(&self.ceilings[patch]);
         }
     }
 
-    /// What tasks claim on lines of open bands, by direction.
+    /// What tasks claim on the ways of open patches, by direction.
     fn claims(
         &self,
         field: &Field,
@@ -175,7 +159,7 @@ impl FromAbove {
     ) -> [Vec<Claim>; 2] {
         let mut bins: Vec<Vec<u32>> = vec![Vec::new(); self.ceilings.len()];
         field.each_near(tasks, |patch, i| {
-            if open.wants(patch, tasks[i as usize].index as usize) != [false; 2] {
+            if open.wants(patch, tasks[i as usize].index as usize) {
                 bins[patch].push(i);
             }
         });
@@ -189,7 +173,7 @@ impl FromAbove {
                         break;
                     }
                     let task = &tasks[*i as usize];
-                    patch.claim(layers, (*i, task), open.wants(p, task.index as usize), &mut claims);
+                    patch.claim(layers, *i, task, &mut claims);
                 }
                 claims
             })
@@ -198,45 +182,44 @@ impl FromAbove {
     }
 }
 
-/// Bands of patches that are paid.
-struct Open<'a> {
-    patches: [usize; 2],
-    /// Of lines along the first direction across the axis, and along the second.
-    bands: [Range<usize>; 2],
-    paid: &'a [Vec<usize>; 2],
+/// Patches that are paid.
+pub(super) struct Open {
+    /// Number of all patches along both directions.
+    pub(super) patches: [usize; 2],
+    /// Those that are paid.
+    pub(super) rectangle: [Range<usize>; 2],
+    /// By patch: the number of moves that have been paid before.
+    paid: Vec<usize>,
 }
 
-impl Open<'_> {
-    /// The first move that is owed.
-    fn first(&self) -> usize {
-        let least = |k: usize| self.paid[k][self.bands[k].clone()].iter().copied().min();
-        least(0).into_iter().chain(least(1)).min().unwrap_or(usize::MAX)
+impl Open {
+    /// Index of a patch by its column and row.
+    pub(super) fn patch(&self, [column, row]: [usize; 2]) -> usize {
+        row * self.patches[0] + column
     }
 
-    /// Whether a move is owed on the lines of a patch, by direction.
-    fn wants(&self, patch: usize, index: usize) -> [bool; 2] {
-        let band = [patch / self.patches[0], patch % self.patches[0]];
-        [0, 1].map(|k| self.bands[k].contains(&band[k]) && self.paid[k][band[k]] <= index)
+    /// The indices of the patches.
+    fn inside(&self) -> impl Iterator<Item = usize> + '_ {
+        let [columns, rows] = &self.rectangle;
+        rows.clone().flat_map(move |row| columns.clone().map(move |column| self.patch([column, row])))
     }
 
-    /// Whether a box across the axis, in grid coordinates, reaches into one of the bands.
-    fn meets(&self, field: &Field, within: (DVec2, DVec2)) -> bool {
-        // Rows are counted along the second direction.
-        let [columns, rows] = field.bands(within);
-        let overlap = |a: &Range<usize>, b: &Range<usize>| a.start < b.end && b.start < a.end;
-        overlap(&rows, &self.bands[0]) || overlap(&columns, &self.bands[1])
+    /// Whether a move is owed on the ways of a patch.
+    fn wants(&self, patch: usize, index: usize) -> bool {
+        let place = [patch % self.patches[0], patch / self.patches[0]];
+        self.paid[patch] <= index && (0..2).all(|k| self.rectangle[k].contains(&place[k]))
+    }
+
+    /// Whether another rectangle has some of the patches.
+    fn meets(&self, other: &[Range<usize>; 2]) -> bool {
+        (0..2).all(|k| self.rectangle[k].start < other[k].end && other[k].start < self.rectangle[k].end)
     }
 }
 
 impl Late {
-    /// Tasks of the moves from one on that cut, and may reach open bands, as many as there is room for, with the numbers of their
+    /// Tasks of the moves from one on that cut, and may reach open patches, as many as there is room for, with the numbers of their
     /// moves; and the first move after them.
-    fn tasks(
-        &self,
-        from: usize,
-        frame: &ToolFrame,
-        (field, open): &(&Field, &Open),
-    ) -> (Vec<Task<'_>>, usize) {
+    fn tasks(&self, from: usize, frame: &ToolFrame, field: &Field, open: &Open) -> (Vec<Task<'_>>, usize) {
         let mut tasks = Vec::new();
         let start = self.debts.partition_point(|debt| debt.first + debt.moves.len() <= from);
         for debt in &self.debts[start..] {
@@ -254,7 +237,7 @@ impl Late {
                 let (u, v) = frame.axes[2].others();
                 let ends = [path.min - reach, path.max + reach];
                 let [min, max] = ends.map(|p| DVec2::new(p[u.index()], p[v.index()]));
-                if open.meets(field, (min, max)) {
+                if open.meets(&field.rectangle((min, max))) {
                     tasks_of(&debt.list, at, frame, index as u32, &mut tasks);
                 }
             }
@@ -264,31 +247,23 @@ impl Late {
 }
 
 /// Cuts the lines across the tool axis that are behind, as far as tasks may reach them.
-pub(in crate::stock::cut) fn settle_near(
-    stock: &mut TriDexel,
-    frame: &ToolFrame,
-    tasks: &[Task],
-    progress: &dyn Progress,
-) {
+pub(in crate::stock::cut) fn settle_near(stock: &mut TriDexel, tasks: &[Task], progress: &dyn Progress) {
     let (lattice, bounds) = (*stock.lattice(), stock.bounds());
     let Some(above) = &mut stock.above else { return };
-    let shape = stock.grids[frame.axes[2].index()].without_lines();
-    let field = Field::new(&shape, &lattice, frame, bounds);
-    let mut all: Option<[Range<usize>; 2]> = None;
-    for task in tasks {
-        // Bodies are looked at a little wider than they are.
-        let reach = task.tool.radius + 3.0 * lattice.step;
-        let ends = [task.plan_box.0 - reach, task.plan_box.1 + reach];
-        let [columns, rows] = field.bands(ends.map(|p| Sweep::exchanged(task, p)).into());
-        let join = |a: &Range<usize>, b: Range<usize>| a.start.min(b.start)..a.end.max(b.end);
-        all = Some(match &all {
-            None => [rows, columns],
-            Some([a, b]) => [join(a, rows), join(b, columns)],
-        });
+    if above.late.debts.is_empty() {
+        return;
     }
-    if let Some(bands) = all
-        && !above.late.debts.is_empty()
-    {
-        above.pay(&mut stock.grids, (&lattice, bounds), bands, progress);
-    }
+    let rectangle = |field: &Field| {
+        let mut all: [Range<usize>; 2] = [usize::MAX..0, usize::MAX..0];
+        for task in tasks {
+            let reach = task.tool.radius + 3.0 * lattice.step;
+            let ends = [task.plan_box.0 - reach, task.plan_box.1 + reach];
+            let near = field.rectangle(ends.map(|p| Sweep::exchanged(task, p)).into());
+            for (all, near) in all.iter_mut().zip(near) {
+                *all = all.start.min(near.start)..all.end.max(near.end);
+            }
+        }
+        all
+    };
+    above.pay(&mut stock.grids, (&lattice, bounds), rectangle, progress);
 }

@@ -6,8 +6,8 @@
 //! come down below one (`claims.rs`), and what lies above is taken out in stretches (`sides.rs`). The lines are the same as
 //! those of all tasks cut one after another.
 //!
-//! Material that a rapid, a shank or a holder may meet, an edge that leaves a core, or a top of a tool under material end the
-//! run before that move: it is cut line by line, then the next run begins. Ceilings are kept for it: material never grows.
+//! A move that should meet nothing, and goes down below the top of the stock, is no part of a run: it is looked at by itself. Material
+//! that a shank or a holder may meet, an edge that leaves a core, or a top of a tool under material end a run before that move: it is cut line by line, then the next run begins. Ceilings are kept for it: material never grows.
 //!
 //! The lines across the axis are cut late, by all moves since the last time together: where a move is looked at line by line those
 //! near it, and all when something asks for them (`late.rs`). The lower the ceilings have become, the less is left to do.
@@ -21,6 +21,7 @@ mod patch;
 mod sides;
 mod sweep;
 
+use std::collections::BTreeMap;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU32, Ordering::Relaxed};
 
@@ -130,6 +131,21 @@ pub(super) fn cut_from_above(
     }
     stock.above = Some(above);
     (stopped < u32::MAX).then_some(stopped)
+}
+
+/// Whether tasks that should meet nothing are known to do so by the heights of the lines and the ceilings between them.
+pub(super) fn are_clear(stock: &TriDexel, (axis, frame): (CutAxis, &ToolFrame), tasks: &[Task]) -> bool {
+    let along = frame.axes[2].index();
+    let field = Field::new(&stock.grids[along], stock.lattice(), frame, stock.bounds());
+    let above = stock.above.as_ref().filter(|above| above.axis == axis);
+    let mut near: BTreeMap<usize, Vec<u32>> = BTreeMap::new();
+    field.each_near(tasks, |patch, task| near.entry(patch).or_default().push(task));
+    let is_clear = |(patch, bin): (&usize, &Vec<u32>)| {
+        let known = above.and_then(|above| above.ceilings[*patch].as_deref());
+        let patch = Patch::new(&field, *patch, known).with_lines(&field);
+        !bin.iter().any(|task| patch.is_unclear(&tasks[*task as usize]))
+    };
+    near.iter().all(is_clear)
 }
 
 /// Takes the tasks of a bin over a patch, up to a limit of moves that is lowered to a move which has to be looked at line by

@@ -11,6 +11,7 @@ use super::super::strip::Strip;
 use super::super::task::Task;
 use super::claims::Claim;
 use super::field::OWN;
+use super::late::Open;
 use super::layers::Layers;
 use super::patch::{Known, SIDE};
 use crate::base::Progress;
@@ -29,13 +30,16 @@ pub(super) fn cut_claims(
     progress: &dyn Progress,
 ) {
     let axis = grid.axis;
-    let (rows, heights) = strip_lines(grid, lattice, frame);
-    let mut of_strip: Vec<Vec<Claim>> = vec![Vec::new(); rows.len().div_ceil(TILE_EDGE as usize)];
+    let strip_of = |claim: &Claim| (claim.row / TILE_EDGE) as usize;
+    let Some(first) = claims.iter().map(strip_of).min() else { return };
+    let last = claims.iter().map(strip_of).max().unwrap_or(first);
+    let mut of_strip: Vec<Vec<Claim>> = vec![Vec::new(); last + 1 - first];
     for claim in claims {
-        of_strip[(claim.row / TILE_EDGE) as usize].push(claim);
+        of_strip[strip_of(&claim) - first].push(claim);
     }
-    let work = strips(grid, frame, &rows, &heights).into_par_iter().zip(of_strip);
-    work.filter(|(_, claims)| !claims.is_empty()).for_each(|(mut strip, mut claims)| {
+    let (rows, heights) = strip_lines(grid, lattice, frame);
+    let some = strips(grid, frame, (&rows, &heights), first..last + 1);
+    some.into_par_iter().zip(of_strip).for_each(|(mut strip, mut claims)| {
         if !progress.cancelled() {
             claims.sort_unstable();
             cut_in_strip(&mut strip, axis, tasks, &claims);
@@ -43,12 +47,13 @@ pub(super) fn cut_claims(
     });
 }
 
-/// Takes what lies above the ceilings out of the lines of a grid, in bands of patches; `before` are the ceilings of the last time.
+/// Takes what lies above the ceilings out of the lines of a grid, in a rectangle of patches; `before` are the ceilings of the last
+/// time.
 pub(super) fn clear(
     grid: &mut Grid,
     (lattice, frame): (&Lattice, &ToolFrame),
     (now, before): (&[Known], &[Known]),
-    (patches, bands): ([usize; 2], &Range<usize>),
+    open: &Open,
     progress: &dyn Progress,
 ) {
     let axis = grid.axis;
@@ -61,17 +66,21 @@ pub(super) fn clear(
     if let [first, .., last] = &mut ends[..] {
         (*first, *last) = (*first - CLEAR, *last + CLEAR);
     }
-    let ceilings = Ceilings { now, before, patches, k };
-    let lower: Vec<bool> =
-        (0..patches[1 - k]).map(|band| bands.contains(&band) && ceilings.are_lower(band)).collect();
+    let ceilings = Ceilings { now, before, open, k };
+    let bands = &open.rectangle[1 - k];
+    let lower: Vec<bool> = bands.clone().map(|band| ceilings.are_lower(band)).collect();
     let (rows, heights) = strip_lines(grid, lattice, frame);
-    let work = strips(grid, frame, &rows, &heights).into_par_iter().enumerate();
-    work.for_each(|(s, mut strip)| {
+    let (own, edge) = (OWN as usize, TILE_EDGE as usize);
+    let end = (bands.end * own).min(rows.len()).div_ceil(edge);
+    let some = (bands.start * own / edge).min(end)..end;
+    let work = strips(grid, frame, (&rows, &heights), some.clone()).into_par_iter().zip(some);
+    work.for_each(|(mut strip, s)| {
         let mut clear = Clear { layers: &layers, ends: &ends, starts: vec![0; layers.count()], open: 0..0 };
         let mut ways = Vec::new();
         for row in 0..strip.rows.len() {
-            let index = s * TILE_EDGE as usize + row;
-            if lower[index / OWN as usize] && !progress.cancelled() {
+            let index = s * edge + row;
+            let lower = (index / own).checked_sub(bands.start).and_then(|band| lower.get(band));
+            if lower == Some(&true) && !progress.cancelled() {
                 ceilings.of_row(index, &layers, &mut ways);
                 clear.cut(&mut strip, row, &ways);
             }
@@ -106,7 +115,7 @@ fn cut_in_strip(strip: &mut Strip, axis: Axis, tasks: &[Task], claims: &[Claim])
 struct Ceilings<'a> {
     now: &'a [Known],
     before: &'a [Known],
-    patches: [usize; 2],
+    open: &'a Open,
     k: usize,
 }
 
@@ -123,7 +132,7 @@ struct Way {
 impl Ceilings<'_> {
     /// Index of a patch of a band.
     fn patch(&self, band: usize, q: usize) -> usize {
-        if self.k == 0 { band * self.patches[0] + q } else { q * self.patches[0] + band }
+        self.open.patch(if self.k == 0 { [q, band] } else { [band, q] })
     }
 
     /// True if a patch is as it was the last time.
@@ -136,24 +145,28 @@ impl Ceilings<'_> {
 
     /// True if there are new ceilings in a band.
     fn are_lower(&self, band: usize) -> bool {
-        (0..self.patches[self.k]).any(|q| !self.is_old(self.patch(band, q)))
+        self.open.rectangle[self.k].clone().any(|q| !self.is_old(self.patch(band, q)))
     }
 
-    /// The ways of a row that have new ceilings.
+    /// The ways of a row in patches that have new ceilings, and those at the borders of their neighbours, as they are: what is cleared
+    /// on either side of a border becomes one.
     fn of_row(&self, row: usize, layers: &Layers, ways: &mut Vec<Way>) {
         let own = OWN as usize;
         let (band, within) = (row / own, row % own + 1);
         ways.clear();
-        for q in 0..self.patches[self.k] {
+        let inside = &self.open.rectangle[self.k];
+        let count = self.open.patches[self.k];
+        for q in inside.start.saturating_sub(1)..(inside.end + 1).min(count) {
             let patch = self.patch(band, q);
-            if self.is_old(patch) {
-                continue;
-            }
-            let Some(ceilings) = &self.now[patch] else { continue };
+            let is_new = inside.contains(&q) && !self.is_old(patch);
             let before = self.before[patch].as_deref();
+            let Some(now) = (if is_new { self.now[patch].as_deref() } else { before }) else { continue };
             for i in 1..SIDE {
+                if !is_new && i != 1 && i + 1 != SIDE {
+                    continue;
+                }
                 let l = if self.k == 0 { within * SIDE + i } else { i * SIDE + within };
-                let ceiling = ceilings[self.k][l];
+                let ceiling = now[self.k][l];
                 // Behind the last line there is none.
                 if ceiling > f32::NEG_INFINITY {
                     let clear = layers.above(f64::from(ceiling));

@@ -155,3 +155,44 @@ fn tools_with_shank_and_holder_rapids_and_undercuts_leave_the_same_lines() {
         same_effects(&effects, step, &what);
     }
 }
+
+/// Rows cut to and fro on two levels, each begun by a rapid down beside the wall of the row before: many looks at places of a stock
+/// that is cut in between, in patches that meet at their borders.
+#[test]
+fn rapids_down_beside_walls_find_the_lines_as_they_are() {
+    let block = Aabb { min: DVec3::new(-8.0, -6.0, -5.0), max: DVec3::new(8.0, 6.0, 0.0) };
+    let mut random = Random(21);
+    for round in 0..kinecut_cases::cases(6, 200) {
+        let shape = SHAPES[round as usize % SHAPES.len()];
+        let step = [0.1, 0.13][round as usize % 2];
+        let stock = TriDexel::from_box(block, step).unwrap();
+        let tool = ToolBody::new(shape.profile());
+        let mut moves = Vec::new();
+        let mut at = DVec3::new(0.0, 0.0, 4.0);
+        let mut go = |to: DVec3, rapid: bool| {
+            let m = CutMove::new(Line { start: at, end: to }, CutAxis::PlusZ, 0);
+            moves.push(if rapid { m.watched() } else { m });
+            at = to;
+        };
+        for level in [-1.2, -2.3] {
+            for row in 0..7 {
+                let y = -5.0 + 1.6 * f64::from(row) + random.within(-0.3, 0.3);
+                let (a, b) = (random.within(-7.0, -4.0), random.within(-2.0, 6.0));
+                let depth = |random: &mut Random| level + random.within(-0.4, 0.4);
+                // Some rapids end in material.
+                let down = level + random.within(-0.2, 1.3);
+                go(DVec3::new(a, y, 1.0), true);
+                go(DVec3::new(a, y, down), true);
+                go(DVec3::new(a, y, depth(&mut random)), false);
+                go(DVec3::new(0.5 * (a + b), y + 0.2, depth(&mut random)), false);
+                go(DVec3::new(b, y, depth(&mut random)), false);
+                // Along what was cut, and up.
+                go(DVec3::new(0.6 * b + 0.4 * a, y, level + 0.5), true);
+                go(DVec3::new(0.6 * b + 0.4 * a, y, 1.0), true);
+            }
+        }
+        let what = format!("round {round}, {shape:?} at {step}");
+        let effects = compare(&stock, &[tool], &moves, &what);
+        same_effects(&effects, step, &what);
+    }
+}
