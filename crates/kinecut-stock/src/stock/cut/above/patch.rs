@@ -269,11 +269,23 @@ impl Patch {
             let asked = looked != Looked::Cutting || task.watch;
             let bottom = task.tip_range().0 + body.bottom - slack - task.clearance;
             asked && !body.parts.is_empty() && {
-                let reach = body.radius + 2.0 * self.step + self.radius;
+                let reach = body.radius + 2.0 * self.step;
+                let is_near = |x: f64, y: f64, reach: f64| {
+                    let at = Sweep::exchanged(task, DVec2::new(x, y));
+                    task.piece.plan.distance_squared(at) <= reach * reach
+                };
+                let is_higher = |height: f64| bottom < height + ROUNDING;
+                // Blocks first, then their lines, each with the ways to it.
                 (0..BLOCKS).any(|b| {
-                    let middle = DVec2::new(self.middles[0][b], self.middles[1][b]);
-                    bottom < self.hull[b] + ROUNDING
-                        && task.piece.plan.distance_squared(Sweep::exchanged(task, middle)) <= reach * reach
+                    is_higher(self.hull[b])
+                        && is_near(self.middles[0][b], self.middles[1][b], reach + self.radius)
+                        && (0..BLOCK * BLOCK).any(|i| {
+                            let (c, r) = (corner(b).0 + i % BLOCK, corner(b).1 + i / BLOCK);
+                            let l = r * SIDE + c;
+                            let ways = most(self.ceilings[0][l], self.ceilings[1][l]);
+                            is_higher(most(self.top[l] * FIXED_STEP, ways))
+                                && is_near(self.x[c], self.y[r], reach + self.step)
+                        })
                 })
             }
         })
