@@ -46,8 +46,8 @@ pub(super) struct Late {
     count: usize,
     /// By patch: the number of moves that have been paid on its ways.
     paid: Vec<usize>,
-    /// By patch: the ceilings at that time, above which the ways were cleared.
-    cleared: Vec<Known>,
+    /// By direction of the lines, and patch: the ceilings above which the ways were cleared.
+    cleared: [Vec<Known>; 2],
 }
 
 impl FromAbove {
@@ -57,7 +57,12 @@ impl FromAbove {
         FromAbove {
             axis,
             ceilings: vec![None; all],
-            late: Late { debts: Vec::new(), count: 0, paid: vec![0; all], cleared: vec![None; all] },
+            late: Late {
+                debts: Vec::new(),
+                count: 0,
+                paid: vec![0; all],
+                cleared: [vec![None; all], vec![None; all]],
+            },
         }
     }
 
@@ -92,7 +97,7 @@ impl FromAbove {
         let late = &mut self.late;
         late.debts.clear();
         late.paid.fill(late.count);
-        late.cleared.clone_from(&self.ceilings);
+        late.cleared.fill(self.ceilings.clone());
     }
 
     /// Cuts all lines that are behind.
@@ -124,9 +129,16 @@ impl FromAbove {
         let field = Field::new(&shape, lattice, &frame, bounds);
         let open =
             Open { patches: field.patches(), rectangle: rectangle(&field), paid: self.late.paid.clone() };
-        // First what is known to be gone: the lines are then short.
+        // First what is known to be gone, on whole lines: what is left of them is then short.
         for grid in grids.iter_mut().filter(|grid| grid.axis != along) {
-            clear(grid, (lattice, &frame), (&self.ceilings, &self.late.cleared), &open, progress);
+            let k = direction(grid.axis, &frame);
+            let whole = open.whole_lines(k);
+            clear(grid, (lattice, &frame), (&self.ceilings, &self.late.cleared[k]), &whole, progress);
+            if !progress.cancelled() {
+                for patch in whole.inside() {
+                    self.late.cleared[k][patch].clone_from(&self.ceilings[patch]);
+                }
+            }
         }
         let mut next = open.inside().map(|patch| open.paid[patch]).min().unwrap_or(usize::MAX);
         while next < self.late.count && !progress.cancelled() {
@@ -144,7 +156,6 @@ impl FromAbove {
         }
         for patch in open.inside() {
             self.late.paid[patch] = self.late.count;
-            self.late.cleared[patch].clone_from(&self.ceilings[patch]);
         }
     }
 
@@ -202,6 +213,13 @@ impl Open {
     fn inside(&self) -> impl Iterator<Item = usize> + '_ {
         let [columns, rows] = &self.rectangle;
         rows.clone().flat_map(move |row| columns.clone().map(move |column| self.patch([column, row])))
+    }
+
+    /// The patches of all lines along a direction across the axis that run through those.
+    fn whole_lines(&self, k: usize) -> Open {
+        let mut whole = Open { rectangle: self.rectangle.clone(), paid: Vec::new(), ..*self };
+        whole.rectangle[k] = 0..self.patches[k];
+        whole
     }
 
     /// Whether a move is owed on the ways of a patch.
