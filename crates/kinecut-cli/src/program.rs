@@ -29,7 +29,7 @@ struct Results {
     /// Files of the cut part: stl, glb, ply, 3mf, several with a comma between them, or none
     #[arg(long, value_name = "FORM", value_enum, value_delimiter = ',', default_values_t = [MeshFile::Stl, MeshFile::Glb])]
     mesh: Vec<MeshFile>,
-    /// Leave report.html out
+    /// Leave report.html out; with --mesh none no surface of the part is made, which takes less time
     #[arg(long)]
     no_report: bool,
     /// Section of the cut part by a plane, such as z=-5, of the material just below it; can be given several times

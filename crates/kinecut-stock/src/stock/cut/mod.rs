@@ -5,7 +5,8 @@
 //! is cut as it is along its axis (`hollow.rs`). A move is cut into pieces (`piece.rs`): a point, a line, an arc of at
 //! most half a turn, each with a constant rise. Lines along the tool axis: `axial.rs`; lines across it: `across.rs`,
 //! `across_slope.rs`. Moves that take all above their underside are cut in long runs, many lines at once (`above`); the others,
-//! and what depends on the moment, line by line in order (`in_order.rs`). The unit of work is a tile of lines with all moves in
+//! and what depends on the moment, line by line in order (`in_order.rs`). In long runs lines across the axis are left for later
+//! (`above/late.rs`): [`TriDexel::settle`](crate::stock::TriDexel::settle) cuts them, or the first who reads one. The unit of work is a tile of lines with all moves in
 //! order, so that the result does not depend on the number of threads.
 //!
 //! A tool that leans or turns ([`Stance::Leaning`]) is cut by the same convex parts on all three grids alike (`leaning`): its

@@ -12,7 +12,7 @@ use glam::DVec3;
 use serde::Serialize;
 
 use super::{Outcome, json_text};
-use crate::base::Result;
+use crate::base::{Code, Finding, Result};
 use crate::page::Section;
 
 pub use plane::SectionPlane;
@@ -51,10 +51,15 @@ impl Inspection {
     /// The sections and points that are asked for; `None` if there are none of either.
     ///
     /// # Errors
-    /// `KC0602` when the surface of the part is not closed.
+    /// `KC0602` when the surface of the part is not closed; `KC0801` when none was made.
     pub fn of(outcome: &Outcome, wants: &InspectWants) -> Result<Option<Inspection>> {
         if wants.sections.is_empty() && wants.points.is_empty() {
             return Ok(None);
+        }
+        if outcome.job.no_surface {
+            return Err(Finding::error(Code::GEOMETRY, "sections and points need the surface of the part")
+                .help("run the job without `no_surface`")
+                .into());
         }
         let mut planes: Vec<SectionPlane> = Vec::new();
         for plane in &wants.sections {

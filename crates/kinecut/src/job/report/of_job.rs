@@ -23,7 +23,7 @@ pub fn of_job(outcome: &Outcome) -> Report {
     let mut part =
         PartView::new(&outcome.part, outcome.deviation.at_vertices.clone(), outcome.deviation.tolerance);
     part.relative = outcome.deviation.relative;
-    report.part = Some(part);
+    report.part = (!outcome.job.no_surface).then_some(part);
     report.tools = tools(outcome);
     let mut controls: Vec<&str> = outcome.setups.iter().map(|s| s.control(&outcome.job).name()).collect();
     controls.dedup();

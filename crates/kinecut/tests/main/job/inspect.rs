@@ -4,7 +4,10 @@ use crate::common::random::Random;
 use glam::{DVec2, DVec3};
 use kinecut::base::{Code, Silent};
 use kinecut::job::inspect::{CutBy, Place};
-use kinecut::job::{GivenFile, InspectWants, Inspection, Outcome, ProgramWants, given_alone, simulate_given};
+use kinecut::job::{
+    GivenFile, GivenJob, InspectWants, Inspection, Outcome, ProgramWants, StockWants, given_alone, report,
+    simulate_given,
+};
 
 /// A slot 8 mm wide and 3 mm deep along X at Y 15, and a drilled hole through the block at X 30, Y 5.
 const PROGRAM: &str = "G21 G90 G17\nT1 M6\nS8000 M3\nG0 X-10 Y15\nG0 Z5\nG1 Z-3 F500\nG1 X50\nG0 Z20\n\
@@ -17,6 +20,10 @@ fn outcome() -> Outcome {
 }
 
 fn cut(program: &str, tools: &str, step: Option<f64>) -> Outcome {
+    simulate_given(given(program, tools, step), &Silent).unwrap()
+}
+
+fn given(program: &str, tools: &str, step: Option<f64>) -> GivenJob {
     let program = GivenFile { name: "P.ngc", bytes: program.as_bytes() };
     let wants = ProgramWants {
         step,
@@ -24,7 +31,7 @@ fn cut(program: &str, tools: &str, step: Option<f64>) -> Outcome {
         tools: Some(("tools.toml".to_owned(), tools.to_owned())),
         ..ProgramWants::default()
     };
-    simulate_given(given_alone(program, &wants, true).unwrap(), &Silent).unwrap()
+    given_alone(program, &wants, true).unwrap()
 }
 
 fn near(value: f64, wanted: f64, within: f64) {
@@ -165,4 +172,29 @@ fn planes_that_are_none_are_refused() {
         assert!(error.0.help.contains("z=-5"), "{error}");
     }
     assert_eq!("z=-0".parse::<kinecut::job::SectionPlane>().unwrap().to_string(), "Z 0");
+}
+
+#[test]
+fn without_a_surface_the_verdict_is_the_same_and_what_needs_one_says_so() {
+    // With a rapid that stays in the slot, and one that runs into its wall.
+    let into_wall = PROGRAM.replace("X50\nG0 Z20\nT2", "X50\nX20\nG0 Y16\nG0 Z20\nT2");
+    for (program, meets) in [(PROGRAM, false), (&into_wall, true)] {
+        let whole = cut(program, TOOLS, Some(0.2));
+        let mut alone = given(program, TOOLS, Some(0.2));
+        alone.simulated(&StockWants { no_surface: true, ..StockWants::default() }).unwrap();
+        let lines = simulate_given(alone, &Silent).unwrap();
+        assert!(lines.part.triangles.is_empty() && !whole.part.triangles.is_empty());
+        assert!(lines.verdict.to_json() == whole.verdict.to_json());
+        assert_eq!(lines.verdict.found.iter().any(|f| f.code == Code::RAPID_IN_STOCK), meets);
+        let exact = 40.0 * 8.0 * 3.0 + std::f64::consts::PI * 4.0 * 10.0;
+        for removed in [lines.removed, whole.removed] {
+            // The wall that the rapid cuts is told as an error, and taken.
+            let more = if meets { 30.0 } else { 0.0 };
+            assert!((-removed.bound..removed.bound + more).contains(&(removed.value - exact)), "{removed:?}");
+        }
+        assert!(whole.removed.bound < lines.removed.bound && lines.removed.bound < 0.1 * exact);
+        let wants = InspectWants { sections: vec!["z=-1".parse().unwrap()], points: Vec::new() };
+        assert_eq!(Inspection::of(&lines, &wants).unwrap_err().code(), Code::GEOMETRY);
+        assert!(report::of_job(&lines).part.is_none() && report::of_job(&whole).part.is_some());
+    }
 }

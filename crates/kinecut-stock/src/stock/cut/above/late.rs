@@ -272,16 +272,17 @@ pub(in crate::stock::cut) fn settle_near(stock: &mut TriDexel, tasks: &[Task], p
         return;
     }
     let rectangle = |field: &Field| {
-        let mut all: [Range<usize>; 2] = [usize::MAX..0, usize::MAX..0];
+        let mut all: Option<[Range<usize>; 2]> = None;
         for task in tasks {
             let reach = task.tool.radius + 3.0 * lattice.step;
             let ends = [task.plan_box.0 - reach, task.plan_box.1 + reach];
             let near = field.rectangle(ends.map(|p| Sweep::exchanged(task, p)).into());
-            for (all, near) in all.iter_mut().zip(near) {
-                *all = all.start.min(near.start)..all.end.max(near.end);
-            }
+            let join = |k: usize, all: &[Range<usize>; 2]| {
+                all[k].start.min(near[k].start)..all[k].end.max(near[k].end)
+            };
+            all = Some(all.map_or(near.clone(), |all| [join(0, &all), join(1, &all)]));
         }
-        all
+        all.unwrap_or([0..0, 0..0])
     };
     above.pay(&mut stock.grids, (&lattice, bounds), rectangle, progress);
 }
