@@ -47,7 +47,7 @@ pub(super) fn cut_claims(
     });
 }
 
-/// Takes what lies above the ceilings out of the lines of a grid, in a rectangle of patches; `before` are the ceilings of the last
+/// Takes what lies above the ceilings out of whole lines of a grid, through a rectangle of patches; `before` are the ceilings of the last
 /// time.
 pub(super) fn clear(
     grid: &mut Grid,
@@ -148,23 +148,20 @@ impl Ceilings<'_> {
         self.open.rectangle[self.k].clone().any(|q| !self.is_old(self.patch(band, q)))
     }
 
-    /// The ways of a row in patches that have new ceilings, and those at the borders of their neighbours, as they are: what is cleared
-    /// on either side of a border becomes one.
+    /// The ways of a row in patches that have new ceilings. A task that lowers a ceiling on one side of a border comes into the patch on
+    /// its other side, too: both are there.
     fn of_row(&self, row: usize, layers: &Layers, ways: &mut Vec<Way>) {
         let own = OWN as usize;
         let (band, within) = (row / own, row % own + 1);
         ways.clear();
-        let inside = &self.open.rectangle[self.k];
-        let count = self.open.patches[self.k];
-        for q in inside.start.saturating_sub(1)..(inside.end + 1).min(count) {
+        for q in self.open.rectangle[self.k].clone() {
             let patch = self.patch(band, q);
-            let is_new = inside.contains(&q) && !self.is_old(patch);
+            if self.is_old(patch) {
+                continue;
+            }
+            let Some(now) = self.now[patch].as_deref() else { continue };
             let before = self.before[patch].as_deref();
-            let Some(now) = (if is_new { self.now[patch].as_deref() } else { before }) else { continue };
             for i in 1..SIDE {
-                if !is_new && i != 1 && i + 1 != SIDE {
-                    continue;
-                }
                 let l = if self.k == 0 { within * SIDE + i } else { i * SIDE + within };
                 let ceiling = now[self.k][l];
                 // Behind the last line there is none.
