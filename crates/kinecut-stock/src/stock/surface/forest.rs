@@ -8,6 +8,7 @@ use super::crossing::Lines;
 use super::rows::BLOCK;
 use super::signs::Signs;
 use super::tree::{Node, Tree};
+use crate::base::Progress;
 use crate::stock::DexelGrid;
 
 /// Blocks whose points are all void, or all material.
@@ -37,8 +38,13 @@ pub(super) struct Forest {
 }
 
 impl Forest {
-    /// The octrees of a body.
-    pub(super) fn grow<G: DexelGrid + ?Sized>(lines: &Lines<'_, G>, signs: &Signs, tolerance: f64) -> Forest {
+    /// The octrees of a body; `None` when it was cancelled.
+    pub(super) fn grow<G: DexelGrid + ?Sized>(
+        lines: &Lines<'_, G>,
+        signs: &Signs,
+        tolerance: f64,
+        progress: &dyn Progress,
+    ) -> Option<Forest> {
         let counts = signs.counts().map(|n| (n - 1).div_ceil(BLOCK));
         let row = counts[0] as usize;
         let mut alike: Vec<Option<bool>> = vec![None; row * counts[1] as usize * counts[2] as usize];
@@ -61,9 +67,12 @@ impl Forest {
         }
         let trees = places
             .par_iter()
-            .map_init(|| Block::new(lines, signs, tolerance), |block, &place| block.tree(place))
-            .collect();
-        Forest { counts, contents, places, trees, merged: Vec::new() }
+            .map_init(
+                || Block::new(lines, signs, tolerance),
+                |block, &place| (!progress.cancelled()).then(|| block.tree(place)),
+            )
+            .collect::<Option<_>>()?;
+        Some(Forest { counts, contents, places, trees, merged: Vec::new() })
     }
 
     /// Contents of a block; void beyond the last one.

@@ -116,19 +116,20 @@ pub fn surface_with_cuts<G: DexelGrid + ?Sized>(
     let tolerance = tolerance / step;
     let lines = Lines::new(grid);
     progress.stage("surface", 4);
+    let cancelled = || Finding::error(Code::CANCELLED, "the surface was not finished");
     let go_on = || {
         progress.advance(1);
-        let stop = progress.cancelled();
-        if stop { Err(Finding::error(Code::CANCELLED, "the surface was not finished")) } else { Ok(()) }
+        if progress.cancelled() { Err(cancelled()) } else { Ok(()) }
     };
-    let signs = Signs::vote(&lines);
+    let signs = Signs::vote(&lines, progress);
     go_on()?;
-    let mut forest = Forest::grow(&lines, &signs, tolerance);
+    let mut forest = Forest::grow(&lines, &signs, tolerance, progress).ok_or_else(cancelled)?;
     go_on()?;
     flat::merge(&mut forest, &lines, tolerance);
     let vertices = forest.number();
     go_on()?;
-    let Facets { mut triangles, normals, cuts } = polygon::polygons(&forest, &lines, &signs, &vertices);
+    let Facets { mut triangles, normals, cuts } =
+        polygon::polygons(&forest, &lines, &signs, &vertices, progress).ok_or_else(cancelled)?;
     unfold::unfold(&mut triangles, &normals, &vertices);
     go_on()?;
     let vertices = vertices.into_iter().map(|v| lines.to_mm(v)).collect::<Vec<DVec3>>();

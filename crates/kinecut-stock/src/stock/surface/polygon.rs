@@ -9,6 +9,7 @@ use super::forest::Forest;
 use super::rows::{BLOCK, Rows, bits};
 use super::signs::Signs;
 use super::tree::Node;
+use crate::base::Progress;
 use crate::stock::{Axis, CutId, DexelGrid, PackedNormal};
 
 /// Trees that one task works through.
@@ -34,7 +35,8 @@ pub(super) fn polygons<G: DexelGrid + ?Sized>(
     lines: &Lines<'_, G>,
     signs: &Signs,
     vertices: &[DVec3],
-) -> Facets {
+    progress: &dyn Progress,
+) -> Option<Facets> {
     let parts: Vec<Facets> = (0..forest.trees.len().div_ceil(CHUNK))
         .into_par_iter()
         .map_init(Rows::new, |rows, chunk| {
@@ -42,9 +44,9 @@ pub(super) fn polygons<G: DexelGrid + ?Sized>(
             for t in chunk * CHUNK..((chunk + 1) * CHUNK).min(forest.trees.len()) {
                 maker.tree(t, rows);
             }
-            maker.facets
+            (!progress.cancelled()).then_some(maker.facets)
         })
-        .collect();
+        .collect::<Option<_>>()?;
     let mut all = Facets::default();
     let count = parts.iter().map(|p| p.triangles.len()).sum();
     all.triangles.reserve_exact(count);
@@ -55,7 +57,7 @@ pub(super) fn polygons<G: DexelGrid + ?Sized>(
         all.normals.extend(part.normals);
         all.cuts.extend(part.cuts);
     }
-    all
+    Some(all)
 }
 
 struct Maker<'a, G: ?Sized> {

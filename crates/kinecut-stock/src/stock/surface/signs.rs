@@ -8,6 +8,7 @@ use std::sync::atomic::{AtomicU64, Ordering::Relaxed};
 use rayon::prelude::*;
 
 use super::crossing::Lines;
+use crate::base::Progress;
 use crate::stock::{Axis, DexelGrid};
 
 /// The signs of all padded lattice points.
@@ -21,8 +22,8 @@ pub(super) struct Signs {
 }
 
 impl Signs {
-    /// Majority of the three directions at each point.
-    pub(super) fn vote<G: DexelGrid + ?Sized>(lines: &Lines<'_, G>) -> Signs {
+    /// Majority of the three directions at each point; of no use when it was cancelled.
+    pub(super) fn vote<G: DexelGrid + ?Sized>(lines: &Lines<'_, G>, progress: &dyn Progress) -> Signs {
         let counts = lines.counts;
         // One bit beyond, so that 17 bits can be read from any multiple of 16 below the count.
         let width = counts[0] as usize / 64 + 1;
@@ -34,6 +35,9 @@ impl Signs {
         (0..counts[1]).into_par_iter().for_each_init(
             || vec![0u64; width * nz],
             |rows, y| {
+                if progress.cancelled() {
+                    return;
+                }
                 rows.fill(0);
                 for x in 1..counts[0] - 1 {
                     for i in lines.line(Axis::Z, x, y) {
@@ -55,6 +59,9 @@ impl Signs {
         (1..counts[2] - 1).into_par_iter().for_each_init(
             || (vec![0u64; width * ny], vec![0u64; width]),
             |(rows, row), z| {
+                if progress.cancelled() {
+                    return;
+                }
                 rows.fill(0);
                 for x in 1..counts[0] - 1 {
                     // Lines along Y are numbered along Z, X.

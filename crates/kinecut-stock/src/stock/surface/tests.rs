@@ -4,6 +4,7 @@ use proptest::prelude::*;
 use super::bodies::{Solid, TestGrid, cuboid};
 use super::*;
 use crate::base::Silent;
+use crate::geom::Aabb;
 use crate::stock::{EndPoint, Interval, Lattice, PackedNormal, TriDexel, fixed};
 
 fn mesh_of(grid: &TestGrid) -> Mesh {
@@ -302,4 +303,33 @@ fn a_tolerance_must_be_positive_and_work_can_be_cancelled() {
     }
     let error = surface(&grid, &SurfaceOptions::default(), &Stop).unwrap_err();
     assert_eq!(error.code(), Code::CANCELLED);
+}
+
+#[test]
+fn a_surface_stops_within_a_stage() {
+    use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
+    /// Cancels after some questions, and counts all.
+    struct After(usize, AtomicUsize);
+    impl Progress for After {
+        fn stage(&self, _: &str, _: u64) {}
+        fn advance(&self, _: u64) {}
+        fn cancelled(&self) -> bool {
+            self.1.fetch_add(1, Relaxed) >= self.0
+        }
+    }
+    let size = DVec3::splat(10.0);
+    let stock = TriDexel::from_box(Aabb { min: -size, max: size }, 0.1).unwrap();
+    let options = SurfaceOptions::default();
+    let whole = After(usize::MAX, AtomicUsize::new(0));
+    surface_with_cuts(&stock, &options, &whole).unwrap();
+    let whole = whole.1.into_inner();
+    // One for each row of signs, and each block of 16 cells with surface.
+    assert!(whole > 400 + 6 * 12 * 12, "{whole}");
+    for most in [0, 100, 500, whole - 1] {
+        let stopped = After(most, AtomicUsize::new(0));
+        assert_eq!(surface_with_cuts(&stock, &options, &stopped).unwrap_err().code(), Code::CANCELLED);
+        // Rows that are left are passed over, blocks are not begun.
+        let asked = stopped.1.into_inner();
+        assert!(asked < most + 400 + 4 * rayon::current_num_threads(), "{most}: {asked}");
+    }
 }

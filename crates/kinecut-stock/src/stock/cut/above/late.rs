@@ -183,8 +183,11 @@ impl FromAbove {
                     if progress.cancelled() {
                         break;
                     }
+                    // What is watched, and was clear, has met nothing.
                     let task = &tasks[*i as usize];
-                    patch.claim(layers, *i, task, &mut claims);
+                    if !task.watch {
+                        patch.claim(layers, *i, task, &mut claims);
+                    }
                 }
                 claims
             })
