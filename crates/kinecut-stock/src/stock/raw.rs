@@ -2,6 +2,7 @@
 
 use glam::{DVec2, DVec3};
 
+use super::skimmed::Skimmed;
 use super::tri_dexel::LINE_OFFSET;
 use super::{Axis, DexelGrid, EndPoint, Interval, PackedNormal, TriDexel, fixed};
 use crate::base::{Code, Finding, Result};
@@ -82,7 +83,9 @@ impl TriDexel {
     /// # Errors
     /// See [`TriDexel::empty`].
     pub fn from_box(bounds: Aabb, step: f64) -> Result<TriDexel> {
-        TriDexel::filled(bounds, step, Axis::ALL.map(|axis| Some(span(bounds, axis))))
+        let mut stock = TriDexel::filled(bounds, step, Axis::ALL.map(|axis| Some(span(bounds, axis))))?;
+        stock.skimmed = Skimmed::WHOLE;
+        Ok(stock)
     }
 
     /// A full cylinder standing on `base`, its axis along Z [mm].

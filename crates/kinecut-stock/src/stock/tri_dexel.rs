@@ -16,6 +16,7 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 use super::cut::FromAbove;
+use super::skimmed::Skimmed;
 use super::tile::{TILE_EDGE, Tile};
 use super::{Axis, DexelGrid, EndPoint, FIXED_STEP, Interval, Lattice};
 use crate::base::{Code, Finding, Progress, Result, Silent};
@@ -102,6 +103,8 @@ pub struct TriDexel {
     pub(super) above: Option<FromAbove>,
     /// The grids across that axis with all moves cut, made where somebody reads them before they are.
     whole: OnceLock<Box<[Grid; 3]>>,
+    /// Faces beside the lines along Z.
+    pub(super) skimmed: Skimmed,
 }
 
 impl TriDexel {
@@ -118,7 +121,8 @@ impl TriDexel {
     pub(crate) fn filled(bounds: Aabb, step: f64, alike: [Option<Interval>; 3]) -> Result<TriDexel> {
         let lattice = lattice_of(bounds, step)?;
         let grids = Axis::ALL.map(|axis| Grid::new(axis, &lattice, alike[axis.index()]));
-        Ok(TriDexel { lattice, bounds, grids, above: None, whole: OnceLock::new() })
+        let skimmed = Skimmed::UNKNOWN;
+        Ok(TriDexel { lattice, bounds, grids, above: None, whole: OnceLock::new(), skimmed })
     }
 
     /// Memory that a stock in a box needs at a grid step [bytes], at most two intervals a line. It grows with the
@@ -230,6 +234,7 @@ impl TriDexel {
     pub(crate) fn set_line(&mut self, axis: Axis, a: u32, b: u32, intervals: &[Interval]) {
         self.settle(&Silent);
         self.above = None;
+        self.skimmed = Skimmed::UNKNOWN;
         let grid = &mut self.grids[axis.index()];
         let (tile, line) = place(grid.tiles_across()[0], a, b);
         grid.tiles[tile].set(line, intervals);

@@ -7,20 +7,23 @@
 //! facet over a surface of curvature 1 / R leaves it by s^2 / (12 R) in the mean over a step s, a fiftieth of a step ([`BENT`]) at
 //! R = 4 s. Both together, times the area that is not flat raw stock, are the most that the volume is off.
 //! Measured with a tolerance of a fiftieth of a step on holes, slots, ball rasters and bars down to R = 1.25 s it is off by half of
-//! that at most, and mostly by a tenth. What is thinner than the lines may not be in the mesh at all.
+//! that at most, and mostly by a tenth. Ledges in the faces of the stock that end between two lines are added (`skimmed.rs`). What else
+//! is thinner than the lines may not be in the mesh at all.
 //!
-//! **Bound of lines.** Each line counts for the square about it. Between two lines the length of material may be anything between
-//! theirs where there is a wall, and goes on as before them or behind them where there is none. A quarter of the second
-//! difference of the lengths, in both directions, bounds both: of a wall of height h, half a step times h; of a kink in a slope
-//! the triangle under it; of a curve three times what it is.
+//! **Bound of lines.** Each line counts for the square about it, and beside a face of the stock for all up to that face. The bound is a
+//! quarter of the second differences of the lengths of material, in both directions, times the square of the step: half a step for each
+//! wall between two lines, the triangle under a kink of a slope, three times the error on a curve. The strip between a face and the line
+//! next to it is not known between the lowest and the highest place of the moves that have come there (`skimmed.rs`). Grooves, webs and
+//! terraces no wider than the lines are apart go unseen.
 
 use rayon::prelude::*;
 
 use crate::geom::{Mesh, Solid};
+use crate::stock::skimmed::Strip;
 use crate::stock::surface::{CutSurface, SurfaceOptions};
 use crate::stock::tile::TILE_EDGE;
 use crate::stock::tri_dexel::Grid;
-use crate::stock::{Axis, DexelGrid, FIXED_STEP, Lattice, TriDexel};
+use crate::stock::{Axis, DexelGrid, FIXED_STEP, TriDexel, fixed};
 
 /// Distance of facets from a bent surface, in the mean [grid steps].
 const BENT: f64 = 0.02;
@@ -37,7 +40,7 @@ const BENT: f64 = 0.02;
 /// let stock = TriDexel::from_box(bounds, 0.7).unwrap();
 /// let options = SurfaceOptions::default();
 /// let surface = surface_with_cuts(&stock, &options, &Silent).unwrap();
-/// let removed = Volume::of_solid(&Solid::Box(bounds)).less(Volume::of_surface(&surface, &options, 0.7, true));
+/// let removed = Volume::of_solid(&Solid::Box(bounds)).less(Volume::of_surface(&surface, &options, &stock, true));
 /// assert!(removed.value.abs() <= removed.bound + 1e-6);
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -59,14 +62,22 @@ impl Volume {
         Volume { value, bound: 1e-12 * value.abs() }
     }
 
-    /// The volume within a surface made with a tolerance from lines at a distance of `step` [mm]; `exact` when what no move has
-    /// cut is a box, whose faces the mesh has exactly.
-    pub fn of_surface(surface: &CutSurface, options: &SurfaceOptions, step: f64, exact: bool) -> Volume {
+    /// The volume within a surface of a stock, made with a tolerance; `exact` when what no move has cut is a box, whose faces the
+    /// mesh has exactly.
+    pub fn of_surface(
+        surface: &CutSurface,
+        options: &SurfaceOptions,
+        stock: &TriDexel,
+        exact: bool,
+    ) -> Volume {
+        let step = stock.lattice().step;
         let cuts = surface.mesh.triangles.iter().zip(&surface.cuts);
         let area: f64 =
             cuts.filter(|(_, cut)| !exact || **cut > 0).map(|(t, _)| area(&surface.mesh, *t)).sum();
         let value = surface.mesh.volume();
-        Volume { value, bound: (options.tolerance(step) + BENT * step) * area + 1e-12 * value.abs() }
+        let ledges = stock.skimmed.ledges(stock.lattice(), stock.bounds());
+        let bound = (options.tolerance(step) + BENT * step) * area + ledges + 1e-12 * value.abs();
+        Volume { value, bound }
     }
 
     /// The volume of a stock by its lines along Z.
@@ -84,19 +95,23 @@ impl Volume {
     /// let slot = Line { start: [-10.0, 10.0, -3.0].into(), end: [50.0, 10.0, -3.0].into() };
     /// cut(&mut stock, &tool, &[CutMove::new(slot, CutAxis::PlusZ, 0)], &CutOptions::default(), &Silent).unwrap();
     /// let left = Volume::of_lines(&stock);
-    /// // Two walls of 3 x 40 mm, each known to half a step.
-    /// assert!((left.value - 8000.0 + 960.0).abs() < left.bound && left.bound < 1.01 * 0.7 * 120.0);
+    /// // Two walls of 3 x 40 mm, each known to half a step, and a little where they meet the faces.
+    /// assert!((left.value - 8000.0 + 960.0).abs() < left.bound && left.bound < 1.05 * 0.7 * 120.0);
     /// ```
     pub fn of_lines(stock: &TriDexel) -> Volume {
         let (grid, lattice) = (stock.grid(Axis::Z), stock.lattice());
         let bounds = stock.bounds();
-        let across = [0, 1].map(|k| Across::new(lattice, k, [bounds.min[k], bounds.max[k]]));
+        let across = [0, 1].map(|k| Across::new(stock, k));
         let rows = (0..grid.tiles_across()[1]).into_par_iter();
-        let parts: Vec<[f64; 2]> = rows.map(|row| of_tiles(grid, row, &across)).collect();
-        let sum = |k: usize| parts.iter().map(|part| part[k]).sum::<f64>() * FIXED_STEP;
+        let parts: Vec<Part> = rows.map(|row| of_tiles(grid, row, &across)).collect();
+        let sum = |of: fn(&Part) -> f64| parts.iter().map(of).sum::<f64>() * FIXED_STEP;
         // Ends are rounded.
         let area = bounds.size().x * bounds.size().y;
-        Volume { value: sum(0), bound: 0.25 * lattice.step * lattice.step * sum(1) + FIXED_STEP * area }
+        let between = 0.25 * lattice.step * lattice.step * sum(|part| part.bends);
+        Volume {
+            value: sum(|part| part.volume),
+            bound: between + sum(|part| part.unknown) + FIXED_STEP * area,
+        }
     }
 
     /// The volume taken away to leave `rest`.
@@ -114,62 +129,93 @@ impl Volume {
     }
 }
 
-/// The lines of a lattice in one direction.
-struct Across {
+/// The lines of a stock in one direction.
+struct Across<'a> {
     count: usize,
     step: f64,
-    /// Widths that the first and the last line count for [mm]: up to the faces of the box.
+    /// Coordinate of the first line [mm].
     first: f64,
-    last: f64,
+    /// Distances of the first line from the least face, and of the last line from the greatest [mm].
+    faces: [f64; 2],
+    strips: &'a [Strip; 2],
 }
 
-impl Across {
-    fn new(lattice: &Lattice, k: usize, [min, max]: [f64; 2]) -> Across {
-        let (count, step, origin) = (lattice.counts[k] as usize, lattice.step, lattice.origin[k]);
-        if count == 1 {
-            return Across { count, step, first: max - min, last: max - min };
-        }
-        let end = origin + (count - 1) as f64 * step;
-        Across { count, step, first: origin - min + 0.5 * step, last: max - end + 0.5 * step }
+impl Across<'_> {
+    fn new(stock: &TriDexel, k: usize) -> Across<'_> {
+        let (lattice, bounds) = (stock.lattice(), stock.bounds());
+        let (count, step, first) = (lattice.counts[k] as usize, lattice.step, lattice.origin[k]);
+        let last = first + (count - 1) as f64 * step;
+        let faces = [first - bounds.min[k], bounds.max[k] - last];
+        Across { count, step, first, faces, strips: stock.skimmed.strips(k) }
     }
 
-    /// The width that a line counts for [mm].
-    fn width(&self, index: usize) -> f64 {
-        match index {
-            0 => self.first,
-            i if i + 1 == self.count => self.last,
-            _ => self.step,
-        }
+    /// The face that a line is next to on one side, with the width up to it [mm].
+    fn face(&self, index: usize, side: usize) -> Option<(f64, &Strip)> {
+        let is_last = index == if side == 0 { 0 } else { self.count - 1 };
+        is_last.then(|| (self.faces[side], &self.strips[side]))
+    }
+
+    /// What a line counts for: from where to where [mm].
+    fn span(&self, index: usize) -> (f64, f64) {
+        let at = self.first + index as f64 * self.step;
+        let to = |side: usize| self.face(index, side).map_or(0.5 * self.step, |(width, _)| width);
+        (at - to(0), at + to(1))
     }
 }
 
-/// Of the lines of a row of tiles: the sum of lengths times areas [fixed steps mm^2], and the sum of second differences of the lengths
-/// [fixed steps].
-fn of_tiles(grid: &Grid, row: u32, across: &[Across; 2]) -> [f64; 2] {
+/// Sums over some lines.
+#[derive(Clone, Copy, Debug, Default)]
+struct Part {
+    /// Lengths times areas [fixed steps mm^2].
+    volume: f64,
+    /// Second differences of the lengths [fixed steps].
+    bends: f64,
+    /// Lengths that are not known times areas [fixed steps mm^2].
+    unknown: f64,
+}
+
+/// The sums of the lines of a row of tiles.
+fn of_tiles(grid: &Grid, row: u32, across: &[Across; 2]) -> Part {
     let [columns, rows] = [across[0].count, across[1].count];
     let first = (row * TILE_EDGE) as usize;
-    let length = |i: usize, j: usize| -> i64 {
-        grid.line(i as u32, j as u32).iter().map(|part| i64::from(part.hi.at) - i64::from(part.lo.at)).sum()
+    let within = |i: usize, j: usize, [low, high]: [i32; 2]| -> i64 {
+        let line = grid.line(i as u32, j as u32).iter();
+        line.map(|part| (i64::from(part.hi.at.min(high)) - i64::from(part.lo.at.max(low))).max(0)).sum()
     };
     // A row beyond the stock is like the one at its border.
-    let lengths = |j: usize| -> Vec<i64> { (0..columns).map(|i| length(i, j)).collect() };
+    let lengths =
+        |j: usize| -> Vec<i64> { (0..columns).map(|i| within(i, j, [i32::MIN, i32::MAX])).collect() };
     let mut before = lengths(first.saturating_sub(1));
     let mut here = lengths(first);
-    let (mut volume, mut bends) = (0.0, 0);
+    let counts_for = |k: usize, index: usize| {
+        let (from, to) = across[k].span(index);
+        to - from
+    };
+    let mut all = Part::default();
+    let mut bends = 0;
     for j in first..rows.min(first + TILE_EDGE as usize) {
         let behind = lengths((j + 1).min(rows - 1));
         let mut sum = 0.0;
         for i in 0..columns {
             let own = here[i];
-            sum += own as f64 * across[0].width(i);
+            sum += own as f64 * counts_for(0, i);
             let bend = |a: i64, b: i64| (a - 2 * own + b).abs();
             bends += bend(here[i.saturating_sub(1)], here[(i + 1).min(columns - 1)]);
             bends += bend(before[i], behind[i]);
+            let place = [i, j];
+            for (k, side) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
+                if let Some((width, strip)) = across[k].face(place[k], side) {
+                    let heights = strip.unknown(across[1 - k].span(place[1 - k])).map(fixed);
+                    let beside = counts_for(1 - k, place[1 - k]);
+                    all.unknown += within(i, j, heights) as f64 * width * beside;
+                }
+            }
         }
-        volume += sum * across[1].width(j);
+        all.volume += sum * counts_for(1, j);
         (before, here) = (here, behind);
     }
-    [volume, bends as f64]
+    all.bends = bends as f64;
+    all
 }
 
 /// Area of a triangle [mm^2].

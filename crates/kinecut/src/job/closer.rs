@@ -63,7 +63,7 @@ pub(super) fn look_closer(
     if passing.is_empty() {
         return Ok(());
     }
-    let swept: Vec<Swept> = story.moves.iter().map(|list| Swept::of(list.moves(), story)).collect();
+    let swept: Vec<Swept> = story.moves.iter().map(|list| Swept::of(list)).collect();
     let mut left = MOST_BYTES_OF_ALL;
     while !passing.is_empty() && SQRT_2 * step > Missed::UNTOLD {
         let margin = ROOM * step;
@@ -204,8 +204,8 @@ struct Swept {
 }
 
 impl Swept {
-    fn of(moves: &[CutMove], story: &Story<'_>) -> Swept {
-        let boxes: Vec<Aabb> = moves.iter().map(|one| swept(one, story)).collect();
+    fn of(list: &CutList) -> Swept {
+        let boxes: Vec<Aabb> = (0..list.moves().len()).map(|i| list.swept(i)).collect();
         Swept { bins: Bins::of(&boxes), boxes }
     }
 
@@ -220,27 +220,6 @@ impl Swept {
 fn cut_to(part: Aabb, whole: Aabb) -> Option<Aabb> {
     let part = Aabb { min: part.min.max(whole.min), max: part.max.min(whole.max) };
     (part.size().min_element() > LEAST).then_some(part)
-}
-
-/// A box that holds all that a move sweeps.
-fn swept(one: &CutMove, story: &Story<'_>) -> Aabb {
-    let body = &story.bodies[one.body as usize];
-    let stacked = body.shank.iter().chain(&body.holder).map(|(profile, z)| (profile, *z));
-    let (mut radius, mut low, mut high) = (0.0f64, 0.0f64, 0.0f64);
-    for (profile, z) in stacked.chain([(&body.cutting, 0.0)]) {
-        radius = radius.max(profile.max_radius());
-        (low, high) = (low.min(z + profile.bottom()), high.max(z + profile.top()));
-    }
-    let path = one.curve.bounds();
-    let Some(axis) = one.stance.axis() else {
-        // About the tip in all directions.
-        return path.grown(radius + high.max(-low));
-    };
-    let along = |z: f64| {
-        let by = axis.vector() * z;
-        Aabb { min: path.min + by, max: path.max + by }
-    };
-    along(low).union(along(high)).grown(radius)
 }
 
 /// Cuts a part of the stock anew and tells what some moves meet in it.

@@ -169,7 +169,7 @@ pub fn simulate(
 pub(super) fn left(job: &Job, stock: &TriDexel, surface: Option<&CutSurface>) -> Volume {
     let by_lines = Volume::of_lines(stock);
     let is_box = matches!(job.stock, Solid::Box(_));
-    let by_surface = surface.map(|s| Volume::of_surface(s, &job.surface, job.step, is_box));
+    let by_surface = surface.map(|s| Volume::of_surface(s, &job.surface, stock, is_box));
     by_surface.filter(|v| v.bound < by_lines.bound).unwrap_or(by_lines)
 }
 

@@ -4,7 +4,9 @@
 //! radius to the top of the profile. A part of this form is convex: a flat disc, then the foot (cone or torus), then a
 //! cylinder; and the tool is the union of its parts. Elements inside the part below them add nothing.
 
-use crate::geom::{Profile, ProfileElement};
+use glam::DVec3;
+
+use crate::geom::{Aabb, Profile, ProfileElement};
 
 /// The shape of a foot between its flat disc and its cylinder.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -156,6 +158,19 @@ pub(super) struct RevolvedParts {
     pub(super) bottom: f64,
     /// Greatest height above the tip.
     pub(super) top: f64,
+}
+
+/// A box that holds all bodies of a tool with its tip at a point and an axis of unit length.
+pub(super) fn bounds(tip: DVec3, axis: DVec3, bodies: &[&RevolvedParts]) -> Aabb {
+    // A disc across the axis reaches so far along each coordinate, in radii.
+    let wide = (DVec3::ONE - axis * axis).max(DVec3::ZERO).map(f64::sqrt);
+    let mut all = Aabb::EMPTY;
+    for body in bodies.iter().filter(|b| !b.parts.is_empty()) {
+        let ends = [body.bottom, body.top].map(|z| tip + axis * z);
+        let by = wide * body.radius;
+        all = all.union(Aabb::of_points(ends.into_iter().flat_map(|end| [end - by, end + by])));
+    }
+    all
 }
 
 impl RevolvedParts {

@@ -3,10 +3,14 @@
 use std::ops::Range;
 use std::sync::Arc;
 
+use glam::DVec3;
+
+use super::body::{RevolvedParts, bounds};
 use super::run::check;
 use super::task::Tool;
-use super::{CutMove, CutOptions, ToolBody};
+use super::{CutAxis, CutMove, CutOptions, Stance, ToolBody};
 use crate::base::Result;
+use crate::geom::{Aabb, CurveKind};
 use crate::stock::CutId;
 
 /// Moves and the tools that make them, for stocks with one step. A stock keeps those that have not cut all of its lines yet.
@@ -38,6 +42,48 @@ impl CutList {
     /// The moves.
     pub fn moves(&self) -> &[CutMove] {
         &self.moves
+    }
+
+    /// A box that holds all that the cutting part, the shank and the holder of a move's tool sweep [mm].
+    pub fn swept(&self, index: usize) -> Aabb {
+        let tool = &self.tools[self.moves[index].body as usize];
+        self.swept_by(index, [0.0, 1.0], &[&tool.cutting, &tool.shank, &tool.holder])
+    }
+
+    /// Boxes that together hold all that a move removes: one where it does not reach out of a box, else some along its path.
+    pub(super) fn taken(&self, index: usize, inside: Aabb) -> impl Iterator<Item = Aabb> + '_ {
+        /// Most boxes along a path.
+        const MOST: f64 = 32.0;
+        let body = &self.tools[self.moves[index].body as usize].cutting;
+        let all = self.swept_by(index, [0.0, 1.0], &[body]);
+        let is_inside = |k: usize| inside.min[k] < all.min[k] && all.max[k] < inside.max[k];
+        let whole = is_inside(0) && is_inside(1);
+        let parts = (self.moves[index].curve.length() / (0.5 * body.radius)).ceil().clamp(1.0, MOST);
+        let parts = if whole { 1 } else { parts as u32 };
+        let at = move |i: u32| f64::from(i) / f64::from(parts);
+        (0..parts).map(move |i| self.swept_by(index, [at(i), at(i + 1)], &[body]))
+    }
+
+    /// A box that holds all that bodies sweep between two fractions of a move.
+    fn swept_by(&self, index: usize, [from, to]: [f64; 2], bodies: &[&RevolvedParts]) -> Aabb {
+        let one = &self.moves[index];
+        let margin = self.options.path_tolerance + self.options.clearance;
+        let Stance::Leaning(motion) = &one.stance else {
+            let axis = one.stance.axis().map_or(DVec3::Z, CutAxis::vector);
+            let path = match one.curve.kind() {
+                CurveKind::Line(line) => Aabb::of_points([from, to].map(|t| line.start.lerp(line.end, t))),
+                _ => one.curve.bounds(),
+            };
+            return bounds(path.min, axis, bodies).union(bounds(path.max, axis, bodies)).grown(margin);
+        };
+        // No point of the tool leaves the straight line between its places at both ends by more than the error of that chord.
+        let reach = |body: &&RevolvedParts| body.radius.hypot(body.top.max(-body.bottom));
+        let reach = bodies.iter().map(reach).fold(0.0, f64::max);
+        let [first, last] = [from, to].map(|t| {
+            let pose = motion.pose(t);
+            bounds(pose.translation, pose.rotation.z_axis, bodies)
+        });
+        first.union(last).grown(motion.chord_error(from, to, reach) + margin)
     }
 
     /// The number that the cut of a move carries.

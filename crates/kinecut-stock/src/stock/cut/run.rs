@@ -66,6 +66,27 @@ pub fn cut(
 /// As [`cut`], with moves made ready: a range of them. The moves are kept by the stock until they have cut all of its lines, which
 /// happens when these are asked for.
 ///
+/// ```
+/// # use kinecut_stock as kinecut;
+/// use kinecut::base::Silent;
+/// use kinecut::geom::{Aabb, Line, Profile};
+/// use kinecut::stock::TriDexel;
+/// use kinecut::stock::cut::{CutAxis, CutList, CutMove, CutOptions, ToolBody, cut_list};
+/// let plate = Aabb { min: [0.0, 0.0, -10.0].into(), max: [40.0, 20.0, 0.0].into() };
+/// let mut stock = TriDexel::from_box(plate, 0.25).unwrap();
+/// let tool = [ToolBody::new(Profile::cylinder(8.0, 20.0).unwrap())];
+/// let slot = |z: f64| Line { start: [-10.0, 10.0, z].into(), end: [50.0, 10.0, z].into() };
+/// let moves = [-1.0, -3.0].map(|z| CutMove::new(slot(z), CutAxis::PlusZ, 0)).to_vec();
+/// let list = CutList::new(&tool, moves, &CutOptions::default(), 0.25).unwrap();
+/// // A look at the stock between the two cuts.
+/// let first = cut_list(&mut stock, &list, 0..1, &Silent).unwrap();
+/// assert!((stock.volume() - 8000.0 + 320.0).abs() < 1e-6);
+/// let second = cut_list(&mut stock, &list, 1..2, &Silent).unwrap();
+/// assert!((first[0].removed + second[0].removed - 960.0).abs() < 1e-6);
+/// stock.settle(&Silent);
+/// assert!(stock.volumes().iter().all(|volume| (volume - 8000.0 + 960.0).abs() < 1e-3));
+/// ```
+///
 /// # Errors
 /// `KC0801` for a range that the list does not have, or a list for another step; `KC0009` as [`cut`].
 pub fn cut_list(
@@ -111,6 +132,11 @@ pub(super) fn cut_as(
         .into());
     }
     stock.take_back();
+    let (lattice, bounds) = (*stock.lattice(), stock.bounds());
+    for i in range.clone().filter(|i| list.moves[*i].removes) {
+        let inside = bounds.grown(-lattice.step);
+        list.taken(i, inside).for_each(|part| stock.skimmed.note(&lattice, bounds, part));
+    }
     let mut effects = Vec::with_capacity(range.len());
     progress.stage("cut", range.len() as u64);
     for stretch in list.stretches(range) {
@@ -120,6 +146,14 @@ pub(super) fn cut_as(
         }
     }
     Ok(effects)
+}
+
+/// Whether the caller still waits for the result.
+pub(super) fn still_wanted(progress: &dyn Progress) -> Result<()> {
+    match progress.cancelled() {
+        true => Err(Finding::error(Code::CANCELLED, "cutting was cancelled").into()),
+        false => Ok(()),
+    }
 }
 
 /// Checks what comes from outside.

@@ -10,10 +10,10 @@ use super::hollow::standing;
 use super::in_order::cut_in_order;
 use super::list::CutList;
 use super::piece::{MovePiece, pieces};
-use super::run::{BATCH, Order};
+use super::run::{BATCH, Order, still_wanted};
 use super::task::Task;
 use super::{CutAxis, CutMove, MoveEffect};
-use crate::base::{Code, Finding, Progress, Result};
+use crate::base::{Progress, Result};
 use crate::stock::{DexelGrid, FIXED_STEP, TriDexel};
 
 /// Moves that are cut from above at once: bounds the memory of their lists.
@@ -70,13 +70,6 @@ impl<'a> Batch<'a> {
         let step = stock.lattice().step;
         let told = sums.iter().zip(&self.errors[moves.clone()]).zip(&self.filled[moves]);
         told.map(|((sum, error), filled)| sum.effect(step, *error, *filled)).collect()
-    }
-}
-
-fn still_wanted(progress: &dyn Progress) -> Result<()> {
-    match progress.cancelled() {
-        true => Err(Finding::error(Code::CANCELLED, "cutting was cancelled").into()),
-        false => Ok(()),
     }
 }
 

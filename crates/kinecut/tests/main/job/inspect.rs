@@ -188,7 +188,7 @@ fn without_a_surface_the_verdict_is_the_same_and_what_needs_one_says_so() {
         assert_eq!(lines.verdict.found.iter().any(|f| f.code == Code::RAPID_IN_STOCK), meets);
         let exact = 40.0 * 8.0 * 3.0 + std::f64::consts::PI * 4.0 * 10.0;
         for removed in [lines.removed, whole.removed] {
-            // The wall that the rapid cuts is told as an error, and taken.
+            // The rapid takes some of the wall with it.
             let more = if meets { 30.0 } else { 0.0 };
             assert!((-removed.bound..removed.bound + more).contains(&(removed.value - exact)), "{removed:?}");
         }

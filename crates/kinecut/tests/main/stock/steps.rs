@@ -25,7 +25,7 @@ fn check(solid: &Solid, tool: &Profile, moves: &[Curve], step: f64, exact: f64) 
     cut(&mut stock, &[ToolBody::new(tool.clone())], &moves, &CutOptions::default(), &Silent).unwrap();
     let surface = surface_with_cuts(&stock, &SurfaceOptions::default(), &Silent).unwrap();
     surface.mesh.check_closed().unwrap_or_else(|e| panic!("step {step}: {e}"));
-    let left = Volume::of_surface(&surface, &SurfaceOptions::default(), step, false);
+    let left = Volume::of_surface(&surface, &SurfaceOptions::default(), &stock, false);
     assert!((left.value - exact).abs() <= left.bound, "step {step}: {left:?} but {exact}");
 }
 

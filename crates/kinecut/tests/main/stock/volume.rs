@@ -8,6 +8,7 @@ use kinecut::geom::{Aabb, Curve, Line, Profile, Solid};
 use kinecut::stock::cut::{CutAxis, CutMove, CutOptions, ToolBody, cut};
 use kinecut::stock::surface::{SurfaceOptions, surface_with_cuts};
 use kinecut::stock::{TriDexel, Volume};
+use kinecut::sweep::ToolMotion;
 
 const BLOCK: Aabb = Aabb { min: DVec3::new(-20.0, -15.0, -12.0), max: DVec3::new(21.0, 14.0, 0.0) };
 
@@ -15,7 +16,7 @@ fn way(a: [f64; 3], b: [f64; 3]) -> Curve {
     Line { start: a.into(), end: b.into() }.into()
 }
 
-/// What moves of a cutter with their tool axes remove, by the surface of what is left and by its lines; `solid` is the raw stock.
+/// Volumes removed by moves of a cutter with their tool axes: by the surface of what is left, and by its lines; `solid` is the raw stock.
 fn removed(solid: &Solid, step: f64, tool: &Profile, moves: &[(Curve, CutAxis)]) -> [Volume; 2] {
     let mut stock = TriDexel::from_solid(solid, step).unwrap();
     let moves: Vec<CutMove> = moves.iter().map(|(c, axis)| CutMove::new(*c, *axis, 0)).collect();
@@ -30,7 +31,7 @@ fn removed(solid: &Solid, step: f64, tool: &Profile, moves: &[(Curve, CutAxis)])
         surface.mesh.check_closed().unwrap();
         assert!(surface.mesh.triangles.len() <= triangles);
         triangles = surface.mesh.triangles.len();
-        Volume::of_surface(&surface, &options, step, is_box)
+        Volume::of_surface(&surface, &options, &stock, is_box)
     });
     left.sort_by(|a, b| a.bound.total_cmp(&b.bound));
     for other in [left[0], left[2]] {
@@ -104,6 +105,53 @@ fn a_raster_of_a_ball() {
             0.1 * step,
         );
     }
+}
+
+/// Side faces of a block skimmed by less than reaches the next line: no line along Z is cut, and all of what is gone lies between.
+#[test]
+fn faces_skimmed_beside_the_last_lines() {
+    let (tool, ball) = (Profile::cylinder(8.0, 30.0).unwrap(), Profile::bull_nose(8.0, 4.0, 30.0).unwrap());
+    for step in STEPS {
+        let skim = 0.3 * step;
+        let down = |x: f64, y: f64| way([x, -40.0, y], [x, 40.0, y]);
+        let right = [(down(21.0 + 4.0 - skim, -5.0), CutAxis::PlusZ)];
+        holds("right", step, removed(&Solid::Box(BLOCK), step, &tool, &right), skim * 29.0 * 5.0, 0.8);
+        let left = [(down(-20.0 - 4.0 + skim, -5.0), CutAxis::PlusZ)];
+        holds("left", step, removed(&Solid::Box(BLOCK), step, &tool, &left), skim * 29.0 * 5.0, 0.8);
+        let front =
+            [(way([-40.0, -15.0 - 4.0 + skim, -7.0], [40.0, -15.0 - 4.0 + skim, -7.0]), CutAxis::PlusZ)];
+        holds("front", step, removed(&Solid::Box(BLOCK), step, &tool, &front), skim * 41.0 * 7.0, 0.8);
+        // From below, and by a tool that leans: a ball whose centre runs along the middle of the face.
+        let below =
+            [(way([-40.0, 14.0 + 4.0 - skim, -9.0], [40.0, 14.0 + 4.0 - skim, -9.0]), CutAxis::MinusZ)];
+        holds("below", step, removed(&Solid::Box(BLOCK), step, &tool, &below), skim * 41.0 * 3.0, 0.8);
+        let axis = DVec3::new(0.6, 0.0, 0.8);
+        let line = Line {
+            start: DVec3::new(21.0 + 4.0 - skim, -40.0, -6.0) - axis * 4.0,
+            end: DVec3::new(21.0 + 4.0 - skim, 40.0, -6.0) - axis * 4.0,
+        };
+        let motion = ToolMotion::fixed(line.into(), axis).unwrap();
+        let mut stock = TriDexel::from_box(BLOCK, step).unwrap();
+        let moves = [CutMove::leaning(motion, line, 0)];
+        cut(&mut stock, &[ToolBody::new(ball.clone())], &moves, &CutOptions::default(), &Silent).unwrap();
+        let section = 16.0 * ((4.0 - skim) / 4.0).acos() - (4.0 - skim) * (8.0 * skim - skim * skim).sqrt();
+        let lines = Volume::of_solid(&Solid::Box(BLOCK)).less(Volume::of_lines(&stock));
+        assert!(
+            (lines.value - section * 29.0).abs() <= lines.bound,
+            "{step}: {lines:?} but {}",
+            section * 29.0
+        );
+    }
+}
+
+/// Far from the faces nothing is owed for them.
+#[test]
+fn lines_at_faces_that_no_move_comes_to_count_as_they_are() {
+    let tool = Profile::cylinder(6.0, 30.0).unwrap();
+    let hole = [(way([3.1, 2.3, 5.0], [3.1, 2.3, -7.0]), CutAxis::PlusZ)];
+    let [_, lines] = removed(&Solid::Box(BLOCK), 0.2, &tool, &hole);
+    // The wall is known to half a step in both directions, and the round counts for up to 4 / pi of itself.
+    assert!(lines.bound < 0.2 * 6.0 * 4.0 * 7.0, "{lines:?}");
 }
 
 #[test]

@@ -129,7 +129,7 @@ impl FromAbove {
         let field = Field::new(&shape, lattice, &frame, bounds);
         let open =
             Open { patches: field.patches(), rectangle: rectangle(&field), paid: self.late.paid.clone() };
-        // First what is known to be gone, on whole lines: what is left of them is then short.
+        // Material above ceilings first, on whole lines: the rest of them is then short.
         for grid in grids.iter_mut().filter(|grid| grid.axis != along) {
             let k = direction(grid.axis, &frame);
             let whole = open.whole_lines(k);
@@ -151,7 +151,7 @@ impl FromAbove {
             }
         }
         if progress.cancelled() {
-            // What was cut may be cut again.
+            // Cutting it once more does no harm.
             return;
         }
         for patch in open.inside() {
@@ -159,7 +159,7 @@ impl FromAbove {
         }
     }
 
-    /// What tasks claim on the ways of open patches, by direction.
+    /// Claims of tasks on the ways of open patches, by direction.
     fn claims(
         &self,
         field: &Field,
@@ -183,7 +183,7 @@ impl FromAbove {
                     if progress.cancelled() {
                         break;
                     }
-                    // What is watched, and was clear, has met nothing.
+                    // A watched task was clear, and has met nothing.
                     let task = &tasks[*i as usize];
                     if !task.watch {
                         patch.claim(layers, *i, task, &mut claims);

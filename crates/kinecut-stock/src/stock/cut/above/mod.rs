@@ -41,7 +41,7 @@ use crate::stock::{DexelGrid, Lattice, TriDexel};
 
 pub(super) use self::late::settle_near;
 
-/// What cutting from above along one axis leaves for the next time.
+/// Ceilings from cutting along one axis, and the moves that still owe lines across it.
 #[derive(Clone, Debug)]
 pub(in crate::stock) struct FromAbove {
     axis: CutAxis,

@@ -317,7 +317,7 @@ impl Torus {
 
     #[inline(always)]
     fn root(&self, l: f64) -> f64 {
-        /// Where the torus ends in a point [mm].
+        /// Least radius that is divided by: a torus may end in a point [mm].
         const POINT: f64 = 1e-9;
         let Torus { d, r, k, lower, room } = *self;
         let (kk, ll, least_s) = (k * k, l * l, most((l - d) / r, 0.0));

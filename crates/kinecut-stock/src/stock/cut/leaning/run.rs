@@ -5,11 +5,11 @@ use std::ops::Range;
 use super::super::MoveEffect;
 use super::super::effect::Sum;
 use super::super::list::CutList;
-use super::super::run::Order;
+use super::super::run::{Order, still_wanted};
 use super::at_once::{Cells, LEAST, cut_at_once, may_be_cut_at_once};
 use super::task::Batch;
 use super::tiles::cut_in_order;
-use crate::base::{Code, Finding, Progress, Result};
+use crate::base::{Progress, Result};
 use crate::stock::{DexelGrid, TriDexel};
 
 /// Cuts moves that lean, and adds their effects to those of the moves before them.
@@ -49,9 +49,7 @@ pub(in super::super) fn cut_leaning(
             progress.advance((end - from) as u64);
             from = end;
         }
-        if progress.cancelled() {
-            return Err(Finding::error(Code::CANCELLED, "cutting was cancelled").into());
-        }
+        still_wanted(progress)?;
         let done = sums.iter().zip(batch.errors.iter().zip(&batch.filled));
         effects.extend(done.map(|(sum, (error, filled))| sum.effect(step, *error, *filled)));
         next += batch.moves.len();

@@ -2,9 +2,7 @@
 
 use std::ops::Range;
 
-use glam::DVec3;
-
-use super::super::body::RevolvedParts;
+use super::super::body::bounds;
 use super::super::list::CutList;
 use super::super::task::{Tool, beside};
 use super::super::{CutMove, Stance};
@@ -117,14 +115,4 @@ impl<'a> Batch<'a> {
         let at = |index: usize| self.tasks.partition_point(|t| (t.index as usize) < index);
         &self.tasks[at(moves.start)..at(moves.end)]
     }
-}
-
-/// A box that holds all bodies of a tool at a pose.
-fn bounds(tip: DVec3, axis: DVec3, bodies: &[&RevolvedParts]) -> Aabb {
-    let mut all = Aabb::EMPTY;
-    for body in bodies.iter().filter(|b| !b.parts.is_empty()) {
-        let ends = [body.bottom, body.top].map(|z| tip + axis * z);
-        all = all.union(Aabb::of_points(ends).grown(body.radius));
-    }
-    all
 }

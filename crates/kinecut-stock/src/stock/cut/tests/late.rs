@@ -1,6 +1,7 @@
 //! Lines across the tool axis that are cut late: whoever reads them does not see it.
 
 use glam::DVec3;
+use rayon::prelude::*;
 
 use super::against_poses::SHAPES;
 use super::in_two_ways::compare_lines;
@@ -8,7 +9,7 @@ use super::reference::Random;
 use crate::base::{Progress, Silent};
 use crate::geom::{Aabb, Line};
 use crate::stock::cut::{CutAxis, CutList, CutMove, CutOptions, ToolBody, cut_list};
-use crate::stock::{Axis, TriDexel};
+use crate::stock::{Axis, DexelGrid, TriDexel};
 
 const BLOCK: Aabb = Aabb { min: DVec3::new(-9.0, -8.0, -7.0), max: DVec3::new(9.3, 8.1, 6.2) };
 
@@ -128,4 +129,27 @@ fn lists_for_other_steps_and_ranges_beyond_them_are_refused() {
     let mut other = TriDexel::from_box(BLOCK, 0.5).unwrap();
     let error = cut_list(&mut other, &list, 0..3, &Silent).unwrap_err();
     assert_eq!((error.0.value.unwrap().value, error.0.bound.unwrap().value), (0.4, 0.5));
+}
+
+/// Readers inside of a pool of threads, who all ask at once: none waits for one that waits for it.
+#[test]
+fn lines_are_read_first_by_many_threads() {
+    let mut random = Random(12);
+    let body = [ToolBody::new(SHAPES[3].profile())];
+    let list =
+        CutList::new(&body, chain(&mut random, CutAxis::PlusZ, 60), &CutOptions::default(), 0.4).unwrap();
+    let mut late = TriDexel::from_box(BLOCK, 0.4).unwrap();
+    cut_list(&mut late, &list, 0..60, &Silent).unwrap();
+    let mut settled = late.clone();
+    settled.settle(&Silent);
+    for threads in [1, 2, 5] {
+        let (stock, pool) =
+            (late.clone(), rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap());
+        let count = stock.lattice().counts[2];
+        let row = |stock: &TriDexel, z: u32| -> Vec<Vec<_>> {
+            (0..stock.lattice().counts[1]).map(|y| stock.line(Axis::X, y, z).to_vec()).collect()
+        };
+        let rows: Vec<_> = pool.install(|| (0..count).into_par_iter().map(|z| row(&stock, z)).collect());
+        assert!(rows.into_iter().eq((0..count).map(|z| row(&settled, z))), "{threads} threads");
+    }
 }
