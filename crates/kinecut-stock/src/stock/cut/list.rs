@@ -1,7 +1,7 @@
 //! Moves made ready for cutting: checked, with their tools.
 
 use std::ops::Range;
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 use glam::DVec3;
 
@@ -21,7 +21,12 @@ pub struct CutList {
     pub(super) options: CutOptions,
     /// Distance of the lines that the tools are ready for [mm].
     pub(super) step: f64,
+    /// Boxes of the paths of [`BLOCK`] moves each, grown by their tools' radii.
+    blocks: OnceLock<Vec<Aabb>>,
 }
+
+/// Moves that share a box.
+const BLOCK: usize = 64;
 
 impl CutList {
     /// Moves of tools in the order in which they are made; `step`: distance of the lines of the stock that they will cut [mm].
@@ -36,7 +41,7 @@ impl CutList {
     ) -> Result<Arc<CutList>> {
         check(bodies, &moves, options)?;
         let tools = bodies.iter().map(|b| Tool::new(b, options, step)).collect();
-        Ok(Arc::new(CutList { moves, tools, options: *options, step }))
+        Ok(Arc::new(CutList { moves, tools, options: *options, step, blocks: OnceLock::new() }))
     }
 
     /// The moves.
@@ -84,6 +89,30 @@ impl CutList {
             bounds(pose.translation, pose.rotation.z_axis, bodies)
         });
         first.union(last).grown(motion.chord_error(from, to, reach) + margin)
+    }
+
+    /// The moves of a range whose paths, grown by their tools' radii, meet some box for which `meets` holds: it has to hold for any box
+    /// around it, too.
+    pub(super) fn near<'a>(
+        &'a self,
+        range: Range<usize>,
+        meets: impl Fn(Aabb) -> bool + Copy + 'a,
+    ) -> impl Iterator<Item = usize> + 'a {
+        let around = |i: usize| {
+            let one = &self.moves[i];
+            one.curve.bounds().grown(self.tools[one.body as usize].radius)
+        };
+        let blocks = self.blocks.get_or_init(|| {
+            let starts = (0..self.moves.len()).step_by(BLOCK);
+            let all = |start: usize| start..self.moves.len().min(start + BLOCK);
+            starts.map(|start| all(start).map(around).fold(Aabb::EMPTY, Aabb::union)).collect()
+        });
+        (range.start / BLOCK..range.end.div_ceil(BLOCK)).filter(move |b| meets(blocks[*b])).flat_map(
+            move |b| {
+                let some = range.start.max(b * BLOCK)..range.end.min((b + 1) * BLOCK);
+                some.filter(move |i| meets(around(*i)))
+            },
+        )
     }
 
     /// The number that the cut of a move carries.

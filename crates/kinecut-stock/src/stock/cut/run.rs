@@ -139,13 +139,16 @@ pub(super) fn cut_as(
     }
     let mut effects = Vec::with_capacity(range.len());
     progress.stage("cut", range.len() as u64);
-    for stretch in list.stretches(range) {
-        match list.moves[stretch.start].stance.axis() {
-            Some(axis) => cut_upright(stock, (axis, order), list, stretch, &mut effects, progress)?,
-            None => cut_leaning(stock, order, list, stretch, &mut effects, progress)?,
+    // By one of the threads that share the work: none has to be woken for each of thousands of short runs.
+    rayon::scope(|_| {
+        for stretch in list.stretches(range) {
+            match list.moves[stretch.start].stance.axis() {
+                Some(axis) => cut_upright(stock, (axis, order), list, stretch, &mut effects, progress)?,
+                None => cut_leaning(stock, order, list, stretch, &mut effects, progress)?,
+            }
         }
-    }
-    Ok(effects)
+        Ok(effects)
+    })
 }
 
 /// Whether the caller still waits for the result.

@@ -243,22 +243,22 @@ impl Late {
     fn tasks(&self, from: usize, frame: &ToolFrame, field: &Field, open: &Open) -> (Vec<Task<'_>>, usize) {
         let mut tasks = Vec::new();
         let start = self.debts.partition_point(|debt| debt.first + debt.moves.len() <= from);
+        let (u, v) = frame.axes[2].others();
+        let margin = 3.0 * field.step;
+        let meets = |around: Aabb| {
+            let ends = [around.min - margin, around.max + margin];
+            let [min, max] = ends.map(|p| DVec2::new(p[u.index()], p[v.index()]));
+            open.meets(&field.rectangle((min, max)))
+        };
         for debt in &self.debts[start..] {
-            for at in debt.moves.start + from.saturating_sub(debt.first)..debt.moves.end {
+            for at in
+                debt.list.near(debt.moves.start + from.saturating_sub(debt.first)..debt.moves.end, meets)
+            {
                 let index = debt.first + (at - debt.moves.start);
                 if tasks.len() >= MOST {
                     return (tasks, index);
                 }
-                let one = &debt.list.moves[at];
-                if one.watch {
-                    continue;
-                }
-                let reach = debt.list.tools[one.body as usize].radius + 3.0 * field.step;
-                let path = one.curve.bounds();
-                let (u, v) = frame.axes[2].others();
-                let ends = [path.min - reach, path.max + reach];
-                let [min, max] = ends.map(|p| DVec2::new(p[u.index()], p[v.index()]));
-                if open.meets(&field.rectangle((min, max))) {
+                if !debt.list.moves[at].watch {
                     tasks_of(&debt.list, at, frame, index as u32, &mut tasks);
                 }
             }

@@ -66,9 +66,8 @@ pub(super) fn clear(
     if let [first, .., last] = &mut ends[..] {
         (*first, *last) = (*first - CLEAR, *last + CLEAR);
     }
-    let ceilings = Ceilings { now, before, open, k };
     let bands = &open.rectangle[1 - k];
-    let lower: Vec<bool> = bands.clone().map(|band| ceilings.are_lower(band)).collect();
+    let ceilings = Ceilings::new((now, before), open, k);
     let (rows, heights) = strip_lines(grid, lattice, frame);
     let (own, edge) = (OWN as usize, TILE_EDGE as usize);
     let end = (bands.end * own).min(rows.len()).div_ceil(edge);
@@ -79,8 +78,7 @@ pub(super) fn clear(
         let mut ways = Vec::new();
         for row in 0..strip.rows.len() {
             let index = s * edge + row;
-            let lower = (index / own).checked_sub(bands.start).and_then(|band| lower.get(band));
-            if lower == Some(&true) && !progress.cancelled() {
+            if bands.contains(&(index / own)) && !progress.cancelled() {
                 ceilings.of_row(index, &layers, &mut ways);
                 clear.cut(&mut strip, row, &ways);
             }
@@ -117,6 +115,8 @@ struct Ceilings<'a> {
     before: &'a [Known],
     open: &'a Open,
     k: usize,
+    /// By band and place along the lines: a bit for each row in which a ceiling of the patch is new.
+    new: Vec<u32>,
 }
 
 /// A way between two lines of a row.
@@ -129,36 +129,48 @@ struct Way {
     before: usize,
 }
 
-impl Ceilings<'_> {
+impl<'a> Ceilings<'a> {
+    fn new((now, before): (&'a [Known], &'a [Known]), open: &'a Open, k: usize) -> Ceilings<'a> {
+        let mut made = Ceilings { now, before, open, k, new: Vec::new() };
+        let [bands, along] = [&open.rectangle[1 - k], &open.rectangle[k]];
+        let all = bands.clone().flat_map(|band| along.clone().map(move |q| (band, q)));
+        made.new = all.map(|(band, q)| made.new_rows(made.patch(band, q))).collect();
+        made
+    }
+
     /// Index of a patch of a band.
     fn patch(&self, band: usize, q: usize) -> usize {
         self.open.patch(if self.k == 0 { [q, band] } else { [band, q] })
     }
 
-    /// True if a patch is as it was the last time.
-    fn is_old(&self, patch: usize) -> bool {
-        match (&self.now[patch], &self.before[patch]) {
-            (Some(now), Some(before)) => Arc::ptr_eq(now, before),
-            (now, _) => now.is_none(),
-        }
+    /// A bit for each row in which a ceiling of a patch is new.
+    fn new_rows(&self, patch: usize) -> u32 {
+        let (now, before) = match (&self.now[patch], &self.before[patch]) {
+            (Some(now), Some(before)) if Arc::ptr_eq(now, before) => return 0,
+            (None, _) => return 0,
+            (Some(_), None) => return u32::MAX,
+            (Some(now), Some(before)) => (&now[self.k], &before[self.k]),
+        };
+        let is_new = |row: usize| {
+            let at = |i: usize| if self.k == 0 { row * SIDE + i } else { i * SIDE + row };
+            (1..SIDE).any(|i| now[at(i)] != before[at(i)])
+        };
+        (1..SIDE).filter(|row| is_new(*row)).fold(0, |rows, row| rows | 1 << row)
     }
 
-    /// True if there are new ceilings in a band.
-    fn are_lower(&self, band: usize) -> bool {
-        self.open.rectangle[self.k].clone().any(|q| !self.is_old(self.patch(band, q)))
-    }
-
-    /// The ways of a row in patches that have new ceilings. A task that lowers a ceiling on one side of a border comes into the patch on
-    /// its other side, too: both are there.
+    /// The ways of a row in patches where it has new ceilings, and in their neighbours.
     fn of_row(&self, row: usize, layers: &Layers, ways: &mut Vec<Way>) {
         let own = OWN as usize;
         let (band, within) = (row / own, row % own + 1);
         ways.clear();
-        for q in self.open.rectangle[self.k].clone() {
-            let patch = self.patch(band, q);
-            if self.is_old(patch) {
+        let [bands, along] = [&self.open.rectangle[1 - self.k], &self.open.rectangle[self.k]];
+        let new = &self.new[(band - bands.start) * along.len()..][..along.len()];
+        for (n, q) in along.clone().enumerate() {
+            let around = &new[n.saturating_sub(1)..new.len().min(n + 2)];
+            if around.iter().all(|rows| rows >> within & 1 == 0) {
                 continue;
             }
+            let patch = self.patch(band, q);
             let Some(now) = self.now[patch].as_deref() else { continue };
             let before = self.before[patch].as_deref();
             for i in 1..SIDE {
@@ -167,7 +179,10 @@ impl Ceilings<'_> {
                 // Behind the last line there is none.
                 if ceiling > f32::NEG_INFINITY {
                     let clear = layers.above(f64::from(ceiling));
-                    let before = before.map_or(layers.count(), |b| layers.above(f64::from(b[self.k][l])));
+                    let before = match before.map(|b| b[self.k][l]) {
+                        Some(before) if before == ceiling => clear,
+                        before => before.map_or(layers.count(), |b| layers.above(f64::from(b))),
+                    };
                     ways.push(Way { index: q * own + i - 1, clear, before });
                 }
             }
