@@ -55,6 +55,9 @@ struct Stock {
     /// step
     #[arg(long, value_name = "MM")]
     mesh_tolerance: Option<f64>,
+    /// Largest memory of the run, MB: stock model, moves, surface and comparison; default: that of the job, then 4000
+    #[arg(long, value_name = "MB")]
+    memory: Option<f64>,
     /// Prove the cut stock against the moves by branch and bound; takes longer
     #[arg(long)]
     certified: bool,
@@ -62,8 +65,8 @@ struct Stock {
 
 impl Stock {
     fn wants(&self) -> StockWants {
-        let Stock { step, mesh_tolerance, certified } = *self;
-        StockWants { step, mesh_tolerance, certified, ..StockWants::default() }
+        let Stock { step, mesh_tolerance, memory, certified } = *self;
+        StockWants { step, mesh_tolerance, memory, certified, ..StockWants::default() }
     }
 }
 

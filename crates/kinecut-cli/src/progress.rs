@@ -72,6 +72,10 @@ impl Progress for Bar {
         self.0.inc(steps);
     }
 
+    fn note(&self, text: &str) {
+        self.0.println(text);
+    }
+
     fn cancelled(&self) -> bool {
         INTERRUPTED.load(Ordering::Relaxed)
     }

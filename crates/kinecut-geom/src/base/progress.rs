@@ -8,6 +8,9 @@ pub trait Progress: Sync {
     /// `steps` more steps of the present stage are done; may be called from any thread.
     fn advance(&self, steps: u64);
 
+    /// A fact about the work that comes, for a person who waits: what it will cost.
+    fn note(&self, _text: &str) {}
+
     /// True if the caller wants the work to stop; it then returns an error with code `KC0009`.
     fn cancelled(&self) -> bool {
         false

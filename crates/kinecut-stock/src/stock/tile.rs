@@ -42,6 +42,12 @@ impl Tile {
     pub(crate) const BYTES: usize =
         size_of::<Tile>() + TILE_LINES * (size_of::<u16>() + size_of::<[Interval; IN_PLACE]>());
 
+    /// Bytes of the tile with its lines.
+    pub(crate) fn bytes(&self) -> usize {
+        let places = size_of_val(&self.heads[..]) + size_of_val(&self.places[..]);
+        size_of::<Tile>() + places + size_of_val(&self.runs[..]) + size_of_val(&self.arena[..])
+    }
+
     /// A tile of equal lines.
     pub(crate) fn of(alike: Option<Interval>) -> Tile {
         Tile {

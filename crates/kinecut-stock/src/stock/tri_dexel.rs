@@ -140,6 +140,44 @@ impl TriDexel {
         (tiles[0] * tiles[1] + tiles[1] * tiles[2] + tiles[2] * tiles[0]) * Tile::BYTES as u64
     }
 
+    /// Memory that the lines hold now [bytes], as [`TriDexel::memory`] counts it.
+    pub fn memory_held(&self) -> u64 {
+        self.grids.iter().flat_map(|grid| &grid.tiles).map(|tile| tile.bytes() as u64).sum()
+    }
+
+    /// Number of the lines of a stock in a box at a grid step; `u64::MAX` for numbers that make no stock.
+    ///
+    /// ```
+    /// # use kinecut_stock as kinecut;
+    /// use kinecut::{geom::Aabb, stock::TriDexel};
+    /// let plate = Aabb { min: [0.0, 0.0, -10.0].into(), max: [100.0, 50.0, 0.0].into() };
+    /// assert_eq!(TriDexel::lines(plate, 1.0), 100 * 50 + 50 * 10 + 10 * 100);
+    /// ```
+    pub fn lines(bounds: Aabb, step: f64) -> u64 {
+        let Ok(lattice) = lattice_of(bounds, step) else { return u64::MAX };
+        let [x, y, z] = lattice.counts.map(u64::from);
+        x * y + y * z + z * x
+    }
+
+    /// Memory that a surface of a stock in a box needs at a grid step, however little of it there is [bytes]: it grows with the
+    /// inverse cube of the step. Its vertices and triangles come on top ([`SurfaceOptions::memory`]). For numbers that make no stock
+    /// the answer is `u64::MAX`.
+    ///
+    /// [`SurfaceOptions::memory`]: super::surface::SurfaceOptions::memory
+    ///
+    /// ```
+    /// # use kinecut_stock as kinecut;
+    /// use kinecut::{geom::Aabb, stock::TriDexel};
+    /// let plate = Aabb { min: [0.0, 0.0, -40.0].into(), max: [100.0, 100.0, 0.0].into() };
+    /// // A bit for each of 3.2 thousand million points, and what is known of each block of them.
+    /// let bytes = TriDexel::surface_memory(plate, 0.05);
+    /// assert!(400_000_000 < bytes && bytes < 500_000_000);
+    /// ```
+    pub fn surface_memory(bounds: Aabb, step: f64) -> u64 {
+        let Ok(lattice) = lattice_of(bounds, step) else { return u64::MAX };
+        super::surface::memory(lattice.counts)
+    }
+
     /// The box over which the lattice was laid.
     pub fn bounds(&self) -> Aabb {
         self.bounds

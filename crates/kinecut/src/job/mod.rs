@@ -1,6 +1,7 @@
 //! A job: from its file over plan, post, reading back and simulation to the verdict.
 
 mod bins;
+mod budget;
 pub(crate) mod check;
 mod closer;
 pub mod contour;
@@ -37,6 +38,7 @@ mod verdict;
 mod wants;
 mod wrong_type;
 
+pub use budget::Budget;
 pub use check::{Design, Job, JobProgram, JobSetup, check};
 pub use external::{
     ExternalProgram, GivenFile, GivenJob, ProgramWants, Unfollowed, control_of, control_of_name, given_alone,

@@ -7,7 +7,7 @@ use crate::operations::OperationPlan;
 use crate::operations::known::Known;
 use crate::operations::measured::Loose;
 use crate::operations::setting::corners;
-use crate::stock::surface::{CutSurface, surface_with_cuts};
+use crate::stock::surface::CutSurface;
 use crate::trace::{Trace, trace, travel_findings};
 
 use super::check::{Job, check};
@@ -107,7 +107,8 @@ pub(crate) fn run_checked(
         true => None,
         false => {
             simulation.stock.settle(progress);
-            Some(surface_with_cuts(&simulation.stock, &job.surface, progress)?)
+            let stock = (&simulation.budget, &simulation.stock);
+            Some(simulate::surface(&job, stock, progress).map_err(locate)?)
         }
     };
     let removed = simulation.raw.less(left(&job, &simulation.stock, surface.as_ref()));

@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use super::budget::Budget;
 use super::check::Job;
 use super::closer::{Story, look_closer};
 use super::look::{Look, Looks, looks};
@@ -21,6 +22,8 @@ use crate::trace::{Segment, SegmentPace, Trace};
 /// The stock after all setups, and what each segment did to it.
 #[derive(Debug)]
 pub struct Simulation {
+    /// Memory that was known to be needed before anything was cut.
+    pub budget: Budget,
     /// The cut stock.
     pub stock: TriDexel,
     /// Volume of the raw stock by its lines along Z [mm^3], as [`TriDexel::volume`] counts it: to compare what lines hold
@@ -50,7 +53,7 @@ pub struct Simulation {
 /// `probes` and `faces` what is measured on the way. At one item a core is taken out first, then it is measured, then cut.
 ///
 /// # Errors
-/// `KC0105` when the stock model would need more memory than the job allows; `KC0703` when a probe or a measured face does not
+/// `KC0105` when the run would need more memory than the job allows; `KC0703` when a probe or a measured face does not
 /// lie along an axis of the part; `KC0801` for a probe of a setup that is not there; errors of the tools' profiles.
 pub fn simulate(
     job: &Job,
@@ -60,18 +63,9 @@ pub fn simulate(
     faces: &[WallProbe],
     progress: &dyn Progress,
 ) -> Result<Simulation> {
-    let bounds = job.stock.bounds();
-    let bytes = TriDexel::memory(bounds, job.step);
-    if bytes > job.memory {
-        // Memory goes with the inverse square of the step.
-        let fits = job.step * (bytes as f64 / job.memory as f64).sqrt();
-        return Err(Finding::error(Code::JOB_BUDGET, "the stock model would need more memory than allowed")
-            .value(bytes as f64 / 1e6, "MB")
-            .bound(job.memory as f64 / 1e6, "MB")
-            .help(format!("set simulate.step to {:.3} or more, or raise simulate.memory", fits * 1.001))
-            .key("simulate.step")
-            .into());
-    }
+    let budget = Budget::new(job, traces);
+    budget.check(job)?;
+    progress.note(&budget.told(job));
     progress.stage("stock", 1);
     let mut stock = match &job.stock {
         Solid::Box(b) => TriDexel::from_box(*b, job.step)?,
@@ -87,12 +81,13 @@ pub fn simulate(
     } else {
         let surface = match job.no_surface {
             true => None,
-            false => Some(surface_with_cuts(&stock, &job.surface, &crate::base::Silent)?),
+            false => Some(surface(job, (&budget, &stock), &crate::base::Silent)?),
         };
         left(job, &stock, surface.as_ref())
     };
     let bodies = job.tools.iter().map(body).collect::<Result<Vec<_>>>()?;
     let mut simulation = Simulation {
+        budget,
         stock,
         raw_volume,
         raw,
@@ -163,6 +158,22 @@ pub fn simulate(
     }
     simulation.engagements = measured.into_iter().enumerate().map(found).collect::<Result<_>>()?;
     Ok(simulation)
+}
+
+/// The surface of a stock of a job, within the memory that the job allows.
+///
+/// # Errors
+/// `KC0105` at `simulate.mesh_tolerance` when that does not suffice; `KC0009` when cancelled.
+pub(super) fn surface(
+    job: &Job,
+    (budget, stock): (&Budget, &TriDexel),
+    progress: &dyn Progress,
+) -> Result<CutSurface> {
+    let options = budget.surface_options(job, stock);
+    surface_with_cuts(stock, &options, progress).map_err(|e| match e.code() {
+        Code::JOB_BUDGET => e.under("simulate.mesh_tolerance"),
+        _ => e,
+    })
 }
 
 /// Volume of a stock of a job, from its lines or its surface: whichever has the lesser bound.

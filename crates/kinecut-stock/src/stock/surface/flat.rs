@@ -19,6 +19,13 @@ enum FlatPart {
     Other,
 }
 
+/// Memory of the parts of all blocks, and of those united of them, by the number of padded points [bytes].
+pub(super) fn bytes(counts: [u64; 3]) -> u64 {
+    let blocks = Forest::blocks(counts).into_iter().product::<u64>();
+    // An eighth of them, an eighth of these, and so on.
+    (blocks + blocks / 4) * size_of::<FlatPart>() as u64
+}
+
 /// Unites flat leaves to the largest that stay flat.
 pub(super) fn merge<G: DexelGrid + ?Sized>(forest: &mut Forest, lines: &Lines<'_, G>, tolerance: f64) {
     let mut counts = forest.counts;

@@ -1,5 +1,7 @@
 //! The octrees of all blocks, and which leaf holds a cell.
 
+use std::sync::atomic::{AtomicU64, Ordering::Relaxed};
+
 use glam::DVec3;
 use rayon::prelude::*;
 
@@ -37,15 +39,39 @@ pub(super) struct Forest {
     pub(super) merged: Vec<DVec3>,
 }
 
+/// The octrees of a body.
+pub(super) enum Grown {
+    All(Forest),
+    /// They, and the triangles that they would make, need so much memory, which is more than they may take [bytes].
+    TooMuch(u64),
+    Cancelled,
+}
+
+/// Memory that a vertex needs after the trees, with its two triangles [bytes]: 152 while the mesh is made (two lists of vertices, two
+/// of triangles with a normal and a cut each); 280 where a report and an STL file are made of ten million of them.
+const AFTER: u64 = 280;
+
 impl Forest {
-    /// The octrees of a body; `None` when it was cancelled.
+    /// Number of blocks by that of padded points.
+    pub(super) fn blocks(counts: [u64; 3]) -> [u64; 3] {
+        counts.map(|n| (n - 1).div_ceil(BLOCK.into()))
+    }
+
+    /// Memory of the contents of all blocks by the number of padded points [bytes].
+    pub(super) fn bytes(counts: [u64; 3]) -> u64 {
+        let each = size_of::<u32>() + size_of::<Option<bool>>();
+        Forest::blocks(counts).into_iter().product::<u64>() * each as u64
+    }
+
+    /// The octrees of a body. Beyond `most` bytes of what they will become they are only counted.
     pub(super) fn grow<G: DexelGrid + ?Sized>(
         lines: &Lines<'_, G>,
         signs: &Signs,
         tolerance: f64,
+        most: Option<u64>,
         progress: &dyn Progress,
-    ) -> Option<Forest> {
-        let counts = signs.counts().map(|n| (n - 1).div_ceil(BLOCK));
+    ) -> Grown {
+        let counts = Forest::blocks(signs.counts().map(u64::from)).map(|n| n as u32);
         let row = counts[0] as usize;
         let mut alike: Vec<Option<bool>> = vec![None; row * counts[1] as usize * counts[2] as usize];
         alike.par_chunks_mut(row).enumerate().for_each(|(r, found)| {
@@ -65,14 +91,29 @@ impl Forest {
                 }
             });
         }
-        let trees = places
-            .par_iter()
-            .map_init(
-                || Block::new(lines, signs, tolerance),
-                |block, &place| (!progress.cancelled()).then(|| block.tree(place)),
-            )
-            .collect::<Option<_>>()?;
-        Some(Forest { counts, contents, places, trees, merged: Vec::new() })
+        let (bytes, most) = (AtomicU64::new(0), most.unwrap_or(u64::MAX));
+        let trees = places.par_iter().map_init(
+            || Block::new(lines, signs, tolerance),
+            |block, &place| {
+                if progress.cancelled() {
+                    return None;
+                }
+                let tree = block.tree(place);
+                let own = tree.bytes() + tree.vertices.len() as u64 * AFTER;
+                let before = bytes.fetch_add(own, Relaxed);
+                Some((before + own <= most).then_some(tree))
+            },
+        );
+        let trees: Option<Vec<Option<Tree>>> = trees.collect();
+        let bytes = bytes.into_inner();
+        match trees {
+            None => Grown::Cancelled,
+            Some(_) if bytes > most => Grown::TooMuch(bytes),
+            Some(trees) => {
+                let trees = trees.into_iter().flatten().collect();
+                Grown::All(Forest { counts, contents, places, trees, merged: Vec::new() })
+            }
+        }
     }
 
     /// Contents of a block; void beyond the last one.

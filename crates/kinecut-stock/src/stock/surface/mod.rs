@@ -50,7 +50,7 @@ use crate::base::{Code, Finding, Progress, Result};
 use crate::geom::Mesh;
 
 use self::crossing::Lines;
-use self::forest::Forest;
+use self::forest::{Forest, Grown};
 use self::polygon::Facets;
 use self::signs::Signs;
 
@@ -60,6 +60,8 @@ pub struct SurfaceOptions {
     /// Largest distance of an end point from the facets near it [mm]; default: a fiftieth of a step. Greater than 0; below about
     /// a thousandth of a step flat faces at an angle to the axes no longer merge, above a tenth facets become visible.
     pub tolerance: Option<f64>,
+    /// Most memory that its vertices and triangles may take [bytes]; default: as much as they need. They are counted as they are found.
+    pub memory: Option<u64>,
 }
 
 /// The default tolerance in grid steps.
@@ -70,6 +72,12 @@ impl SurfaceOptions {
     pub fn tolerance(&self, step: f64) -> f64 {
         self.tolerance.unwrap_or(USUAL * step)
     }
+}
+
+/// Memory of what a surface needs however little of it there is [bytes], by the number of lattice points along X, Y, Z.
+pub(super) fn memory(counts: [u32; 3]) -> u64 {
+    let padded = counts.map(|n| u64::from(n) + 2);
+    Signs::bytes(padded) + Forest::bytes(padded) + flat::bytes(padded)
 }
 
 /// A surface and the moves that made it.
@@ -86,7 +94,7 @@ pub struct CutSurface {
 /// A body without material gives an empty mesh.
 ///
 /// # Errors
-/// `KC0801` when the tolerance is not positive; `KC0009` when cancelled.
+/// `KC0801` when the tolerance is not positive; `KC0105` when it would need more memory than allowed; `KC0009` when cancelled.
 pub fn surface<G: DexelGrid + ?Sized>(
     grid: &G,
     options: &SurfaceOptions,
@@ -123,7 +131,17 @@ pub fn surface_with_cuts<G: DexelGrid + ?Sized>(
     };
     let signs = Signs::vote(&lines, progress);
     go_on()?;
-    let mut forest = Forest::grow(&lines, &signs, tolerance, progress).ok_or_else(cancelled)?;
+    let mut forest = match Forest::grow(&lines, &signs, tolerance, options.memory, progress) {
+        Grown::All(forest) => forest,
+        Grown::Cancelled => return Err(cancelled().into()),
+        Grown::TooMuch(bytes) => {
+            let coarser = |tolerance: f64| {
+                let grown = Forest::grow(&lines, &signs, tolerance, options.memory, progress);
+                matches!(grown, Grown::All(_))
+            };
+            return Err(too_much(bytes, options, (tolerance, step), coarser).into());
+        }
+    };
     go_on()?;
     flat::merge(&mut forest, &lines, tolerance);
     let vertices = forest.number();
@@ -134,4 +152,42 @@ pub fn surface_with_cuts<G: DexelGrid + ?Sized>(
     go_on()?;
     let vertices = vertices.into_iter().map(|v| lines.to_mm(v)).collect::<Vec<DVec3>>();
     Ok(CutSurface { mesh: Mesh { vertices, triangles }, cuts })
+}
+
+/// The error of a surface that needs more memory than it may take; `fits` tells whether another tolerance [cells] would do.
+fn too_much(
+    bytes: u64,
+    options: &SurfaceOptions,
+    (tolerance, step): (f64, f64),
+    fits: impl Fn(f64) -> bool,
+) -> Finding {
+    /// Coarser tolerances that are tried, each as a multiple of the one before.
+    const COARSER: f64 = 2.0;
+    let limit = options.memory.unwrap_or(u64::MAX);
+    let tries =
+        std::iter::successors(Some(COARSER * tolerance), |t| Some(COARSER * t)).take_while(|t| *t < 1.0);
+    let tolerance = tries.chain([1.0]).find(|t| fits(*t)).map(|t| rounded_up(t * step));
+    let help = match tolerance {
+        // No tolerance is coarser than a step.
+        Some(tolerance) => {
+            format!("set the mesh tolerance to {} mm or more, or allow more memory", tolerance.min(step))
+        }
+        // The surface grows with the inverse square of the step.
+        None => {
+            let step = rounded_up(step * (bytes as f64 / limit as f64).sqrt());
+            format!("set the step to {step} mm or more, or allow more memory")
+        }
+    };
+    Finding::error(Code::JOB_BUDGET, "the surface of the part needs more memory than it may take")
+        .value((bytes as f64 / 1e6).ceil(), "MB")
+        .bound((limit as f64 / 1e6).floor(), "MB")
+        .help(help)
+}
+
+/// The next number with two digits.
+fn rounded_up(value: f64) -> f64 {
+    let digit = 10f64.powf(value.log10().floor() - 1.0);
+    let digits = (value / digit - 1e-9).ceil();
+    // Divided by a power of ten it is the number as it is written.
+    if digit < 1.0 { digits / (1.0 / digit).round() } else { digits * digit }
 }

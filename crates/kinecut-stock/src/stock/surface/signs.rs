@@ -25,8 +25,7 @@ impl Signs {
     /// Majority of the three directions at each point; of no use when it was cancelled.
     pub(super) fn vote<G: DexelGrid + ?Sized>(lines: &Lines<'_, G>, progress: &dyn Progress) -> Signs {
         let counts = lines.counts;
-        // One bit beyond, so that 17 bits can be read from any multiple of 16 below the count.
-        let width = counts[0] as usize / 64 + 1;
+        let width = width(counts[0].into()) as usize;
         let [_, ny, nz] = counts.map(|n| n as usize);
         let words: Vec<AtomicU64> =
             std::iter::repeat_with(AtomicU64::default).take(width * ny * nz).collect();
@@ -88,6 +87,11 @@ impl Signs {
             },
         );
         signs
+    }
+
+    /// Memory of the signs by the number of padded points [bytes].
+    pub(super) fn bytes(counts: [u64; 3]) -> u64 {
+        width(counts[0]) * counts[1] * counts[2] * size_of::<AtomicU64>() as u64
     }
 
     /// Padded points along X, Y, Z.
@@ -161,6 +165,11 @@ impl Signs {
             };
         }
     }
+}
+
+/// Words in a row of so many points: one bit beyond, so that 17 bits can be read from any multiple of 16 below the count.
+fn width(count: u64) -> u64 {
+    count / 64 + 1
 }
 
 /// Changes bit `x` of a row.

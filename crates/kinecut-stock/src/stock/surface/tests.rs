@@ -298,7 +298,12 @@ fn a_tolerance_must_be_positive_and_work_can_be_cancelled() {
     }
     let grid = noise([3, 3, 3], 1, 2.0, false);
     for tolerance in [0.0, -1.0, f64::NAN] {
-        let error = surface(&grid, &SurfaceOptions { tolerance: Some(tolerance) }, &Silent).unwrap_err();
+        let error = surface(
+            &grid,
+            &SurfaceOptions { tolerance: Some(tolerance), ..SurfaceOptions::default() },
+            &Silent,
+        )
+        .unwrap_err();
         assert_eq!(error.code(), Code::GEOMETRY);
     }
     let error = surface(&grid, &SurfaceOptions::default(), &Stop).unwrap_err();
@@ -332,4 +337,37 @@ fn a_surface_stops_within_a_stage() {
         let asked = stopped.1.into_inner();
         assert!(asked < most + 400 + 4 * rayon::current_num_threads(), "{most}: {asked}");
     }
+}
+
+#[test]
+fn a_surface_within_its_memory_is_the_same_and_beyond_it_the_error_tells_what_fits() {
+    let ball = Solid::Ball(DVec3::splat(0.3), 9.0);
+    let corner = DVec3::splat(10.0);
+    let grid = TestGrid::of(-corner, corner, 0.25, &ball, &[]);
+    let with = |tolerance: f64, memory: Option<u64>| {
+        surface(&grid, &SurfaceOptions { tolerance: Some(tolerance), memory }, &Silent)
+    };
+    let whole = with(0.001, None).unwrap();
+    let finding = |memory: u64| *with(0.001, Some(memory)).unwrap_err().0;
+    let needed = {
+        let least = finding(0);
+        assert_eq!(least.code, Code::JOB_BUDGET);
+        let mut range = [0u64, 1 << 30];
+        while range[1] - range[0] > 1 {
+            let middle = range[0].midpoint(range[1]);
+            range[usize::from(with(0.001, Some(middle)).is_ok())] = middle;
+        }
+        assert_eq!(least.value.unwrap().value, (range[1] as f64 / 1e6).ceil());
+        range[1]
+    };
+    assert_eq!(with(0.001, Some(needed)).unwrap(), whole);
+    // What lists of vertices and triangles take is counted.
+    let lists = whole.vertices.len() * 24 + whole.triangles.len() * 12;
+    assert!(needed > 2 * lists as u64, "{needed} {lists}");
+    let half = finding(needed / 2);
+    let told: f64 = half.help.split_whitespace().find_map(|word| word.parse().ok()).unwrap();
+    assert!(told > 0.001 && told <= 0.25, "{half}");
+    assert!(with(told, Some(needed / 2)).is_ok());
+    // With no tolerance it fits: the step is told.
+    assert!(finding(needed / 1000).help.contains("step"), "{}", finding(needed / 1000));
 }

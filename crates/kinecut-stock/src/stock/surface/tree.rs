@@ -56,3 +56,11 @@ pub(super) struct Tree {
     /// The larger leaf it belongs to.
     pub(super) merged: Option<u32>,
 }
+
+impl Tree {
+    /// Memory of the tree and its place [bytes].
+    pub(super) fn bytes(&self) -> u64 {
+        let own = size_of::<Tree>() + size_of::<[u32; 3]>();
+        (own + size_of_val(&self.nodes[..]) + size_of_val(&self.vertices[..])) as u64
+    }
+}

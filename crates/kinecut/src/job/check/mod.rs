@@ -47,7 +47,9 @@ pub struct Job {
     pub design: Option<Design>,
     /// Distance of the lines of the stock model [mm].
     pub step: f64,
-    /// Largest memory of the stock model [bytes].
+    /// Whether the step was chosen for want of one.
+    pub default_step: bool,
+    /// Largest memory of a run [bytes].
     pub memory: u64,
     /// Fineness of the surface of the cut part.
     pub surface: SurfaceOptions,
@@ -127,7 +129,7 @@ pub fn check(file: &JobFile, name: &str, loader: &dyn Loader) -> Result<Job> {
         None => None,
     };
     let bounds = stock.bounds();
-    let memory = positive("simulate.memory", file.simulate.memory.unwrap_or(2000.0), 1e6, "MB")?;
+    let memory = positive("simulate.memory", file.simulate.memory.unwrap_or(4000.0), 1e6, "MB")?;
     let design = file.design.as_ref().map(|d| {
         let mesh = load_mesh(&d.mesh, loader).map_err(|e| e.under("design.mesh"))?;
         Ok::<_, Error>(Design { mesh, tolerance: length("design.tolerance", d.tolerance, 1e-6, 100.0)? })
@@ -163,6 +165,7 @@ pub fn check(file: &JobFile, name: &str, loader: &dyn Loader) -> Result<Job> {
         drilled,
         design: design.transpose()?,
         step,
+        default_step: file.simulate.step.is_none(),
         memory: (memory * 1e6) as u64,
         surface: step::surface("simulate.mesh_tolerance", file.simulate.mesh_tolerance, step)?,
         certified: file.simulate.certified,

@@ -21,7 +21,7 @@ pub(super) fn thinnest(tools: &[Tool], drilled: &[Drilled]) -> f64 {
 }
 
 /// The step at which a box has about two million lines, or half the diameter of the thinnest tool or hole, if that
-/// needs no more than nine times the lines and half the memory [bytes].
+/// needs no more than nine times the lines, and with the surface half the memory [bytes].
 pub(super) fn default_step(bounds: Aabb, thinnest: f64, memory: f64) -> f64 {
     let s = bounds.size();
     let step = ((s.x * s.y + s.y * s.z + s.z * s.x) / LINES).sqrt();
@@ -36,7 +36,9 @@ pub(super) fn default_step(bounds: Aabb, thinnest: f64, memory: f64) -> f64 {
     let tries = (0..10).map(|i| wanted + (usual - wanted) * f64::from(i) / 10.0);
     // Down to a tenth of that; a number that is one already stays.
     let rounded = |step: f64| (step / (0.1 * magnitude) + 1e-6).floor() * 0.1 * magnitude;
-    tries.map(rounded).find(|step| (TriDexel::memory(bounds, *step) as f64) < 0.5 * memory).unwrap_or(usual)
+    let needed =
+        |step: f64| TriDexel::memory(bounds, step).saturating_add(TriDexel::surface_memory(bounds, step));
+    tries.map(rounded).find(|step| (needed(*step) as f64) < 0.5 * memory).unwrap_or(usual)
 }
 
 /// The fineness of the surface of a stock model with a step [mm]; `key` is where the tolerance is said.
@@ -47,7 +49,7 @@ pub(in crate::job) fn surface(key: &str, tolerance: Option<f64>, step: f64) -> R
     if let Some(tolerance) = tolerance {
         length(key, tolerance, 1e-5, step)?;
     }
-    Ok(SurfaceOptions { tolerance })
+    Ok(SurfaceOptions { tolerance, ..SurfaceOptions::default() })
 }
 
 #[cfg(test)]

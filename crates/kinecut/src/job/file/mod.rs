@@ -179,7 +179,7 @@ pub struct SimulateTable {
     /// Distance of the lines of the stock model; default: that of about 2 million lines in the stock.
     #[serde(default)]
     pub step: Option<f64>,
-    /// Largest memory of the stock model in MB; default 2000.
+    /// Largest memory of a run in MB: stock model, moves, surface and comparison; default 4000.
     #[serde(default)]
     pub memory: Option<f64>,
     /// Largest distance of the surface of the cut part, as files and report show it, from the ends of the lines; default: a

@@ -120,6 +120,8 @@ fn verdict(outcome: &Outcome) -> ReportVerdict {
         Fact::new("Removed", format!("{} cm\u{b3}", page::fixed(removed.value / cm3, digits)))
             .note(format!("\u{b1} {} cm\u{b3}", page::fixed(bound, digits))),
     );
+    let budget = &outcome.simulation.budget;
+    verdict.facts.push(Fact::new("Stock model", budget.step(&outcome.job)).note(budget.lines()));
     let planned = outcome.setups.iter().filter(|s| s.external.is_none());
     if let Some(largest) = planned.map(|s| s.read_back.largest).reduce(f64::max) {
         verdict.facts.push(

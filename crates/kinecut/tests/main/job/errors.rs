@@ -39,7 +39,7 @@ rough = { stepover = 2, allowance = 0.2, feed = 1200 }
 finish = { turns = 2, feed = 800, start = [-5, 5] }
 "#;
 
-fn run(text: &str) -> Result<kinecut::job::Outcome, Error> {
+pub(super) fn run(text: &str) -> Result<kinecut::job::Outcome, Error> {
     kinecut::job::run("jobs/test.toml", text, &loader(), &Silent)
 }
 
@@ -53,7 +53,7 @@ fn loader() -> MemoryLoader {
 }
 
 /// The job with one text replaced, which must stand in it.
-fn with(from: &str, to: &str) -> String {
+pub(super) fn with(from: &str, to: &str) -> String {
     assert!(JOB.contains(from), "`{from}` is not in the job");
     JOB.replacen(from, to, 1)
 }

@@ -1,5 +1,6 @@
 //! Jobs as a whole: errors of the file, programs of others, rules of the proof, the cut part.
 
+mod budget;
 mod errors;
 mod examples;
 mod external;

@@ -26,7 +26,7 @@ fn removed(solid: &Solid, step: f64, tool: &Profile, moves: &[(Curve, CutAxis)])
     let mut triangles = usize::MAX;
     // Finer than by default, and coarser: the bound tells it, and holds.
     let mut left = [Some(0.005 * step), None, Some(0.2 * step)].map(|tolerance| {
-        let options = SurfaceOptions { tolerance };
+        let options = SurfaceOptions { tolerance, ..SurfaceOptions::default() };
         let surface = surface_with_cuts(&stock, &options, &Silent).unwrap();
         surface.mesh.check_closed().unwrap();
         assert!(surface.mesh.triangles.len() <= triangles);

@@ -1,0 +1,152 @@
+//! Memory of a run, told before the stages that take it.
+
+use super::check::Job;
+use crate::base::{Code, Finding, Result};
+use crate::geom::Aabb;
+use crate::stock::TriDexel;
+use crate::stock::surface::SurfaceOptions;
+use crate::trace::Trace;
+
+/// Memory of a move from its text to the verdict [bytes]: block, move, path, cut, what it met. A program of a million lines takes
+/// 1,740 for each.
+const MOVE: u64 = 1750;
+
+/// Memory of an end of a line that is compared with the wanted part [bytes]: what wants it, how far it is off, with what tolerance.
+const COMPARED: u64 = 24;
+
+/// The coarsest step that is looked for [mm].
+const COARSEST: f64 = 1e4;
+
+/// Memory that a run needs, as far as it is known before anything is cut [bytes].
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Budget {
+    /// Number of lines of the stock model.
+    pub line_count: u64,
+    /// The lines, with at most two stretches of material each.
+    pub stock: u64,
+    /// The surface of the cut part, however little of it there is; its vertices and triangles are counted as they are found.
+    pub surface: u64,
+    /// The comparison of the lines with the wanted part.
+    pub comparison: u64,
+    /// Number of moves.
+    pub move_count: u64,
+    /// The moves, with what they do.
+    pub moves: u64,
+}
+
+impl Budget {
+    /// Of a job whose programs make these moves.
+    pub fn new(job: &Job, traces: &[&Trace]) -> Budget {
+        let count: u64 = traces.iter().map(|t| t.segments.len() as u64).sum();
+        Budget {
+            move_count: count,
+            moves: count * MOVE,
+            ..Budget::of_stock(job, job.stock.bounds(), job.step)
+        }
+    }
+
+    /// Of a job's stock at a step.
+    fn of_stock(job: &Job, bounds: Aabb, step: f64) -> Budget {
+        let external = job.setups.iter().all(|s| s.program.is_some());
+        let compared = job.design.is_some() || !external;
+        let lines = TriDexel::lines(bounds, step);
+        Budget {
+            line_count: lines,
+            stock: TriDexel::memory(bounds, step),
+            surface: if job.no_surface { 0 } else { TriDexel::surface_memory(bounds, step) },
+            comparison: if compared { lines.saturating_mul(4 * COMPARED) } else { 0 },
+            ..Budget::default()
+        }
+    }
+
+    /// All of it [bytes].
+    pub fn total(&self) -> u64 {
+        [self.surface, self.comparison, self.moves].into_iter().fold(self.stock, u64::saturating_add)
+    }
+
+    /// The distance of the lines in words, and whether it was chosen.
+    pub fn step(&self, job: &Job) -> String {
+        let chosen = if job.default_step { ", as no step is given" } else { "" };
+        format!("{} mm between lines{chosen}", job.step)
+    }
+
+    /// The number of the lines in words.
+    pub fn lines(&self) -> String {
+        match self.line_count {
+            few @ 0..100_000 => format!("{few} lines"),
+            many => format!("{:.1} million lines", many as f64 / 1e6),
+        }
+    }
+
+    /// All that is known beforehand in words.
+    pub(super) fn told(&self, job: &Job) -> String {
+        let triangles = if self.surface > 0 { ", more for the triangles of the surface" } else { "" };
+        let gb = (self.total() as f64 / 1e7).ceil() / 100.0;
+        format!("stock model: {}, {}, up to {gb:.2} GB of memory{triangles}", self.step(job), self.lines())
+    }
+
+    /// The fineness of the surface of a job's stock, with the memory that is left for its vertices and triangles.
+    pub(super) fn surface_options(&self, job: &Job, stock: &TriDexel) -> SurfaceOptions {
+        // Lines that are cut more than once have more stretches.
+        let more = stock.memory_held().saturating_sub(self.stock);
+        let left = job.memory.saturating_sub(self.total()).saturating_sub(more);
+        SurfaceOptions { memory: Some(left), ..job.surface }
+    }
+
+    /// An error when it is more than the job allows, with the step at which it would not be.
+    ///
+    /// # Errors
+    /// `KC0105` at `simulate.step`, or at `simulate.memory` when the moves alone need more.
+    pub(super) fn check(&self, job: &Job) -> Result<()> {
+        if self.total() <= job.memory {
+            return Ok(());
+        }
+        let mb = |bytes: u64| (bytes as f64 / 1e6).ceil();
+        let at = |step: f64| Budget { moves: self.moves, ..Budget::of_stock(job, job.stock.bounds(), step) };
+        let fits = coarsened(job.step, |step| at(step).total() <= job.memory);
+        let (help, key) = match fits {
+            Some(step) => {
+                (format!("set simulate.step to {step} or more, or raise simulate.memory"), "simulate.step")
+            }
+            None => {
+                let needed = mb(at(COARSEST).total());
+                (
+                    format!("set simulate.memory to {needed} or more, and take a coarser step"),
+                    "simulate.memory",
+                )
+            }
+        };
+        let parts = [
+            (self.stock, format!("lines of the stock {} mm apart", job.step)),
+            (self.surface, "surface".to_owned()),
+            (self.comparison, "comparison".to_owned()),
+            (self.moves, format!("{} moves", self.move_count)),
+        ];
+        let parts = parts.into_iter().filter(|(bytes, _)| *bytes > 0);
+        let parts: Vec<String> = parts.map(|(bytes, what)| format!("{what}: {} MB", mb(bytes))).collect();
+        let message = format!("the run needs more memory than allowed ({})", parts.join(", "));
+        Err(Finding::error(Code::JOB_BUDGET, message)
+            .value(mb(self.total()), "MB")
+            .bound((job.memory as f64 / 1e6).floor(), "MB")
+            .help(help)
+            .key(key)
+            .into())
+    }
+}
+
+/// The least step above one, of three digits, at which something fits that needs the less the coarser the step.
+fn coarsened(step: f64, fits: impl Fn(f64) -> bool) -> Option<f64> {
+    if !fits(COARSEST) {
+        return None;
+    }
+    let (mut no, mut yes) = (step, COARSEST);
+    while yes > no * 1.0001 {
+        let middle = (no * yes).sqrt();
+        if fits(middle) { yes = middle } else { no = middle }
+    }
+    let digit = 10f64.powf(yes.log10().floor() - 2.0);
+    let up = |n: f64| if digit < 1.0 { n / (1.0 / digit).round() } else { n * digit };
+    let first = (yes / digit).ceil();
+    // A coarser step may have one point more along an axis than the sum of its parts.
+    (0..100).map(|n| up(first + f64::from(n))).find(|step| fits(*step))
+}
