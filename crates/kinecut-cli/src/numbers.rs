@@ -20,6 +20,14 @@ pub(crate) fn corners(text: &str) -> Result<[f64; 6], String> {
     })
 }
 
+/// Two points that are not one.
+pub(crate) fn two_points(text: &str) -> Result<[f64; 6], String> {
+    let apart = |n: &[f64; 6]| n.iter().all(|v| v.is_finite()) && n[..3] != n[3..];
+    numbers(text).filter(apart).ok_or_else(|| {
+        "write two different points as six numbers with commas between, such as 0,5,-1,0,25,-1".to_owned()
+    })
+}
+
 /// Two numbers.
 pub(crate) fn pair(text: &str) -> Result<[f64; 2], String> {
     numbers(text)

@@ -15,7 +15,7 @@ use kinecut::verbs::post::translate;
 use kinecut::verbs::run::{self, MeshForm, ResultFiles};
 
 use crate::answers::{Data, To, answer};
-use crate::numbers::{corners, triple};
+use crate::numbers::{corners, triple, two_points};
 use crate::printing::Printing;
 use crate::progress::Bar;
 use crate::{files, machine};
@@ -38,6 +38,9 @@ struct Results {
     /// Point of the cut part, mm: in material or not, the surfaces about it and the lines that cut them; can be given several times
     #[arg(long, value_name = "X,Y,Z", value_parser = triple, allow_hyphen_values = true)]
     probe: Vec<[f64; 3]>,
+    /// Distance of two points, mm, and the lengths in material and in void between them; can be given several times
+    #[arg(long, value_name = "X,Y,Z,X,Y,Z", value_parser = two_points, allow_hyphen_values = true)]
+    measure: Vec<[f64; 6]>,
 }
 
 /// A plane square to an axis.
@@ -100,6 +103,11 @@ impl Results {
         let inspect = InspectWants {
             sections: self.section.clone(),
             points: self.probe.iter().map(|p| (*p).into()).collect(),
+            measures: self
+                .measure
+                .iter()
+                .map(|[a, b, c, u, v, w]| [[*a, *b, *c].into(), [*u, *v, *w].into()])
+                .collect(),
         };
         ResultFiles { meshes, report: !self.no_report, inspect }
     }

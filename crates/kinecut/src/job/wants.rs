@@ -11,7 +11,7 @@ pub struct StockWants {
     pub step: Option<f64>,
     /// Largest distance of the surface of the cut part from the ends of the lines [mm]; default: that of the job.
     pub mesh_tolerance: Option<f64>,
-    /// Largest memory of the run [MB]; default: that of the job.
+    /// Largest memory of the run, in MB; default: that of the job.
     pub memory: Option<f64>,
     /// Whether the cut stock is proven against the moves; if not, the job may still say so.
     pub certified: bool,

@@ -46,7 +46,7 @@ pub struct ResultFiles {
     pub meshes: Vec<MeshForm>,
     /// `report.html`; default yes.
     pub report: bool,
-    /// Sections and points of the part: `inspection.json`, a picture for each section, a section of the report.
+    /// Sections, points and distances of the part: `inspection.json`, a picture for each section, a section of the report.
     pub inspect: InspectWants,
 }
 
@@ -63,8 +63,7 @@ impl Default for ResultFiles {
 impl ResultFiles {
     /// Whether one of them shows the surface of the cut part.
     fn show_surface(&self) -> bool {
-        let InspectWants { sections, points } = &self.inspect;
-        self.report || !(self.meshes.is_empty() && sections.is_empty() && points.is_empty())
+        self.report || !self.meshes.is_empty() || !self.inspect.is_empty()
     }
 
     /// The settings of a simulation for these files.

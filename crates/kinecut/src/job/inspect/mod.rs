@@ -1,7 +1,8 @@
-//! Sections and points of the cut part, as a user asks for them.
+//! Sections, points and distances of the cut part, as a user asks for them.
 //!
-//! Both are taken from the mesh of the part, in the coordinates of the raw stock.
+//! All are taken from the mesh of the part, in the coordinates of the raw stock.
 
+mod measure;
 mod page;
 mod plane;
 mod point;
@@ -15,6 +16,7 @@ use super::{Outcome, json_text};
 use crate::base::{Code, Finding, Result};
 use crate::page::Section;
 
+pub use measure::{Measure, Stretch};
 pub use plane::SectionPlane;
 pub use point::{CutBy, Facing, InspectedPoint, Place};
 pub use section::{OutlineFigures, PartSection};
@@ -22,16 +24,25 @@ pub use section::{OutlineFigures, PartSection};
 /// Least radius of a bend for which the sag of facets is known [steps].
 const LEAST_BEND: f64 = 4.0;
 
-/// Sections and points that are asked for.
+/// Sections, points and distances that are asked for.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct InspectWants {
     /// Planes of sections; one that comes twice is shown once.
     pub sections: Vec<SectionPlane>,
     /// Points of the part [mm].
     pub points: Vec<DVec3>,
+    /// Pairs of points to be measured between [mm].
+    pub measures: Vec<[DVec3; 2]>,
 }
 
-/// Sections and points of a cut part.
+impl InspectWants {
+    /// Whether nothing is asked for.
+    pub fn is_empty(&self) -> bool {
+        self.sections.is_empty() && self.points.is_empty() && self.measures.is_empty()
+    }
+}
+
+/// Sections, points and distances of a cut part.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Inspection {
     /// Version of this form.
@@ -45,21 +56,26 @@ pub struct Inspection {
     pub sections: Vec<PartSection>,
     /// The points, in the order asked for.
     pub points: Vec<InspectedPoint>,
+    /// What lies between two points, in the order asked for.
+    pub measures: Vec<Measure>,
 }
 
 impl Inspection {
-    /// The sections and points that are asked for; `None` if there are none of either.
+    /// The sections, points and distances that are asked for; `None` if there are none of them.
     ///
     /// # Errors
     /// `KC0602` when the surface of the part is not closed; `KC0801` when none was made.
     pub fn of(outcome: &Outcome, wants: &InspectWants) -> Result<Option<Inspection>> {
-        if wants.sections.is_empty() && wants.points.is_empty() {
+        if wants.is_empty() {
             return Ok(None);
         }
         if outcome.job.no_surface {
-            return Err(Finding::error(Code::GEOMETRY, "sections and points need the surface of the part")
-                .help("run the job without `no_surface`")
-                .into());
+            return Err(Finding::error(
+                Code::GEOMETRY,
+                "sections, points and distances need the surface of the part",
+            )
+            .help("run the job without `no_surface`")
+            .into());
         }
         let mut planes: Vec<SectionPlane> = Vec::new();
         for plane in &wants.sections {
@@ -77,6 +93,7 @@ impl Inspection {
             within,
             sections: sections.collect::<Result<_>>()?,
             points: point::inspected(outcome, within, &wants.points)?,
+            measures: wants.measures.iter().map(|ends| measure::measured(outcome, within, *ends)).collect(),
         }))
     }
 

@@ -1,6 +1,6 @@
-//! Sections and points in the report.
+//! Sections, points and distances in the report.
 
-use super::{CutBy, Facing, InspectedPoint, Inspection, LEAST_BEND, PartSection, Place};
+use super::{CutBy, Facing, InspectedPoint, Inspection, LEAST_BEND, Measure, PartSection, Place, Stretch};
 use crate::page::{Block, Cell, Drawing, Look, Row, Section, Table, fixed, trimmed};
 
 /// Decimals of lengths: micrometres, finer than the tolerance of any usual mesh.
@@ -15,12 +15,15 @@ pub(super) fn shown(inspection: &Inspection) -> Section {
         trimmed(LEAST_BEND * inspection.step, 6),
         trimmed(inspection.step, 6),
     );
-    let mut section = Section::new("Sections and points").with(Block::Text(about));
+    let mut section = Section::new("Sections, points and distances").with(Block::Text(about));
     for plane in &inspection.sections {
         add_section(&mut section, plane);
     }
     for point in &inspection.points {
         section = section.with(table(point));
+    }
+    for measure in &inspection.measures {
+        section = section.with(stretches(measure));
     }
     section
 }
@@ -98,13 +101,41 @@ fn table(point: &InspectedPoint) -> Table {
 }
 
 fn row(surface: &Facing) -> Row {
-    let (by, block) = match &surface.cut_by {
-        CutBy::RawStock => ("raw stock".to_owned(), None),
-        CutBy::NoMove => ("a hole of the stock, or a core taken out".to_owned(), None),
-        CutBy::Line { program, line, of_all } => (format!("{program} line {line}"), Some((*of_all, *line))),
-    };
     let mut cells = vec![Cell::new(surface.towards), Cell::new(fixed(surface.distance, DECIMALS))];
     cells.extend(surface.at.map(|v| Cell::new(fixed(v, DECIMALS))));
+    made_by(cells, Some(&surface.cut_by))
+}
+
+/// Material and voids between two points.
+fn stretches(measure: &Measure) -> Table {
+    let [from, to] = [measure.from, measure.to].map(|p| p.map(|v| trimmed(v, 6)).join(", "));
+    let mut table = Table::new(
+        format!("From {from} to {to}: {} mm", fixed(measure.distance, DECIMALS)),
+        "Between; Length [mm]; Within [mm]; To X [mm]; To Y [mm]; To Z [mm]; Cut by",
+    );
+    let row = |s: &Stretch| {
+        // Rounded up: never kinder than it is.
+        let unit = 10f64.powi(DECIMALS as i32);
+        let within = s.within.map_or("unknown".to_owned(), |w| fixed((w * unit).ceil() / unit, DECIMALS));
+        let between = if s.material { "material" } else { "void" };
+        let mut cells = vec![Cell::new(between), Cell::new(fixed(s.length, DECIMALS)), Cell::new(within)];
+        cells.extend(s.end.map(|v| Cell::new(fixed(v, DECIMALS))));
+        made_by(cells, s.cut_by.as_ref())
+    };
+    table.rows = measure.stretches.iter().map(row).collect();
+    table
+}
+
+/// A row that ends with the maker of a surface; without one with a dash.
+fn made_by(mut cells: Vec<Cell>, maker: Option<&CutBy>) -> Row {
+    let (by, block) = match maker {
+        None => ("-".to_owned(), None),
+        Some(CutBy::RawStock) => ("raw stock".to_owned(), None),
+        Some(CutBy::NoMove) => ("a hole of the stock, or a core taken out".to_owned(), None),
+        Some(CutBy::Line { program, line, of_all }) => {
+            (format!("{program} line {line}"), Some((*of_all, *line)))
+        }
+    };
     cells.push(Cell::new(by));
     let mut row = Row::new(cells);
     row.block = block.map(|(of_all, _)| of_all);

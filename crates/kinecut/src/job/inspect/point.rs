@@ -108,7 +108,7 @@ fn one(outcome: &Outcome, distance: &MeshDistance, within: f64, p: DVec3) -> Ins
 }
 
 /// The maker of a triangle of the part.
-fn cut_by(outcome: &Outcome, triangle: u32) -> CutBy {
+pub(super) fn cut_by(outcome: &Outcome, triangle: u32) -> CutBy {
     let cut = outcome.part_cuts.get(triangle as usize).copied().unwrap_or(0);
     if cut == 0 {
         return CutBy::RawStock;

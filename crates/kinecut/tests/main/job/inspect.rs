@@ -41,7 +41,7 @@ fn near(value: f64, wanted: f64, within: f64) {
 #[test]
 fn sections_have_the_areas_and_edges_of_slot_and_hole() {
     let sections = ["z=-1", "z=-5", "x=10", "y=5", "z=-3", "z=7", "z=-5.0"].map(|p| p.parse().unwrap());
-    let wants = InspectWants { sections: sections.to_vec(), points: Vec::new() };
+    let wants = InspectWants { sections: sections.to_vec(), ..InspectWants::default() };
     let seen = Inspection::of(&outcome(), &wants).unwrap().unwrap();
     // The same plane in another spelling is shown once.
     assert_eq!(seen.sections.len(), 6);
@@ -110,6 +110,60 @@ fn points_know_the_surfaces_about_them_and_the_lines_that_cut_them() {
     }
     assert!(seen.to_json().contains("\"line\": 13"), "{}", seen.to_json());
     assert!(Inspection::of(&outcome, &InspectWants::default()).unwrap().is_none());
+}
+
+#[test]
+fn distances_tell_webs_and_slots_between_two_points_and_the_lines_that_cut_them() {
+    let outcome = outcome();
+    let line = |n: u32| Some(CutBy::Line { program: "P.ngc".to_owned(), line: n, of_all: n - 1 });
+    let stock = || Some(CutBy::RawStock);
+    // Across the slot from outside to outside; through the hole at an angle, and out of the bottom; in the slot; beside the part.
+    let along = 5f64.sqrt();
+    type Wanted = Vec<(bool, f64, Option<CutBy>)>;
+    let cases: [([[f64; 3]; 2], Wanted); 4] = [
+        (
+            [[10.0, -5.0, -1.0], [10.0, 40.0, -1.0]],
+            vec![
+                (false, 5.0, stock()),
+                (true, 11.0, line(7)),
+                (false, 8.0, line(7)),
+                (true, 11.0, stock()),
+                (false, 10.0, None),
+            ],
+        ),
+        (
+            [[25.0, 5.0, -4.0], [41.0, 5.0, -12.0]],
+            vec![
+                (true, 1.5 * along, line(13)),
+                (false, 2.0 * along, line(13)),
+                (true, 2.5 * along, stock()),
+                (false, 2.0 * along, None),
+            ],
+        ),
+        ([[5.0, 13.0, -2.0], [35.0, 17.0, -0.5]], vec![(false, 916f64.sqrt().hypot(1.5), None)]),
+        ([[-5.0, -5.0, 3.0], [-5.0, 30.0, 3.0]], vec![(false, 35.0, None)]),
+    ];
+    let measures = cases.iter().map(|(ends, _)| ends.map(DVec3::from_array)).collect();
+    let seen =
+        Inspection::of(&outcome, &InspectWants { measures, ..InspectWants::default() }).unwrap().unwrap();
+    for (measure, (ends, wanted)) in seen.measures.iter().zip(&cases) {
+        near(measure.distance, DVec3::from_array(ends[0]).distance(ends[1].into()), 1e-12);
+        assert_eq!(measure.stretches.len(), wanted.len(), "{measure:?}");
+        let mut sum = 0.0;
+        for (stretch, (material, length, by)) in measure.stretches.iter().zip(wanted) {
+            assert_eq!((stretch.material, &stretch.cut_by), (*material, by), "{measure:?}");
+            let within = stretch.within.unwrap();
+            near(stretch.length, *length, within + 1e-12);
+            // Of no use if it were wide: at 63 degrees from the surface and both ends on it.
+            assert!(within <= 2.0 * 2.3 * seen.within, "{measure:?}");
+            sum += stretch.length;
+            let from = DVec3::from_array(measure.from);
+            near(from.distance(stretch.end.into()), sum, 1e-9);
+        }
+        near(sum, measure.distance, 1e-9);
+    }
+    let text = seen.to_json();
+    assert!(text.contains("\"material\": true") && text.contains("\"cut_by\": null"), "{text}");
 }
 
 /// Distance of a point from the upright body that a tool sweeps along a line: of radius `r` about the segment seen from above, with a
@@ -193,7 +247,7 @@ fn without_a_surface_the_verdict_is_the_same_and_what_needs_one_says_so() {
             assert!((-removed.bound..removed.bound + more).contains(&(removed.value - exact)), "{removed:?}");
         }
         assert!(whole.removed.bound < lines.removed.bound && lines.removed.bound < 0.1 * exact);
-        let wants = InspectWants { sections: vec!["z=-1".parse().unwrap()], points: Vec::new() };
+        let wants = InspectWants { sections: vec!["z=-1".parse().unwrap()], ..InspectWants::default() };
         assert_eq!(Inspection::of(&lines, &wants).unwrap_err().code(), Code::GEOMETRY);
         assert!(report::of_job(&lines).part.is_none() && report::of_job(&whole).part.is_some());
     }
