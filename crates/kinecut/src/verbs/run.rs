@@ -168,7 +168,10 @@ fn outcome_of(job: &Path, wants: &RunWants, read: &FilesRead, progress: &dyn Pro
 
 fn done(outcome: Outcome, files: &ResultFiles, progress: &dyn Progress) -> Result<Done> {
     progress.stage("report", 1);
-    let mut report = job::report::of_job(&outcome);
+    let mut report = match files.report {
+        true => job::report::of_job(&outcome),
+        false => job::report::of_job_in_words(&outcome),
+    };
     let inspection = Inspection::of(&outcome, &files.inspect)?;
     let inspected: Vec<Section> = inspection.iter().map(Inspection::shown).collect();
     report.sections.extend_from_slice(&inspected);

@@ -26,7 +26,7 @@ mod workspace;
 
 pub use deviation::{BAND_EDGES, Band, bands, extremes};
 pub use model::{PartView, ProgramPart, ProgramView, Report, ReportVerdict, ToolView};
-pub use of_job::of_job;
+pub use of_job::{of_job, of_job_in_words};
 pub use page::html;
 pub use path::{PathPiece, PathRole};
 pub use text::sections;

@@ -17,6 +17,15 @@ const DRAWN_CHORD: f64 = 0.02;
 
 /// The report of an outcome.
 pub fn of_job(outcome: &Outcome) -> Report {
+    with(outcome, true)
+}
+
+/// The report of an outcome without what only its page shows: the lines of the programs have no text, and there is no path.
+pub fn of_job_in_words(outcome: &Outcome) -> Report {
+    with(outcome, false)
+}
+
+fn with(outcome: &Outcome, page: bool) -> Report {
     let mut report = Report::new(&outcome.job.title, verdict(outcome));
     report.job_file = outcome.job_file.clone();
     report.time = Some(outcome.setups.iter().map(|s| s.trace.duration().0).sum());
@@ -35,10 +44,14 @@ pub fn of_job(outcome: &Outcome) -> Report {
         if outcome.setups.len() > 1 {
             view.parts.push(ProgramPart { file: setup.file.clone(), first: offset });
         }
-        view.lines.extend(setup.posted.text.lines().map(str::to_owned));
+        let shown = |line: &str| if page { line.to_owned() } else { String::new() };
+        view.lines.extend(setup.posted.text.lines().map(shown));
         view.time.resize(view.lines.len(), 0.0);
         view.length.resize(view.lines.len(), 0.0);
-        path(outcome, setup, offset, &mut view, &mut report.path);
+        times(setup, offset, &mut view);
+        if page {
+            path(outcome, setup, offset, &mut report.path);
+        }
     }
     let begins = sums(&view.time);
     view.file = outcome.setups.iter().map(|s| s.file.as_str()).collect::<Vec<_>>().join(", ");
@@ -206,18 +219,23 @@ fn outline(tool: &Tool) -> Vec<[f32; 2]> {
     points
 }
 
-fn path(
-    outcome: &Outcome,
-    setup: &SetupOutcome,
-    offset: u32,
-    view: &mut ProgramView,
-    path: &mut Vec<PathPiece>,
-) {
-    for segment in setup.trace.segments.iter().filter(|s| !s.alternative) {
-        let Some(line) = setup.lines.get(segment.item as usize).copied().flatten() else { continue };
-        let block = line + offset;
+/// The segments of a setup's program with the line of the report, counted from `offset`, that each belongs to.
+fn on_lines(setup: &SetupOutcome, offset: u32) -> impl Iterator<Item = (u32, &Segment)> {
+    setup.trace.segments.iter().filter(|s| !s.alternative).filter_map(move |segment| {
+        let line = setup.lines.get(segment.item as usize).copied().flatten()?;
+        Some((line + offset, segment))
+    })
+}
+
+fn times(setup: &SetupOutcome, offset: u32, view: &mut ProgramView) {
+    for (block, segment) in on_lines(setup, offset) {
         view.time[block as usize] += segment.duration.unwrap_or(0.0) as f32;
         view.length[block as usize] += segment.curve.length() as f32;
+    }
+}
+
+fn path(outcome: &Outcome, setup: &SetupOutcome, offset: u32, path: &mut Vec<PathPiece>) {
+    for (block, segment) in on_lines(setup, offset) {
         let planned = setup.planned_item(segment.item).map(|i| setup.planned.program.origin(i as usize).role);
         let role = match (segment.motion, planned.unwrap_or_default()) {
             (SegmentPace::Rapid, _) => PathRole::Rapid,
