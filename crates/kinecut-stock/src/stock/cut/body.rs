@@ -166,9 +166,9 @@ pub(super) fn bounds(tip: DVec3, axis: DVec3, bodies: &[&RevolvedParts]) -> Aabb
     let wide = (DVec3::ONE - axis * axis).max(DVec3::ZERO).map(f64::sqrt);
     let mut all = Aabb::EMPTY;
     for body in bodies.iter().filter(|b| !b.parts.is_empty()) {
-        let ends = [body.bottom, body.top].map(|z| tip + axis * z);
+        let [low, high] = [body.bottom, body.top].map(|z| tip + axis * z);
         let by = wide * body.radius;
-        all = all.union(Aabb::of_points(ends.into_iter().flat_map(|end| [end - by, end + by])));
+        all = all.union(Aabb { min: low.min(high) - by, max: low.max(high) + by });
     }
     all
 }
