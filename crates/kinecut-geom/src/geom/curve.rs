@@ -1,5 +1,7 @@
 //! Curves in space, parametrised by arc length, with derivatives to the third.
 
+use std::sync::Arc as Shared;
+
 use glam::{DVec2, DVec3};
 
 use super::spiral::by_arc_length;
@@ -9,10 +11,19 @@ use crate::num::root::bracketed_newton;
 use crate::num::taylor::Taylor;
 
 /// The exact curve of a move. Nothing turns it into chords before a writer or the simulator does.
-#[derive(Clone, Copy, Debug, PartialEq)]
+///
+/// Programs are mostly lines, a million and more: these are kept as they are, what is larger is shared by its copies.
+#[derive(Clone, Debug, PartialEq)]
 pub struct Curve {
-    kind: CurveKind,
+    kind: Kept,
     length: f64,
+}
+
+/// A kind as it is kept.
+#[derive(Clone, Debug, PartialEq)]
+enum Kept {
+    Line(Line),
+    Other(Shared<CurveKind>),
 }
 
 /// The kind of a curve.
@@ -95,13 +106,13 @@ fn spiral_series<const N: usize>(spiral: &Spiral, rise: &Rise, planar: f64) -> [
 
 impl From<Line> for Curve {
     fn from(line: Line) -> Curve {
-        Curve { kind: CurveKind::Line(line), length: line.length() }
+        Curve { kind: Kept::Line(line), length: line.length() }
     }
 }
 
 impl From<Arc> for Curve {
     fn from(arc: Arc) -> Curve {
-        Curve { kind: CurveKind::Arc(arc), length: arc.length() }
+        Curve::of(CurveKind::Arc(arc), arc.length())
     }
 }
 
@@ -113,7 +124,7 @@ impl Curve {
 
     /// A circle involute in the XY plane of `frame`.
     pub fn involute_in(record: InvoluteRecord, frame: Rigid, rise: f64) -> Curve {
-        Curve { kind: CurveKind::Involute { record, frame, rise }, length: record.length().hypot(rise) }
+        Curve::of(CurveKind::Involute { record, frame, rise }, record.length().hypot(rise))
     }
 
     /// A spiral at height `z` at its start, in a plane parallel to XY.
@@ -124,18 +135,30 @@ impl Curve {
     /// A spiral in the XY plane of `frame`.
     pub fn spiral_in(spiral: Spiral, frame: Rigid, rise: Rise) -> Curve {
         let length = length_in_space(&spiral, &rise, spiral.length());
-        Curve { kind: CurveKind::Spiral { spiral, frame, rise }, length }
+        Curve::of(CurveKind::Spiral { spiral, frame, rise }, length)
     }
 
     /// A cubic Bezier curve at height `z`, in a plane parallel to XY.
     pub fn cubic(span: CubicSpan, z: f64) -> Curve {
         let frame = Rigid::from_translation(DVec3::new(0.0, 0.0, z));
-        Curve { kind: CurveKind::Bezier { span, frame }, length: span.length() }
+        Curve::of(CurveKind::Bezier { span, frame }, span.length())
+    }
+
+    fn of(kind: CurveKind, length: f64) -> Curve {
+        let kind = match kind {
+            CurveKind::Line(line) => Kept::Line(line),
+            other => Kept::Other(Shared::new(other)),
+        };
+        Curve { kind, length }
     }
 
     /// The kind, with its numbers.
-    pub fn kind(&self) -> &CurveKind {
-        &self.kind
+    #[inline]
+    pub fn kind(&self) -> CurveKind {
+        match &self.kind {
+            Kept::Line(line) => CurveKind::Line(*line),
+            Kept::Other(other) => **other,
+        }
     }
 
     /// Arc length [mm].
@@ -145,7 +168,7 @@ impl Curve {
 
     /// Point and derivatives at arc length `s` [mm] in `[0, length]`. A curve of no length has zero derivatives.
     pub fn at(&self, s: f64) -> Jet {
-        match &self.kind {
+        match &self.kind() {
             CurveKind::Line(line) => line.at(s),
             CurveKind::Arc(arc) => arc.at(s),
             CurveKind::Involute { record, frame, rise } => {
@@ -182,7 +205,7 @@ impl Curve {
     /// [`Curve::at`], to any order. Not numbers at a cusp, but for the point.
     pub fn derivatives<const N: usize>(&self, s: f64) -> [DVec3; N] {
         let zero = Taylor::<N>::constant(0.0);
-        let (series, frame) = match &self.kind {
+        let (series, frame) = match &self.kind() {
             CurveKind::Line(line) => {
                 let jet = line.at(s);
                 let along = jet.d1.to_array().map(|d| {
@@ -232,7 +255,7 @@ impl Curve {
 
     /// Last point.
     pub fn end(&self) -> DVec3 {
-        match &self.kind {
+        match &self.kind() {
             CurveKind::Line(line) => line.end,
             _ => self.at(self.length).p,
         }
@@ -241,7 +264,7 @@ impl Curve {
     /// The same points the other way.
     #[must_use]
     pub fn reversed(&self) -> Curve {
-        match &self.kind {
+        match &self.kind() {
             CurveKind::Line(line) => Line { start: line.end, end: line.start }.into(),
             CurveKind::Arc(arc) => arc.reversed().into(),
             CurveKind::Involute { record, frame, rise } => {
@@ -250,17 +273,11 @@ impl Curve {
             }
             CurveKind::Spiral { spiral, frame, rise } => {
                 let lifted = Rigid { translation: frame.point(DVec3::new(0.0, 0.0, rise.total())), ..*frame };
-                Curve {
-                    kind: CurveKind::Spiral {
-                        spiral: spiral.reversed(),
-                        frame: lifted,
-                        rise: rise.reversed(),
-                    },
-                    ..*self
-                }
+                let (spiral, rise) = (spiral.reversed(), rise.reversed());
+                Curve::of(CurveKind::Spiral { spiral, frame: lifted, rise }, self.length)
             }
             CurveKind::Bezier { span, frame } => {
-                Curve { kind: CurveKind::Bezier { span: span.reversed(), frame: *frame }, ..*self }
+                Curve::of(CurveKind::Bezier { span: span.reversed(), frame: *frame }, self.length)
             }
         }
     }
@@ -268,7 +285,7 @@ impl Curve {
     /// The part between arc lengths `a <= b` [mm].
     #[must_use]
     pub fn part(&self, a: f64, b: f64) -> Curve {
-        match &self.kind {
+        match &self.kind() {
             CurveKind::Line(line) => Line { start: line.at(a).p, end: line.at(b).p }.into(),
             CurveKind::Arc(arc) => arc.part(a, b).into(),
             CurveKind::Involute { record, frame, rise } => {
@@ -286,7 +303,7 @@ impl Curve {
             }
             CurveKind::Bezier { span, frame } => {
                 let part = span.between(span.parameter(a), span.parameter(b));
-                Curve { kind: CurveKind::Bezier { span: part, frame: *frame }, length: part.length() }
+                Curve::of(CurveKind::Bezier { span: part, frame: *frame }, part.length())
             }
         }
     }
@@ -294,7 +311,7 @@ impl Curve {
     /// The curve moved by a rigid motion.
     #[must_use]
     pub fn moved(&self, motion: &Rigid) -> Curve {
-        match &self.kind {
+        match &self.kind() {
             CurveKind::Line(line) => {
                 Line { start: motion.point(line.start), end: motion.point(line.end) }.into()
             }
@@ -302,19 +319,19 @@ impl Curve {
             CurveKind::Involute { record, frame, rise } => {
                 Curve::involute_in(*record, motion.after(frame), *rise)
             }
-            CurveKind::Spiral { spiral, frame, rise } => Curve {
-                kind: CurveKind::Spiral { spiral: *spiral, frame: motion.after(frame), rise: *rise },
-                ..*self
-            },
+            CurveKind::Spiral { spiral, frame, rise } => {
+                let frame = motion.after(frame);
+                Curve::of(CurveKind::Spiral { spiral: *spiral, frame, rise: *rise }, self.length)
+            }
             CurveKind::Bezier { span, frame } => {
-                Curve { kind: CurveKind::Bezier { span: *span, frame: motion.after(frame) }, ..*self }
+                Curve::of(CurveKind::Bezier { span: *span, frame: motion.after(frame) }, self.length)
             }
         }
     }
 
     /// Points of a polyline that leaves the curve by at most `chord` [mm], both ends included.
     pub fn polyline(&self, chord: f64) -> Vec<DVec3> {
-        let turn = match &self.kind {
+        let turn = match &self.kind() {
             CurveKind::Line(_) => return vec![self.start(), self.end()],
             CurveKind::Spiral { spiral, frame, rise } => {
                 return spiral_polyline(spiral, rise, chord).into_iter().map(|p| frame.point(p)).collect();
@@ -326,7 +343,7 @@ impl Curve {
             CurveKind::Involute { record, .. } => record.turn(self.length).abs(),
         };
         // Equal steps in tangent angle of at most 30 degrees; sagitta rho (1 - cos(step/2)) with the largest rho.
-        let rho = match &self.kind {
+        let rho = match &self.kind() {
             CurveKind::Arc(arc) => arc.radius(),
             CurveKind::Involute { record, .. } => record.start_radius().abs().max(record.end_radius().abs()),
             CurveKind::Line(_) | CurveKind::Spiral { .. } | CurveKind::Bezier { .. } => 0.0,
@@ -334,7 +351,7 @@ impl Curve {
         let step = (8.0 * chord / rho.max(chord)).sqrt().min(std::f64::consts::FRAC_PI_6);
         let n = (turn / step).ceil().max(1.0) as usize;
         (0..=n)
-            .map(|i| match (&self.kind, i) {
+            .map(|i| match (&self.kind(), i) {
                 (_, 0) => self.start(),
                 (_, i) if i == n => self.end(),
                 (CurveKind::Involute { record, .. }, i) => {
@@ -348,7 +365,7 @@ impl Curve {
 
     /// A box that holds the curve: exact for lines, up to 2 um too large on a side otherwise.
     pub fn bounds(&self) -> Aabb {
-        match &self.kind {
+        match &self.kind() {
             CurveKind::Line(line) => Aabb::of_points([line.start, line.end]),
             _ => {
                 // A chord tolerance of 1 um: fine enough for travel limits, cheap enough for long spirals.

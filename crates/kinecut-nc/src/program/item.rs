@@ -89,7 +89,7 @@ pub struct Move {
 impl Move {
     /// The move along a curve whose involutes, spirals and cubics lie in planes parallel to XY.
     pub fn along(curve: &Curve) -> Move {
-        let path = match *curve.kind() {
+        let path = match curve.kind() {
             CurveKind::Line(_) => Path::Line,
             CurveKind::Arc(arc) => {
                 Path::Arc { centre: arc.centre, axis: arc.axis, sweep: arc.sweep, rise: arc.rise }
@@ -138,7 +138,7 @@ pub enum StopKind {
 #[derive(Clone, Debug, PartialEq)]
 pub enum Item<'a> {
     /// A move.
-    Move(&'a Move),
+    Move(Move),
     /// A cycle and its expansion along the tool axis, at the present position.
     Cycle(&'a Cycle, &'a [CycleStep]),
     /// A tool and the registers of its length and radius; the tool is changed when the number differs from the
@@ -159,14 +159,30 @@ pub enum Item<'a> {
     Text(&'a str),
 }
 
+/// Kind of an item, and where its values are.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Slot {
+    /// A straight move of the tip along the tool axis of its frame: nearly all of a long program.
+    Straight(u32),
     Move(u32),
     Cycle(u32),
-    Tool { id: ToolNumber, length: Option<u32>, radius: Option<u32> },
-    Dwell(f64),
+    Tool(u32),
+    Dwell(u32),
     Stop(StopKind),
     Text(u32),
+}
+
+/// A tool with the registers of its length and radius.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct ToolCall {
+    id: ToolNumber,
+    length: Option<u32>,
+    radius: Option<u32>,
+}
+
+/// The straight move of the tip to a point.
+fn straight(point: DVec3) -> Move {
+    Move { end: Target::Tip { point, axis: ToolAxis::Fixed }, path: Path::Line }
 }
 
 /// The items of a program: one array for each property.
@@ -175,7 +191,10 @@ pub struct Items {
     slots: Vec<Slot>,
     states: Vec<StateId>,
     origins: Vec<OriginId>,
+    straights: Vec<DVec3>,
     moves: Vec<Move>,
+    tools: Vec<ToolCall>,
+    dwells: Vec<f64>,
     cycles: Vec<(Cycle, Vec<CycleStep>)>,
     texts: Vec<String>,
 }
@@ -194,13 +213,17 @@ impl Items {
     /// The item at an index.
     pub fn get(&self, index: usize) -> Item<'_> {
         match self.slots[index] {
-            Slot::Move(i) => Item::Move(&self.moves[i as usize]),
+            Slot::Straight(i) => Item::Move(straight(self.straights[i as usize])),
+            Slot::Move(i) => Item::Move(self.moves[i as usize]),
             Slot::Cycle(i) => {
                 let (cycle, steps) = &self.cycles[i as usize];
                 Item::Cycle(cycle, steps)
             }
-            Slot::Tool { id, length, radius } => Item::Tool { id, length, radius },
-            Slot::Dwell(seconds) => Item::Dwell(seconds),
+            Slot::Tool(i) => {
+                let ToolCall { id, length, radius } = self.tools[i as usize];
+                Item::Tool { id, length, radius }
+            }
+            Slot::Dwell(i) => Item::Dwell(self.dwells[i as usize]),
             Slot::Stop(kind) => Item::Stop(kind),
             Slot::Text(i) => Item::Text(&self.texts[i as usize]),
         }
@@ -270,8 +293,16 @@ impl Program {
 
     /// Appends a move.
     pub fn push_move(&mut self, motion: Move, state: &State, origin: Origin) {
-        self.items.moves.push(motion);
-        let slot = Slot::Move(self.items.moves.len() as u32 - 1);
+        let slot = match motion {
+            Move { end: Target::Tip { point, axis: ToolAxis::Fixed }, path: Path::Line } => {
+                self.items.straights.push(point);
+                Slot::Straight(self.items.straights.len() as u32 - 1)
+            }
+            _ => {
+                self.items.moves.push(motion);
+                Slot::Move(self.items.moves.len() as u32 - 1)
+            }
+        };
         self.push(slot, state, origin);
     }
 
@@ -297,13 +328,15 @@ impl Program {
         state: &State,
         origin: Origin,
     ) {
-        self.push(Slot::Tool { id, length, radius }, state, origin);
+        self.items.tools.push(ToolCall { id, length, radius });
+        let slot = Slot::Tool(self.items.tools.len() as u32 - 1);
+        self.push(slot, state, origin);
     }
 
     /// Gives the tool item at an index another register of its length; other items stay as they are.
     pub fn set_tool_length(&mut self, index: usize, register: Option<u32>) {
-        if let Some(Slot::Tool { length, .. }) = self.items.slots.get_mut(index) {
-            *length = register;
+        if let Some(Slot::Tool(i)) = self.items.slots.get(index) {
+            self.items.tools[*i as usize].length = register;
         }
     }
 
@@ -314,7 +347,17 @@ impl Program {
         for i in 0..self.items.len() {
             let tilted =
                 matches!(self.frames.get(self.state(i).frame.0 as usize), Some(Frame::Tilted { .. }));
-            let Slot::Move(index) = self.items.slots[i] else { continue };
+            let index = match self.items.slots[i] {
+                Slot::Move(index) => index,
+                Slot::Straight(index) if at != [0.0; 3] && !tilted => {
+                    // It is no plain one any more.
+                    self.items.moves.push(straight(self.items.straights[index as usize]));
+                    let index = self.items.moves.len() as u32 - 1;
+                    self.items.slots[i] = Slot::Move(index);
+                    index
+                }
+                _ => continue,
+            };
             match &mut self.items.moves[index as usize].end {
                 Target::Joints(joints) => {
                     for (place, said) in at.iter_mut().zip(&joints[3..]) {
@@ -331,7 +374,9 @@ impl Program {
 
     /// Appends a wait [s].
     pub fn push_dwell(&mut self, seconds: f64, state: &State, origin: Origin) {
-        self.push(Slot::Dwell(seconds), state, origin);
+        self.items.dwells.push(seconds);
+        let slot = Slot::Dwell(self.items.dwells.len() as u32 - 1);
+        self.push(slot, state, origin);
     }
 
     /// Appends a stop.

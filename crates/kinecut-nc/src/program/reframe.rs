@@ -130,8 +130,7 @@ impl Program {
             let (root, before) = (self.in_work(state.frame), state.frame);
             state.frame = frame;
             match self.items.get(index) {
-                Item::Move(one) => {
-                    let mut one = *one;
+                Item::Move(mut one) => {
                     if let Target::Tip { point, axis } = &mut one.end {
                         place.enter(root.map(|r| r.0), before, state.setup.0);
                         let to_work = root.map_or(Rigid::IDENTITY, |r| r.1);

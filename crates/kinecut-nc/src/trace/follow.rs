@@ -139,7 +139,7 @@ impl<'a> Follow<'a> {
             (self.rotary, self.rotary_said, self.axis) = ([0.0; 3], [false; 3], DVec3::Z);
         }
         match program.items.get(index) {
-            Item::Move(motion) => self.motion(index, motion, &state),
+            Item::Move(motion) => self.motion(index, &motion, &state),
             Item::Cycle(_, steps) => self.cycle(index, steps, &state),
             Item::Tool { id, length, .. } => {
                 if self.tool.is_some_and(|t| t.number != id) {
@@ -506,18 +506,28 @@ impl<'a> Follow<'a> {
             duration: seconds,
             alternative: false,
             rotary: self.rotary,
-            to_axes: (matrix * placed.rotation, matrix * placed.translation + shift),
+            to_axes: self.shared((matrix * placed.rotation, matrix * placed.translation + shift)),
         };
         let dog_leg = match segment.turning.is_none() && self.runs_apart(state) {
             true => self.dog_leg(path.start(), path.end()),
             false => Vec::new(),
         };
-        self.trace.segments.push(segment.clone());
-        for leg in dog_leg {
+        let legs = dog_leg.into_iter().map(|leg| {
             let curve = Curve::from(leg).moved(&to_part);
-            self.trace.segments.push(Segment { curve, alternative: true, ..segment.clone() });
-        }
+            Segment { curve, alternative: true, ..segment.clone() }
+        });
+        let legs: Vec<Segment> = legs.collect();
+        self.trace.segments.push(segment);
+        self.trace.segments.extend(legs);
         Ok(())
+    }
+
+    /// A map to the linear axes, the one of the segment before where it is the same.
+    fn shared(&self, to_axes: (DMat3, DVec3)) -> Arc<(DMat3, DVec3)> {
+        match self.trace.segments.last() {
+            Some(last) if *last.to_axes == to_axes => Arc::clone(&last.to_axes),
+            _ => Arc::new(to_axes),
+        }
     }
 
     /// The ways of a rapid axis by axis [table frame]: the axes do not run along the table's when that is turned.

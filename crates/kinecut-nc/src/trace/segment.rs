@@ -69,8 +69,9 @@ pub struct Segment {
     pub alternative: bool,
     /// Positions of the rotary axes A, B, C at the start [rad], where the machine is known.
     pub rotary: [f64; 3],
-    /// Maps part coordinates of the tip into positions of the linear axes at the start's rotary positions.
-    pub(super) to_axes: (DMat3, DVec3),
+    /// Maps part coordinates of the tip into positions of the linear axes at the start's rotary positions; segments with the
+    /// same share it.
+    pub(super) to_axes: Arc<(DMat3, DVec3)>,
 }
 
 impl Segment {
@@ -103,7 +104,7 @@ impl Segment {
     /// of the start; [`Segment::joints`] has the others.
     pub fn axes(&self, s: f64) -> [AxisJet; 3] {
         let jet = self.curve.at(s);
-        let (matrix, shift) = self.to_axes;
+        let (matrix, shift) = *self.to_axes;
         let p = matrix * jet.p + shift;
         let [d1, d2, d3] = [jet.d1, jet.d2, jet.d3].map(|d| matrix * d);
         [0, 1, 2].map(|i| AxisJet { q: p[i], d1: d1[i], d2: d2[i], d3: d3[i] })

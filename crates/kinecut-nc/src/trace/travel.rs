@@ -126,7 +126,7 @@ fn jump(segment: &Segment) -> Option<(char, f64)> {
 
 /// Range of the axes along a segment; `None` where its machine is not known.
 fn span(segment: &Segment) -> Option<AxisTravel> {
-    let (matrix, shift) = segment.to_axes;
+    let (matrix, shift) = *segment.to_axes;
     let (mut low, mut high) = ([f64::INFINITY; 6], [f64::NEG_INFINITY; 6]);
     let (mut at_low, mut at_high) = (segment.curve.start(), segment.curve.end());
     // A line stays one under any matrix, other curves under a motion.

@@ -44,7 +44,7 @@ pub enum ToolpathPace {
 }
 
 /// A move of the cutter's tip centre.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct PlannedMove {
     /// Purpose.
     pub role: ToolpathRole,

@@ -80,7 +80,7 @@ impl PathByLength for Curve {
     }
 
     fn stations(&self, turn: f64) -> Vec<Station> {
-        let places: Vec<f64> = match *self.kind() {
+        let places: Vec<f64> = match self.kind() {
             CurveKind::Involute { record, .. } if !record.is_line() => {
                 let whole = record.turn(record.length()).abs();
                 let count = parts(whole, turn);

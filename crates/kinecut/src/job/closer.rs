@@ -6,7 +6,10 @@
 
 use std::collections::BTreeMap;
 use std::f64::consts::SQRT_2;
-use std::sync::Arc;
+use std::ops::Range;
+use std::sync::{Arc, OnceLock};
+
+use rayon::prelude::*;
 
 use super::bins::Bins;
 use super::check::Job;
@@ -63,7 +66,7 @@ pub(super) fn look_closer(
     if passing.is_empty() {
         return Ok(());
     }
-    let swept: Vec<Swept> = story.moves.iter().map(|list| Swept::of(list)).collect();
+    let swept: Vec<Swept<'_>> = story.moves.iter().map(|list| Swept::of(list)).collect();
     let mut left = MOST_BYTES_OF_ALL;
     while !passing.is_empty() && SQRT_2 * step > Missed::UNTOLD {
         let margin = ROOM * step;
@@ -146,23 +149,21 @@ fn split(all: Aabb, step: f64, margin: f64) -> Vec<Aabb> {
 
 /// The effect of one move on two parts of the stock together.
 fn either(before: MoveEffect, now: &MoveEffect) -> MoveEffect {
-    let edge = match (before.edge, now.edge) {
+    let edge = match (before.edge(), now.edge()) {
         (Some(a), Some(b)) => {
             let wider = if b.width > a.width { b } else { a };
             Some(Edge { bounds: a.bounds.union(b.bounds), ..wider })
         }
         (a, b) => a.or(b),
     };
-    let met = if before.first_contact.is_some() { &before } else { now };
-    MoveEffect {
-        edge,
-        shank: before.shank.or(now.shank),
-        holder: before.holder.or(now.holder),
-        first_contact: met.first_contact,
-        deepest: met.deepest,
-        widest: met.widest,
-        ..before
+    let contacts = [before.shank().or(now.shank()), before.holder().or(now.holder())];
+    let mut both = before;
+    both.set_contacts(contacts, edge);
+    if both.first_contact.is_none() {
+        both.first_contact = now.first_contact;
+        (both.deepest, both.widest) = (now.deepest, now.widest);
     }
+    both
 }
 
 /// Boxes that share a point are one: each with its moves.
@@ -198,21 +199,34 @@ fn groups(passing: Vec<Passing>) -> Vec<(Aabb, Vec<Passing>)> {
 }
 
 /// The moves of a setup by where they sweep.
-struct Swept {
-    boxes: Vec<Aabb>,
-    bins: Bins,
+struct Swept<'a> {
+    list: &'a CutList,
+    /// Boxes of [`BLOCK`] moves each; made when the first part is looked at.
+    blocks: OnceLock<Vec<Aabb>>,
 }
 
-impl Swept {
-    fn of(list: &CutList) -> Swept {
-        let boxes: Vec<Aabb> = (0..list.moves().len()).map(|i| list.swept(i)).collect();
-        Swept { bins: Bins::of(&boxes), boxes }
+/// Moves that share a box.
+const BLOCK: usize = 64;
+
+impl Swept<'_> {
+    fn of(list: &CutList) -> Swept<'_> {
+        Swept { list, blocks: OnceLock::new() }
+    }
+
+    /// The moves of a block.
+    fn block(&self, block: usize) -> Range<usize> {
+        block * BLOCK..self.list.moves().len().min((block + 1) * BLOCK)
     }
 
     /// The moves that reach a part of the stock, in order.
     fn reaching(&self, part: Aabb) -> Vec<usize> {
-        let near = self.bins.about(part).into_iter().map(|k| k as usize);
-        near.filter(|k| self.boxes[*k].meets(part)).collect()
+        let blocks = self.blocks.get_or_init(|| {
+            let all = 0..self.list.moves().len().div_ceil(BLOCK);
+            let swept = |b| self.block(b).map(|i| self.list.swept(i)).fold(Aabb::EMPTY, Aabb::union);
+            all.into_par_iter().map(swept).collect()
+        });
+        let near = blocks.iter().enumerate().filter(|(_, all)| all.meets(part));
+        near.flat_map(|(b, _)| self.block(b)).filter(|i| self.list.swept(*i).meets(part)).collect()
     }
 }
 
@@ -225,7 +239,7 @@ fn cut_to(part: Aabb, whole: Aabb) -> Option<Aabb> {
 /// Cuts a part of the stock anew and tells what some moves meet in it.
 fn cut_part(
     story: &Story<'_>,
-    swept: &[Swept],
+    swept: &[Swept<'_>],
     part: Aabb,
     step: f64,
     asked: &[Passing],
@@ -267,9 +281,8 @@ fn cut_part(
 
 /// Puts what a closer look has found of a move in place of its edge.
 fn merge(effect: &mut MoveEffect, closer: &MoveEffect) {
-    effect.edge = closer.edge;
-    effect.shank = effect.shank.or(closer.shank);
-    effect.holder = effect.holder.or(closer.holder);
+    let contacts = [effect.shank().or(closer.shank()), effect.holder().or(closer.holder())];
+    effect.set_contacts(contacts, closer.edge());
     if effect.first_contact.is_none() {
         effect.first_contact = closer.first_contact;
         (effect.deepest, effect.widest) = (closer.deepest, closer.widest);

@@ -31,5 +31,5 @@ impl Missed {
 
 /// The edge that what should meet nothing may clip between the lines, by more than is left untold.
 pub(super) fn may_clip(effect: &MoveEffect) -> Option<Edge> {
-    effect.edge.filter(|edge| edge.width > Missed::UNTOLD)
+    effect.edge().filter(|edge| edge.width > Missed::UNTOLD)
 }

@@ -181,7 +181,7 @@ fn lists(outcome: &Outcome, setup: usize) -> BTreeMap<&'static str, Vec<Operatio
 }
 
 fn shape(curve: &Curve) -> Shape {
-    match *curve.kind() {
+    match curve.kind() {
         CurveKind::Line(_) => Shape::Line,
         CurveKind::Arc(arc) => Shape::Arc {
             centre: arc.centre.to_array(),

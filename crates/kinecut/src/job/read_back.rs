@@ -260,7 +260,7 @@ impl SpiralFoot {
     fn of(curve: &Curve) -> Option<SpiralFoot> {
         let CurveKind::Spiral { spiral, frame, rise } = curve.kind() else { return None };
         let [from, _] = spiral.parameters();
-        Some(SpiralFoot { spiral: *spiral, to_plane: frame.inverse(), rise: *rise, parameter: from })
+        Some(SpiralFoot { spiral, to_plane: frame.inverse(), rise, parameter: from })
     }
 
     /// Distance of a point from the place of the spiral that is nearest in the plane [mm]: never less than from the

@@ -248,7 +248,7 @@ fn moves(job: &Job, trace: &Trace) -> Result<Vec<CutMove>> {
         };
         // A way that the machine only may take is looked at, not cut; so is where a contact would be a finding.
         let watch = s.alternative || s.motion == SegmentPace::Rapid || !s.spindle_on;
-        Ok(CutMove { curve: s.curve, stance, body: body as u32, removes: !s.alternative, watch })
+        Ok(CutMove { curve: s.curve.clone(), stance, body: body as u32, removes: !s.alternative, watch })
     };
     trace.segments.iter().map(one).collect()
 }
@@ -308,7 +308,7 @@ pub(super) fn findings(
                 add(item, effect.overlap(), finding);
             }
         }
-        if let Some(core) = &effect.core
+        if let Some(core) = effect.core()
             && blunt(segment.tool, tools)
         {
             let finding =
@@ -327,13 +327,13 @@ pub(super) fn findings(
         }
         for (contact, code, what, help) in [
             (
-                &effect.shank,
+                effect.shank(),
                 Code::SHANK_IN_STOCK,
                 "the shank meets stock",
                 "use longer flutes or a thinner shank, or cut in more levels",
             ),
             (
-                &effect.holder,
+                effect.holder(),
                 Code::HOLDER_IN_STOCK,
                 "the holder meets stock",
                 "use more stickout or a slimmer holder",

@@ -131,7 +131,7 @@ impl<'s> Reader<'s> {
         if is_on && new().any(|item| matches!(item, Item::Cycle(..))) {
             return Err(self.while_on(&self.here).into());
         }
-        let first = new().find_map(|item| if let Item::Move(motion) = item { Some(*motion) } else { None });
+        let first = new().find_map(|item| if let Item::Move(motion) = item { Some(motion) } else { None });
         // The switch waits for its move.
         let Some(first) = first else { return Ok(()) };
         let Some(turned) = self.modal.comp_turned.take() else { return Ok(()) };

@@ -298,7 +298,7 @@ impl Writer<'_> {
             _ => self.end_series(),
         }
         match item {
-            Item::Move(motion) => self.motion(motion, &state),
+            Item::Move(motion) => self.motion(&motion, &state),
             Item::Cycle(cycle, steps) => self.cycle(index, cycle, steps, &state),
             Item::Tool { id, length, radius } => self.tool_call(id, length, radius),
             Item::Dwell(seconds) => {

@@ -151,7 +151,7 @@ pub(super) fn with_rotaries(program: &Program) -> Vec<bool> {
     for index in 0..program.items.len() {
         let state = program.state(index);
         let turned = matches!(program.items.get(index),
-            Item::Move(Move { end: Target::Tip { axis, .. }, .. }) if *axis != ToolAxis::Fixed);
+            Item::Move(Move { end: Target::Tip { axis, .. }, .. }) if axis != ToolAxis::Fixed);
         if let (true, Some(frame)) = (turned || state.tcp != Tcp::Off, used.get_mut(state.frame.0 as usize)) {
             *frame = true;
         }

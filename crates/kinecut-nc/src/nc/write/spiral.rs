@@ -19,7 +19,7 @@ impl Writer<'_> {
         for (i, piece) in pieces.iter().enumerate() {
             let end = if i == last { point } else { piece.end() };
             match piece.kind() {
-                CurveKind::Arc(arc) => self.arc(arc, end, speed)?,
+                CurveKind::Arc(arc) => self.arc(&arc, end, speed)?,
                 _ => self.line(end.to_array(), speed)?,
             }
         }

@@ -38,7 +38,7 @@ pub(super) enum Shape {
 impl Flat {
     /// The planar part of a curve.
     pub(super) fn of(curve: &Curve) -> Shape {
-        match *curve.kind() {
+        match curve.kind() {
             CurveKind::Line(line) => {
                 let (start, end) = (line.start.truncate(), line.end.truncate());
                 if start == end { Shape::Across } else { Shape::Flat(Flat::Line { start, end }) }

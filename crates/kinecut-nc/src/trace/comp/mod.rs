@@ -33,7 +33,7 @@ pub enum CompStart {
 }
 
 /// A programmed move and its item.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub(super) struct Programmed {
     pub(super) item: usize,
     pub(super) curve: Curve,
@@ -60,14 +60,14 @@ pub(super) fn compensate(
     d: f64,
     start: CompStart,
 ) -> Result<Vec<Programmed>> {
-    let Some(entry) = contour.first() else { return Ok(exit.into_iter().copied().collect()) };
+    let Some(entry) = contour.first() else { return Ok(exit.into_iter().cloned().collect()) };
     check_entry(entry, d)?;
     if let Some(exit) = exit {
         straight(exit, "the end of a compensation")?;
     }
     in_plane(contour)?;
     if d == 0.0 {
-        return Ok(contour.iter().chain(exit).copied().collect());
+        return Ok(contour.iter().chain(exit).cloned().collect());
     }
     let contour = &without_spirals(contour)[..];
     let mut planar = Vec::with_capacity(contour.len());
@@ -130,7 +130,7 @@ fn without_spirals(contour: &[Programmed]) -> Vec<Programmed> {
     let mut moves = Vec::with_capacity(contour.len());
     for programmed in contour {
         let turn = match programmed.curve.kind() {
-            CurveKind::Spiral { spiral, .. } => Some(PlaneCurve::from(*spiral).turn()),
+            CurveKind::Spiral { spiral, .. } => Some(PlaneCurve::from(spiral).turn()),
             CurveKind::Bezier { span, .. } => Some(span.turn()),
             _ => None,
         };
@@ -139,7 +139,7 @@ fn without_spirals(contour: &[Programmed]) -> Vec<Programmed> {
                 let arcs = spiral::arcs(&programmed.curve, turn);
                 moves.extend(arcs.into_iter().map(|curve| Programmed { curve, ..*programmed }));
             }
-            _ => moves.push(*programmed),
+            _ => moves.push(programmed.clone()),
         }
     }
     moves

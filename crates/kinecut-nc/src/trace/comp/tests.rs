@@ -41,7 +41,7 @@ fn printed(path: &[Programmed]) -> Vec<Vec<f64>> {
     path.iter()
         .map(|p| {
             let end = p.curve.end();
-            match *p.curve.kind() {
+            match p.curve.kind() {
                 CurveKind::Arc(arc) => {
                     vec![end.x, end.y, arc.centre.x, arc.centre.y, arc.sweep.signum(), end.z]
                 }
@@ -281,7 +281,7 @@ fn a_lens_spiral_is_followed_within_ten_nanometres() {
     let (a, b) = (lead.at(0.0), lead.at(lead.length()));
     let entry = Line { start: a.p - a.d1, end: a.p };
     let exit = Line { start: b.p, end: b.p + b.d1 };
-    let curves = [entry.into(), lead, exit.into()];
+    let curves = [entry.into(), lead.clone(), exit.into()];
     let all: Vec<_> =
         curves.into_iter().enumerate().map(|(item, curve)| Programmed { item, curve }).collect();
     assert_eq!(compensate(&all[..2], all.last(), 0.0, CompStart::AtNext).unwrap()[1].curve, lead);
@@ -382,7 +382,7 @@ fn a_cubic_is_followed_within_twenty_nanometres() {
     let (t, end) = (lead.at(0.0).d1, lead.at(lead.length()));
     let entry = Line { start: lead.start() - t * 9.0, end: lead.start() };
     let exit = Line { start: end.p, end: end.p + end.d1 * 9.0 };
-    let all: Vec<_> = [entry.into(), lead, exit.into()]
+    let all: Vec<_> = [entry.into(), lead.clone(), exit.into()]
         .into_iter()
         .enumerate()
         .map(|(item, curve)| Programmed { item, curve })

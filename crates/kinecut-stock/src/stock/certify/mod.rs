@@ -182,7 +182,7 @@ fn tasks<'a>(
                 continue;
             }
             let motion = match &one.stance {
-                Stance::Along(axis) => ToolMotion::fixed(one.curve, axis.vector())?,
+                Stance::Along(axis) => ToolMotion::fixed(one.curve.clone(), axis.vector())?,
                 Stance::Leaning(motion) => (**motion).clone(),
             };
             tasks.push(Task { motion, tool: &gauges[one.body as usize], cut: run.first_cut + i as u32 + 1 });

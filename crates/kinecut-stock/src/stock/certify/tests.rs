@@ -80,17 +80,19 @@ fn random_move(random: &mut Random, machine: &Machine) -> CutMove {
     let curve = match (random.bits() % 4, arc) {
         (0, Ok(arc)) => Curve::from(arc),
         (1, _) => Curve::involute(InvoluteRecord::circle(4.0, within(random, 1.0, 2.5)).unwrap(), a.z, -1.0),
-        _ => line,
+        _ => line.clone(),
     };
     let (axis, other) = (leaning(random, 1.2), leaning(random, 1.2));
     let near = (axis + (other - axis) * within(random, 0.0, 0.5)).normalize_or(axis);
-    let leaning = |motion: ToolMotion| CutMove::leaning(motion, curve, 0);
+    let leaning = |motion: ToolMotion| CutMove::leaning(motion, curve.clone(), 0);
     match random.bits() % 7 {
-        0 | 1 => {
-            CutMove::new(curve, CutAxis::ALL[if b.x < 0.0 { 4 } else { (random.bits() % 6) as usize }], 0)
-        }
-        2 => leaning(ToolMotion::fixed(curve, axis).unwrap()),
-        3 | 4 => leaning(ToolMotion::between(curve, axis, near).unwrap()),
+        0 | 1 => CutMove::new(
+            curve.clone(),
+            CutAxis::ALL[if b.x < 0.0 { 4 } else { (random.bits() % 6) as usize }],
+            0,
+        ),
+        2 => leaning(ToolMotion::fixed(curve.clone(), axis).unwrap()),
+        3 | 4 => leaning(ToolMotion::between(curve.clone(), axis, near).unwrap()),
         5 => {
             let rotation = ToolMotion::fixed(line, axis).unwrap().pose(0.0).rotation;
             let turn = DVec3::new(within(random, -0.4, 0.4), within(random, -0.4, 0.4), 0.3);

@@ -1,6 +1,6 @@
 //! Effects of moves on the lines of a tile, and the sum over tiles.
 
-use super::{BodyContact, Edge, MoveEffect};
+use super::{BodyContact, Edge, MoveEffect, RareEffect};
 use crate::geom::Aabb;
 use crate::stock::{FIXED_STEP, Interval};
 
@@ -140,11 +140,16 @@ impl Sum {
         let unmet = |looked: Looked, met: bool| if met { None } else { edge(&self.met, looked, &mm) };
         let edges =
             [unmet(Looked::Cutting, cutting), unmet(Looked::Shank, shank), unmet(Looked::Holder, holder)];
-        MoveEffect {
+        let mut effect = MoveEffect {
             removed: self.removed as f64 * FIXED_STEP * step * step,
             deepest: mm(deepest),
             widest: mm(widest),
             first_contact: first.map(|(_, point)| point),
+            as_filled: filled && deepest.max(widest) > 0,
+            path_error,
+            rare: None,
+        };
+        effect.set_rare(RareEffect {
             shank: contact(|e| e.shank),
             holder: contact(|e| e.holder),
             core: contact(|e| e.core),
@@ -152,9 +157,8 @@ impl Sum {
                 let wider = if b.width > a.width { b } else { a };
                 Edge { bounds: a.bounds.union(b.bounds), ..wider }
             }),
-            as_filled: filled && deepest.max(widest) > 0,
-            path_error,
-        }
+        });
+        effect
     }
 }
 

@@ -203,7 +203,7 @@ pub struct Edge {
 /// closer; along the axis of the stock that is nearest to most of the run's tool axes, for a tool within 53 degrees of it. A move
 /// between those lines that leaves a surface is told as removing one square of a step, [`FIXED_STEP`](crate::stock::FIXED_STEP)
 /// deep; one that leaves none is told as removing nothing.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct MoveEffect {
     /// Volume of stock removed [mm^3].
     pub removed: f64,
@@ -216,26 +216,58 @@ pub struct MoveEffect {
     /// The material met first on the way, by more than the clearance: a point of the stock [mm], within one grid step
     /// of the first touch. Of a move that is not watched it may be another point that is met.
     pub first_contact: Option<[f64; 3]>,
-    /// Deepest touch of the shank.
-    pub shank: Option<BodyContact>,
-    /// Deepest touch of the holder.
-    pub holder: Option<BodyContact>,
-    /// Longest stretch of material within the inner radius of an edge, where nothing cuts: a core inside the tool,
-    /// which needs room there. On a tool without that room (a countersink with a blunt nose) it is a collision.
-    pub core: Option<BodyContact>,
-    /// An edge of material so near to what should meet none that an overlap may lie between the lines. `None` where
-    /// something is met, which says more.
-    pub edge: Option<Edge>,
     /// A tool that leaves a core or a nub moved across its axis in material, and was cut as if it did not.
     pub as_filled: bool,
     /// Bound on how far the path that was cut is off the move's curve [mm]; 0 when it is exact.
     pub path_error: f64,
+    /// What few moves have.
+    rare: Option<Box<RareEffect>>,
+}
+
+/// Parts of an effect that few moves have: most of a million have a pointer to nothing instead.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+struct RareEffect {
+    shank: Option<BodyContact>,
+    holder: Option<BodyContact>,
+    core: Option<BodyContact>,
+    edge: Option<Edge>,
 }
 
 impl MoveEffect {
     /// Overlap of the cutting part with material [mm]: the lesser of depth and width that was met, 0 when none was.
     pub fn overlap(&self) -> f64 {
         least_met(self.deepest, self.widest)
+    }
+
+    /// Deepest touch of the shank.
+    pub fn shank(&self) -> Option<BodyContact> {
+        self.rare.as_ref()?.shank
+    }
+
+    /// Deepest touch of the holder.
+    pub fn holder(&self) -> Option<BodyContact> {
+        self.rare.as_ref()?.holder
+    }
+
+    /// Longest stretch of material within the inner radius of an edge, where nothing cuts: a core inside the tool,
+    /// which needs room there. On a tool without that room (a countersink with a blunt nose) it is a collision.
+    pub fn core(&self) -> Option<BodyContact> {
+        self.rare.as_ref()?.core
+    }
+
+    /// An edge of material so near to what should meet none that an overlap may lie between the lines. `None` where
+    /// something is met, which says more.
+    pub fn edge(&self) -> Option<Edge> {
+        self.rare.as_ref()?.edge
+    }
+
+    /// Sets the touches of shank and holder, and the edge.
+    pub fn set_contacts(&mut self, [shank, holder]: [Option<BodyContact>; 2], edge: Option<Edge>) {
+        self.set_rare(RareEffect { shank, holder, core: self.core(), edge });
+    }
+
+    fn set_rare(&mut self, rare: RareEffect) {
+        self.rare = (rare != RareEffect::default()).then(|| Box::new(rare));
     }
 }
 

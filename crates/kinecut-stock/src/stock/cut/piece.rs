@@ -66,12 +66,12 @@ pub(super) fn pieces(curve: &Curve, frame: &ToolFrame, tolerance: f64) -> (Vec<M
         CurveKind::Involute { record, frame, rise }
             if frame.vector(DVec3::Z).truncate().length() * (record.length() + rise.abs()) <= PARALLEL =>
         {
-            let involute = Involute { record, frame, rise: *rise, tolerance };
+            let involute = Involute { record: &record, frame: &frame, rise, tolerance };
             return (involute.pieces(), tolerance);
         }
         CurveKind::Bezier { span, frame }
             if frame.vector(DVec3::Z).truncate().length() * span.length() <= PARALLEL
-                && cubic(&mut list, span, frame, tolerance) =>
+                && cubic(&mut list, &span, &frame, tolerance) =>
         {
             return (list, tolerance);
         }

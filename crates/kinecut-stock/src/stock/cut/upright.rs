@@ -96,7 +96,7 @@ fn look(
     if are_clear(stock, (axis, frame), &batch.tasks) {
         return MoveEffect { path_error: batch.errors[0], ..MoveEffect::default() };
     }
-    batch.cut_in_order(stock, frame, 0..1, progress)[0]
+    batch.cut_in_order(stock, frame, 0..1, progress).swap_remove(0)
 }
 
 /// Adds the tasks of a move, which carry an index; tells how far its path was replaced [mm], and whether a hollow tool is cut as if

@@ -18,12 +18,12 @@ impl ToolMotion {
     /// `KC1203` when a number of the segment is not finite.
     pub fn of_segment(segment: &Segment) -> Result<ToolMotion> {
         let Some(turning) = &segment.turning else {
-            return ToolMotion::fixed(segment.curve, segment.axis);
+            return ToolMotion::fixed(segment.curve.clone(), segment.axis);
         };
         match turning.carried() {
             Carried::Plane => {
                 let (from, rate) = turning.axis(0.0);
-                ToolMotion::turning(segment.curve, super::upright_on(from)?, rate)
+                ToolMotion::turning(segment.curve.clone(), super::upright_on(from)?, rate)
             }
             Carried::Joints { chain, from, to, to_part } => {
                 let mut motion = ToolMotion::joints(chain, &from, &to)?;
@@ -33,7 +33,7 @@ impl ToolMotion {
                 Ok(motion)
             }
             Carried::TipAndJoints { chain, from, to, to_part } => {
-                let mut motion = ToolMotion::tip_and_joints(segment.curve, chain, &from, &to)?;
+                let mut motion = ToolMotion::tip_and_joints(segment.curve.clone(), chain, &from, &to)?;
                 if let Kind::TipAndJoints { place, .. } = &mut motion.kind {
                     *place = to_part.rotation;
                 }

@@ -54,14 +54,14 @@ pub(in crate::job) fn proven(
             let ways = if dog_legs { "straight or axis by axis" } else { "on the straight lines they run" };
             add(format!("no rapid move of `{file}` meets stock, {ways}"), swept.clone());
         }
-        if clear(&|k| effects[k].shank.is_none() && may_clip(&effects[k]).is_none()) {
+        if clear(&|k| effects[k].shank().is_none() && may_clip(&effects[k]).is_none()) {
             add(format!("no shank meets stock in `{file}`"), swept.clone());
         }
         let held = |k: usize| {
             segments[k].tool.is_some_and(|t| job.tools.iter().any(|x| x.number == t && x.holder.is_some()))
         };
         if (0..segments.len()).any(held)
-            && clear(&|k| effects[k].holder.is_none() && may_clip(&effects[k]).is_none())
+            && clear(&|k| effects[k].holder().is_none() && may_clip(&effects[k]).is_none())
         {
             add(format!("no given holder meets stock in `{file}`"), swept.clone());
         }

@@ -150,7 +150,7 @@ impl Cuts {
             if cutting {
                 let line = posted.line_of_planned(segment.item);
                 moves.push(Cut {
-                    curve: segment.curve,
+                    curve: segment.curve.clone(),
                     role: origin.role,
                     line: line.map(|l| l + first_line),
                     before,
@@ -180,12 +180,12 @@ impl Cuts {
                     if cut.role == Role::Finish {
                         pass.role = Role::Finish;
                     }
-                    pass.curves.push(cut.curve);
+                    pass.curves.push(cut.curve.clone());
                 }
                 _ => {
                     passes.extend(run.take());
-                    let height = cut.curve.start().z;
-                    run = Some(Pass { role: family, height, curves: vec![cut.curve], before: cut.before });
+                    let (height, curves) = (cut.curve.start().z, vec![cut.curve.clone()]);
+                    run = Some(Pass { role: family, height, curves, before: cut.before });
                 }
             }
         }
@@ -202,7 +202,7 @@ impl Cuts {
 
 /// A planar curve as a record about the bore's centre.
 fn plane_curve(curve: &Curve, centre: DVec2) -> Option<PlaneCurve> {
-    match *curve.kind() {
+    match curve.kind() {
         CurveKind::Spiral { spiral, frame, .. } => {
             Some(spiral.shifted(frame.point(glam::DVec3::ZERO).truncate() - centre).into())
         }
@@ -215,7 +215,7 @@ fn record(curve: &Curve, centre: DVec2) -> Option<InvoluteRecord> {
     let start = curve.at(0.0);
     let angle = start.d1.y.atan2(start.d1.x);
     let at = (start.p.truncate() - centre).to_array();
-    match *curve.kind() {
+    match curve.kind() {
         CurveKind::Line(line) => {
             InvoluteRecord::new(line.length(), at, angle, f64::INFINITY, f64::INFINITY).ok()
         }

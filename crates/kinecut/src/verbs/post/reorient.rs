@@ -107,8 +107,8 @@ impl<'a> Walk<'a> {
             if controlled || turned {
                 state.tcp = self.tcp;
                 return match segments {
-                    [] => self.without_way(index, motion, (point, axis), &state),
-                    segments => segments.iter().try_for_each(|s| self.segment(index, motion, s, &state)),
+                    [] => self.without_way(index, &motion, (point, axis), &state),
+                    segments => segments.iter().try_for_each(|s| self.segment(index, &motion, s, &state)),
                 };
             }
         }
@@ -119,7 +119,7 @@ impl<'a> Walk<'a> {
             self.on = false;
         }
         match self.program.items.get(index) {
-            Item::Move(motion) => self.made.push_move(*motion, &state, origin),
+            Item::Move(motion) => self.made.push_move(motion, &state, origin),
             Item::Cycle(cycle, _) => self.made.push_cycle(*cycle, &state, origin)?,
             Item::Tool { id, length, radius } => {
                 self.tool = Some(id);
@@ -199,7 +199,7 @@ impl<'a> Walk<'a> {
             let path = match (self.tcp, segment.curve.kind()) {
                 (Tcp::Off, _) | (_, CurveKind::Line(_)) => Path::Line,
                 (_, CurveKind::Arc(_)) if parts == 1 => motion.path,
-                (_, CurveKind::Arc(arc)) => part_of(arc, parts, &frame),
+                (_, CurveKind::Arc(arc)) => part_of(&arc, parts, &frame),
                 _ if parts == 1 => motion.path,
                 _ => {
                     let what = "the tool turns along a curve that is no line or arc";

@@ -58,7 +58,7 @@ pub(crate) fn rework(source: &Program, radii: &[(u32, f64)], from: Control, to: 
         state.blend = blend_on(to, state.blend);
         let origin = *source.origin(index);
         match source.items.get(index) {
-            Item::Move(motion) => program.push_move(*motion, &state, origin),
+            Item::Move(motion) => program.push_move(motion, &state, origin),
             Item::Cycle(cycle, _) => program.push_cycle(*cycle, &state, origin)?,
             Item::Tool { id, length, radius } => {
                 tool = Some(id);

@@ -345,7 +345,7 @@ fn probes_measure_between_the_holes_of_a_program_and_a_core_can_be_taken_out() {
     assert_eq!(found[..4], [1.0, 1.0, 0.0, 0.0]);
     assert!((found[4] - standing).abs() < 0.02);
     // The core stood within the drill over the whole height of the plate.
-    let deepest = again.effects[0].iter().filter_map(|e| e.core).map(|c| c.depth).fold(0.0, f64::max);
+    let deepest = again.effects[0].iter().filter_map(|e| e.core()).map(|c| c.depth).fold(0.0, f64::max);
     assert!((deepest - 12.0).abs() < 0.01, "{deepest}");
     let wrong = Probe { setup: 1, ..probe(PLACES[0], 0, edge) };
     let error = simulate(&job, &[&traces[0]], &[vec![]], &[wrong], &[], &Silent).unwrap_err();

@@ -101,7 +101,7 @@ fn finishing(plan: &BorePlan) -> Vec<PlannedMove> {
     plan.moves
         .iter()
         .filter(|m| m.finishing && m.role != ToolpathRole::Link && m.role != ToolpathRole::Retract)
-        .copied()
+        .cloned()
         .collect()
 }
 
@@ -135,7 +135,7 @@ fn follow(program: &Program, control: Control, value: f64) -> kinecut::base::Res
 }
 
 fn feeds(segments: &[Segment]) -> Vec<Curve> {
-    segments.iter().filter(|s| matches!(s.motion, SegmentPace::Feed(_))).map(|s| s.curve).collect()
+    segments.iter().filter(|s| matches!(s.motion, SegmentPace::Feed(_))).map(|s| s.curve.clone()).collect()
 }
 
 #[test]
@@ -149,7 +149,7 @@ fn the_register_sets_the_bore_and_the_joints_stay_as_planned() {
             assert_eq!(path.len(), as_planned.len());
             let circles: Vec<_> = path
                 .iter()
-                .filter_map(|c| if let CurveKind::Arc(arc) = c.kind() { Some(*arc) } else { None })
+                .filter_map(|c| if let CurveKind::Arc(arc) = c.kind() { Some(arc) } else { None })
                 .collect();
             assert!(!circles.is_empty());
             for arc in circles {
@@ -203,7 +203,7 @@ fn written_and_read_the_compensation_is_the_same() {
                 let circle: f64 = path
                     .iter()
                     .filter_map(|c| match c.kind() {
-                        CurveKind::Arc(arc) if (arc.radius() - PATH_RADIUS).abs() < 0.5 => Some(*arc),
+                        CurveKind::Arc(arc) if (arc.radius() - PATH_RADIUS).abs() < 0.5 => Some(arc),
                         _ => None,
                     })
                     .filter(|arc| arc.sweep.abs() > 1.5)

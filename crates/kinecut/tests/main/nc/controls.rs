@@ -94,7 +94,7 @@ fn numbers_without_a_point_are_least_increments_on_fanuc() {
     for i in 0..items.len() {
         match items.get(i) {
             Item::Move(Move { end: Target::Tip { point, .. }, .. }) => {
-                ends.push(*point);
+                ends.push(point);
                 feeds.push(reading.program.state(i).speed);
             }
             Item::Dwell(seconds) => waits.push(seconds),
@@ -115,7 +115,7 @@ fn numbers_without_a_point_are_least_increments_on_fanuc() {
     // In inches the least increment is a tenth of a thousandth.
     let inch = read("%\nO1\nG20 G90 G54\nG0 X10000 Y0 Z5000\nM30\n%\n", Fanuc);
     let Item::Move(Move { end: Target::Tip { point, .. }, .. }) = inch.program.items.get(0) else { panic!() };
-    assert!((*point - DVec3::new(25.4, 0.0, 12.7)).length() < 1e-12);
+    assert!((point - DVec3::new(25.4, 0.0, 12.7)).length() < 1e-12);
 }
 
 #[test]

@@ -111,7 +111,7 @@ fn blocks(posted: &Posted) -> Vec<&str> {
 fn check(curve: PlaneCurve, decimals: u8, tolerance: f64) -> Posted {
     let exact = curve.at_height(-3.0, 0.0);
     let settings = settings(decimals, tolerance);
-    let posted = nc::write(&program(&[exact]), &[], &settings).unwrap();
+    let posted = nc::write(&program(std::slice::from_ref(&exact)), &[], &settings).unwrap();
     let reading = read(&posted.text).unwrap();
     // Nothing to warn of: the control's own biarcs are near these cubics.
     assert!(reading.findings.iter().all(|f| !f.message.contains("biarcs")), "{:?}", reading.findings);
@@ -288,13 +288,14 @@ fn a_control_without_cubics_says_so_and_gets_arcs_for_those_it_is_given() {
     let exact = Curve::cubic(span, -1.0);
     for &control in Control::ALL {
         let wanted = PostSettings { cubic: true, ..PostSettings::new(control) };
-        let answer = nc::write(&program(&[exact]), &[], &wanted);
+        let answer = nc::write(&program(std::slice::from_ref(&exact)), &[], &wanted);
         assert_eq!(answer.is_err(), control != LINUXCNC);
         if let Err(error) = answer {
             assert_eq!(error.code(), Code::POST_CONTROL);
             assert!(error.to_string().contains("leave"), "{error}");
         }
-        let posted = nc::write(&program(&[exact]), &[], &PostSettings::new(control)).unwrap();
+        let posted =
+            nc::write(&program(std::slice::from_ref(&exact)), &[], &PostSettings::new(control)).unwrap();
         assert_eq!(posted.notes.cubics > 0, control == LINUXCNC);
         let reading = nc::read(&mut Sources::default(), "test", &posted.text, control, &[]).unwrap();
         let worst = deviation(&cuts(&reading.program), &exact);
@@ -346,7 +347,8 @@ fn a_cubic_with_a_cusp_or_without_handles_is_posted_as_what_every_control_runs()
     for points in [cusp, none] {
         let exact = Curve::cubic(CubicSpan::new(points).unwrap(), -1.0);
         for control in [Control::Sinumerik840d, LINUXCNC] {
-            let posted = nc::write(&program(&[exact]), &[], &PostSettings::new(control)).unwrap();
+            let posted =
+                nc::write(&program(std::slice::from_ref(&exact)), &[], &PostSettings::new(control)).unwrap();
             let reading = nc::read(&mut Sources::default(), "test", &posted.text, control, &[]).unwrap();
             let worst = deviation(&cuts(&reading.program), &exact);
             assert!(worst < 2e-3, "{control:?} {worst}");

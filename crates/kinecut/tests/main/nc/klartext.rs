@@ -47,7 +47,7 @@ fn all(program: &Program) -> Vec<(Option<Curve>, Move, State)> {
             Target::Tip { point, .. } => point,
             Target::Joints(_) | Target::Orient => DVec3::NAN,
         };
-        out.push((curve, *motion, *program.state(i)));
+        out.push((curve, motion, *program.state(i)));
     }
     out
 }

@@ -95,7 +95,7 @@ impl Builder {
 fn moves(program: &Program) -> Vec<(Move, State)> {
     (0..program.items.len())
         .filter_map(|i| match program.items.get(i) {
-            Item::Move(motion) => Some((*motion, *program.state(i))),
+            Item::Move(motion) => Some((motion, *program.state(i))),
             _ => None,
         })
         .collect()

@@ -151,7 +151,7 @@ proptest! {
         let body = || if holder { tool(6.0, None, Some(wide)) } else { tool(6.0, Some(wide), None) };
         let (c, d) = slot(angle, 0.0, 16.0);
         let down = |p: DVec3| way(p + DVec3::Z * 25.0, p);
-        let met = |e: &MoveEffect| if holder { e.holder } else { e.shank };
+        let met = |e: &MoveEffect| if holder { e.holder() } else { e.shank() };
         let ways = |(c, d): (DVec3, DVec3)| {
             let middle = 0.5 * (c + d);
             if plunging { vec![(down(middle), false)] } else { vec![(way(c, d), false)] }
@@ -190,7 +190,7 @@ fn a_tool_that_rubs_on_curved_walls_meets_nothing() {
             for (i, e) in block.cut(&cutter, &path).iter().enumerate() {
                 let watched = path[i].1;
                 assert!(!watched || e.first_contact.is_none(), "{step} {i} {e:?}");
-                assert!(e.shank.is_none() && e.holder.is_none(), "{step} {i} {e:?}");
+                assert!(e.shank().is_none() && e.holder().is_none(), "{step} {i} {e:?}");
             }
         }
     }

@@ -53,7 +53,7 @@ fn mill(flutes: f64, shank: Option<f64>) -> ToolBody {
 }
 
 fn suspected(e: &MoveEffect) -> bool {
-    e.edge.is_some_and(|edge| edge.width > 0.05)
+    e.edge().is_some_and(|edge| edge.width > 0.05)
 }
 
 proptest! {
@@ -82,7 +82,7 @@ proptest! {
         }
         let clipped = &effects[4];
         prop_assert!(clipped.first_contact.is_some() || suspected(clipped), "{} {} {:?}", wide, high, clipped);
-        if let Some(edge) = clipped.edge {
+        if let Some(edge) = clipped.edge() {
             prop_assert!(edge.width > 0.6 * (wide - 0.002), "{} {:?}", wide, edge);
         }
     }
@@ -101,11 +101,11 @@ proptest! {
         let levels = |tool| vec![(way(-0.5 * depth), tool, false), (way(-depth), tool, false)];
         for tool in [&right, &above] {
             for e in through(axis, step, &levels(tool)) {
-                prop_assert!(e.shank.is_none() && !suspected(&e), "{:?}", e);
+                prop_assert!(e.shank().is_none() && !suspected(&e), "{:?}", e);
             }
         }
         let effects = through(axis, step, &levels(&thick));
-        prop_assert!(effects[1].shank.is_some() || suspected(&effects[1]), "{} {} {:?}", wide, high, effects[1]);
+        prop_assert!(effects[1].shank().is_some() || suspected(&effects[1]), "{} {} {:?}", wide, high, effects[1]);
     }
 
     #[test]
@@ -144,8 +144,8 @@ fn an_edge_with_a_chamfer_is_met_or_near() {
                 (straight(0.3, 0.0, -1.5), &chamfer, false),
                 (straight(0.3, 1.0 - down + into, -down), &cutter, true),
             ];
-            let e = through(CutAxis::PlusZ, step, &moves)[2];
-            assert!(e.first_contact.is_some() || suspected(&e), "{step} {high} {e:?}");
+            let e = &through(CutAxis::PlusZ, step, &moves)[2];
+            assert!(e.first_contact.is_some() || suspected(e), "{step} {high} {e:?}");
         }
     }
 }

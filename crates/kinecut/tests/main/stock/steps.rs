@@ -21,7 +21,7 @@ fn steps(length: f64) -> Vec<f64> {
 /// Cuts, closes, and compares the volume of what is left.
 fn check(solid: &Solid, tool: &Profile, moves: &[Curve], step: f64, exact: f64) {
     let mut stock = TriDexel::from_solid(solid, step).unwrap();
-    let moves: Vec<CutMove> = moves.iter().map(|c| CutMove::new(*c, CutAxis::PlusZ, 0)).collect();
+    let moves: Vec<CutMove> = moves.iter().map(|c| CutMove::new(c.clone(), CutAxis::PlusZ, 0)).collect();
     cut(&mut stock, &[ToolBody::new(tool.clone())], &moves, &CutOptions::default(), &Silent).unwrap();
     let surface = surface_with_cuts(&stock, &SurfaceOptions::default(), &Silent).unwrap();
     surface.mesh.check_closed().unwrap_or_else(|e| panic!("step {step}: {e}"));

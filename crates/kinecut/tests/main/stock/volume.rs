@@ -19,7 +19,7 @@ fn way(a: [f64; 3], b: [f64; 3]) -> Curve {
 /// Volumes removed by moves of a cutter with their tool axes: by the surface of what is left, and by its lines; `solid` is the raw stock.
 fn removed(solid: &Solid, step: f64, tool: &Profile, moves: &[(Curve, CutAxis)]) -> [Volume; 2] {
     let mut stock = TriDexel::from_solid(solid, step).unwrap();
-    let moves: Vec<CutMove> = moves.iter().map(|(c, axis)| CutMove::new(*c, *axis, 0)).collect();
+    let moves: Vec<CutMove> = moves.iter().map(|(c, axis)| CutMove::new(c.clone(), *axis, 0)).collect();
     let body = [ToolBody::new(tool.clone())];
     cut(&mut stock, &body, &moves, &CutOptions::default(), &Silent).unwrap();
     let is_box = matches!(solid, Solid::Box(_));

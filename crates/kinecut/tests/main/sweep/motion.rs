@@ -41,8 +41,8 @@ fn all_kinds() -> Vec<(&'static str, ToolMotion)> {
     let pose = Rigid { rotation: DMat3::from_rotation_x(0.7), translation: DVec3::new(1.0, 2.0, 3.0) };
     vec![
         ("fixed line", ToolMotion::fixed(line, DVec3::new(0.3, 0.1, 1.0)).unwrap()),
-        ("fixed helix", ToolMotion::fixed(helix, DVec3::Z).unwrap()),
-        ("great circle", ToolMotion::between(helix, DVec3::new(0.0, 0.2, 1.0), DVec3::X).unwrap()),
+        ("fixed helix", ToolMotion::fixed(helix.clone(), DVec3::Z).unwrap()),
+        ("great circle", ToolMotion::between(helix.clone(), DVec3::new(0.0, 0.2, 1.0), DVec3::X).unwrap()),
         ("joints", ToolMotion::joints(chain(), &from, &to).unwrap()),
         ("tip and joints", ToolMotion::tip_and_joints(helix, chain(), &from, &to).unwrap()),
         ("screw", ToolMotion::screw(pose, twist).unwrap()),
@@ -100,8 +100,8 @@ fn points_of_the_tool_keep_within_the_bound_of_their_chords() {
 fn moves_that_cannot_be_made_are_refused() {
     let line: Curve = Line { start: DVec3::ZERO, end: DVec3::X }.into();
     let code = |r: kinecut::base::Result<ToolMotion>| r.unwrap_err().code();
-    assert_eq!(code(ToolMotion::fixed(line, DVec3::ZERO)), Code::MOVE_NOT_POSSIBLE);
-    assert_eq!(code(ToolMotion::fixed(line, DVec3::splat(f64::NAN))), Code::MOVE_NOT_POSSIBLE);
+    assert_eq!(code(ToolMotion::fixed(line.clone(), DVec3::ZERO)), Code::MOVE_NOT_POSSIBLE);
+    assert_eq!(code(ToolMotion::fixed(line.clone(), DVec3::splat(f64::NAN))), Code::MOVE_NOT_POSSIBLE);
     let far: Curve = Line { start: DVec3::ZERO, end: DVec3::X * f64::INFINITY }.into();
     assert_eq!(code(ToolMotion::fixed(far, DVec3::Z)), Code::MOVE_NOT_POSSIBLE);
     assert_eq!(code(ToolMotion::between(line, DVec3::Z, -DVec3::Z)), Code::MOVE_NOT_POSSIBLE);

@@ -29,7 +29,7 @@ pub(super) fn block() -> Aabb {
 
 /// Cuts a block with one upright move and compares all lines; returns how many ends were compared.
 fn compare(shape: Shape, curve: Curve, axis: CutAxis, step: f64, close: f64) -> usize {
-    let swept = Swept::new(shape, curve, axis.vector());
+    let swept = Swept::new(shape, curve.clone(), axis.vector());
     compare_move(shape, CutMove::new(curve, axis, 0), &swept, step, close)
 }
 
@@ -38,7 +38,7 @@ pub(super) fn compare_move(shape: Shape, one: CutMove, swept: &Swept, step: f64,
     let mut stock = TriDexel::from_box(block(), step).unwrap();
     let tool = ToolBody::new(shape.profile());
     let options = CutOptions { first_cut: 41, ..CutOptions::default() };
-    let (curve, axis) = (one.curve, one.stance.clone());
+    let (curve, axis) = (one.curve.clone(), one.stance.clone());
     cut(&mut stock, &[tool], &[one], &options, &Silent).unwrap();
     let lattice = *stock.lattice();
     let mut compared = 0;

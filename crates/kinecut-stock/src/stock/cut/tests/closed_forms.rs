@@ -320,7 +320,7 @@ fn contacts_are_told_apart() {
     // And a rapid along the wall: the same line again.
     moves.push(up(line([4.0, 0.0, 5.0], [4.0, 0.0, -11.0])));
     let effects = run(&mut stock, &tool, &moves);
-    assert!(effects.iter().all(|e| e.shank.is_none() && e.holder.is_none()), "{effects:?}");
+    assert!(effects.iter().all(|e| e.shank().is_none() && e.holder().is_none()), "{effects:?}");
     assert_eq!(effects[6].first_contact, None);
     assert_eq!(effects[7].first_contact, None);
     assert!((effects[1].deepest - 4.0).abs() < 1e-5);
@@ -330,19 +330,19 @@ fn contacts_are_told_apart() {
 
     // Deeper than the flutes are long, sideways: the shank meets 12 - 5 = 7 mm of the wall it has not cut.
     let slot = run(&mut stock, &tool, &[up(line([4.0, 0.0, -12.0], [20.0, 0.0, -12.0]))]);
-    let BodyContact { depth, point, .. } = slot[0].shank.unwrap();
+    let BodyContact { depth, point, .. } = slot[0].shank().unwrap();
     assert!((depth - 7.0 + 1e-3).abs() < 1e-4, "{depth}");
     assert!(point[0].hypot(point[1]) > 6.9 && point[2] == 0.0, "{point:?}");
-    assert_eq!(slot[0].holder, None);
+    assert_eq!(slot[0].holder(), None);
 
     // Deep into the open bore: the holder comes down on the top face.
     let mut other = stock.clone();
     let dive = up(line([0.0, 0.0, -10.0], [0.0, 0.0, -17.0]));
     let look = CutMove { removes: false, ..dive.clone() };
     let (found, kept) = (run(&mut other, &tool, &[look]), run(&mut stock, &tool, &[dive]));
-    let holder = kept[0].holder.unwrap();
+    let holder = kept[0].holder().unwrap();
     assert!((holder.depth - 2.0 + 1e-3).abs() < 1e-4, "{holder:?}");
-    assert_eq!((found[0].removed, found[0].holder), (0.0, Some(holder)));
+    assert_eq!((found[0].removed, found[0].holder()), (0.0, Some(holder)));
     // The core that the ring left standing: from the tip at -17 to the top of the edges at the start, -5.
     assert!((found[0].deepest - 12.0).abs() < 1e-5 && found[0].first_contact.is_some());
     assert!(kept[0].removed > 100.0);
@@ -360,7 +360,7 @@ fn a_rising_shank_is_compared_with_what_it_passes() {
     let ramp = line([-20.0, 0.0, -8.0], [8.0, 0.0, -1.0]);
     let up_the_ramp = run(&mut block(20.0, 20.0, 8.0, 0.5), &tool, &[up(ramp)]);
     // At x the shank begins at the height of the tip + 3; entering at x = -10 the tip is at -5.5 +- 0.5.
-    let depth = up_the_ramp[0].shank.unwrap().depth;
+    let depth = up_the_ramp[0].shank().unwrap().depth;
     assert!(depth > 2.5 && depth < 3.1, "{depth}");
 }
 

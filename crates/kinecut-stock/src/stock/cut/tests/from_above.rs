@@ -67,8 +67,8 @@ fn same_effects([fast, slow]: &[Vec<MoveEffect>; 2], step: f64, what: &str) {
         assert!(fast.deepest > slow.deepest - 2.1e-5, "{what}, move {i}: {fast:?} {slow:?}");
         assert_eq!(fast.first_contact.is_some(), slow.first_contact.is_some(), "{what}, move {i}");
         assert_eq!(
-            (fast.shank, fast.holder, fast.edge),
-            (slow.shank, slow.holder, slow.edge),
+            (fast.shank(), fast.holder(), fast.edge()),
+            (slow.shank(), slow.holder(), slow.edge()),
             "{what}, move {i}"
         );
     }

@@ -78,8 +78,8 @@ fn drilled(
         Some(axis) => CutMove::new(way, axis, 0),
         None => CutMove::leaning(ToolMotion::fixed(way.into(), n).unwrap(), way, 0),
     }];
-    let effects = cut(&mut stock, &[body(edge)], &moves, &options, &Silent).unwrap();
-    (stock, effects[0])
+    let effect = cut(&mut stock, &[body(edge)], &moves, &options, &Silent).unwrap().swap_remove(0);
+    (stock, effect)
 }
 
 /// Height of the edge at a radius from its definition as a list of points, lowest at a step.
@@ -213,8 +213,8 @@ fn all_points_along_directions_that_lean_are_the_union_of_their_poses() {
         let (_, effect) = drilled(edge, n, through, [6.0, 0.3], 0.83);
         assert!(!effect.as_filled && effect.removed > 50.0, "{effect:?}");
         let inner = edge.inner_radius();
-        assert!(effect.core.is_some() || inner < 1.0, "{edge:?}");
-        assert!(effect.core.is_none() || inner > 0.0, "{edge:?}");
+        assert!(effect.core().is_some() || inner < 1.0, "{edge:?}");
+        assert!(effect.core().is_none() || inner > 0.0, "{edge:?}");
     }
     assert!(compared > 8_000, "{compared}");
 }
@@ -228,8 +228,8 @@ fn a_way_that_lies_beside_the_axis_by_rounding_is_one_along_it_and_its_error_is_
         let way = Line { start: axis * 9.0 + DVec3::X * off, end: DVec3::ZERO };
         let one = CutMove::leaning(ToolMotion::fixed(way.into(), axis).unwrap(), way, 0);
         let mut stock = TriDexel::from_box(block(), 0.4).unwrap();
-        let effect = cut(&mut stock, &[body(&edge)], &[one], &CutOptions::default(), &Silent).unwrap()[0];
-        assert_eq!((effect.as_filled, effect.core.is_some()), (filled, !filled), "{effect:?}");
+        let effect = &cut(&mut stock, &[body(&edge)], &[one], &CutOptions::default(), &Silent).unwrap()[0];
+        assert_eq!((effect.as_filled, effect.core().is_some()), (filled, !filled), "{effect:?}");
         assert!(filled || (effect.path_error - off).abs() < 1e-4, "{effect:?}");
     }
 }
@@ -317,7 +317,7 @@ fn a_second_pass_finds_nothing_and_what_stands_inside_is_told() {
     let r = (first[0] - 0.1).hypot(first[1] - 0.2);
     assert!(r > 2.3 && r < 4.0, "{r}");
     for (i, depth) in [(0, 4.1), (1, 4.1), (2, 4.0), (3, 4.6)] {
-        let core = effects[i].core.unwrap();
+        let core = effects[i].core().unwrap();
         assert!((core.depth - depth).abs() < 0.01, "{i}: {core:?}");
         assert!((core.point[0] - 0.1).hypot(core.point[1] - 0.2) < 2.3);
     }

@@ -35,7 +35,7 @@ fn does(program: &Program) -> Vec<Does> {
                 let mut vector = None;
                 match axis {
                     ToolAxis::Rotary(said) => (0..3).for_each(|k| rotary[k] = said[k].or(rotary[k])),
-                    ToolAxis::Vector(v) => (rotary, vector) = ([None; 3], Some(motion.rotation * *v)),
+                    ToolAxis::Vector(v) => (rotary, vector) = ([None; 3], Some(motion.rotation * v)),
                     _ => {}
                 }
                 out.push(Does::Tip(motion.point(at), rotary, vector, state.tcp));
@@ -43,7 +43,7 @@ fn does(program: &Program) -> Vec<Does> {
             Item::Move(Move { end: Target::Joints(joints), .. }) => {
                 (0..3).for_each(|k| rotary[k] = joints[k + 3].or(rotary[k]));
                 at = DVec3::NAN;
-                out.push(Does::Joints(*joints));
+                out.push(Does::Joints(joints));
             }
             Item::Move(Move { end: Target::Orient, .. }) => {
                 (rotary, at) = ([None; 3], DVec3::NAN);

@@ -7,7 +7,7 @@ use kinecut::program::{Item, StopKind};
 fn moves(reading: &Reading) -> Vec<(Move, State)> {
     let program = &reading.program;
     let of = |i: usize| match program.items.get(i) {
-        Item::Move(motion) => Some((*motion, *program.state(i))),
+        Item::Move(motion) => Some((motion, *program.state(i))),
         _ => None,
     };
     (0..program.items.len()).filter_map(of).collect()

@@ -305,7 +305,7 @@ fn said(program: &Program) -> Vec<Said> {
                         [4.0].into_iter().chain(angles).collect()
                     }
                 };
-                let arc = match *path {
+                let arc = match path {
                     Path::Line => Vec::new(),
                     Path::Arc { centre, axis, sweep, rise } => {
                         centre.to_array().into_iter().chain((axis * sweep).to_array()).chain([rise]).collect()

@@ -16,7 +16,7 @@ fn ends(text: &str, control: Control) -> Vec<[f64; 3]> {
                 return None;
             };
             let (_, motion) = b.resolved(program.state(i).frame);
-            Some(motion.point(*point).to_array())
+            Some(motion.point(point).to_array())
         })
         .collect()
 }
@@ -84,7 +84,7 @@ fn fanuc_turns_about_a_centre_and_shifts() {
     );
     let program = read_text(&text, control).program;
     let arcs: Vec<Curve> =
-        traced(&program).segments.iter().map(|s| s.curve).filter(|c| c.length() > 15.0).collect();
+        traced(&program).segments.iter().map(|s| s.curve.clone()).filter(|c| c.length() > 15.0).collect();
     assert!(arcs.iter().filter(|c| (c.length() - TAU * 2.5).abs() < 1e-9).count() == 2);
     // The same centre again, another angle.
     check(
@@ -151,7 +151,7 @@ fn sinumerik_replaces_or_goes_on() {
     let reading = read_text(&format!("{head}ROT RPL=30\nG0 X1 Y1\nG0 SUPA X0 D0\nG0 X2\nM30\n"), control);
     let last = (0..reading.program.items.len())
         .filter_map(|i| match reading.program.items.get(i) {
-            Item::Move(Move { end: Target::Tip { point, .. }, .. }) => Some(*point),
+            Item::Move(Move { end: Target::Tip { point, .. }, .. }) => Some(point),
             _ => None,
         })
         .next_back();

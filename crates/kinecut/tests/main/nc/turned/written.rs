@@ -237,7 +237,7 @@ fn compensation_within_turned_coordinates_is_the_same_path() {
                 .segments
                 .iter()
                 .filter(|s| !s.alternative)
-                .map(|s| s.curve)
+                .map(|s| s.curve.clone())
                 .filter(|c| c.length() > 0.002)
                 .collect()
         };

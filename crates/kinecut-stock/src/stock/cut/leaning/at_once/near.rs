@@ -199,7 +199,7 @@ mod tests {
                 (ToolMotion::fixed(round.into(), axis).unwrap(), round.into()),
             ];
             for (motion, curve) in motions {
-                let (least, held) = least_room(&motion, curve, &profile);
+                let (least, held) = least_room(&motion, curve.clone(), &profile);
                 assert!(held > 1000 && least > -1e-9, "{profile:?} {curve:?} {held} {least}");
             }
         }
