@@ -24,6 +24,14 @@ pub(crate) fn trace_options<'a>(job: &'a Job, planned: &'a SetupPlan) -> TraceOp
 /// A whole line of the program as a place.
 pub(crate) fn line_place(file: &str, text: &str, line: Option<u32>) -> Option<Location> {
     let line = line?;
+    let before = || text.split_inclusive('\n').take(line as usize);
+    if before().all(|l| l.ends_with('\n')) {
+        // A text has one line more than line ends.
+        let (line, start) = before().fold((1, 0), |(line, at), l| (line + 1, at + l.len()));
+        let text = text[start..].lines().next().unwrap_or_default();
+        let (start, end) = (start as u32, (start + text.len()) as u32);
+        return Some(Location { file: file.to_owned(), line, column: 1, start, end, text: text.to_owned() });
+    }
     let mut sources = Sources::default();
     let id: FileId = sources.add(file, text);
     let start: usize = text.split_inclusive('\n').take(line as usize).map(str::len).sum();

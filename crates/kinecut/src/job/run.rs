@@ -16,7 +16,7 @@ use super::following::{line_place, trace_options};
 use super::measure::{self, Measured, loose_cores, tallies};
 use super::outcome::Outcome;
 use super::plan::{SetupPlan, plan};
-use super::prove::{self, Simulated};
+use super::prove;
 use super::read_back::{ReadBack, compare};
 use super::setup_outcome::{SetupOutcome, block_of_cut};
 use super::shape::{Deviation, deviation};
@@ -271,7 +271,7 @@ fn findings(
 ) -> Vec<Finding> {
     let mut found: Vec<Finding> = under_stock(job).map(located).into_iter().collect();
     found.extend_from_slice(notes);
-    found.extend(prove::findings(&Simulated { job, setups, simulation }));
+    found.extend(prove::findings(job, setups, simulation));
     for (i, s) in setups.iter().enumerate() {
         found.extend(s.planned.findings.iter().cloned().map(located));
         found.extend(s.external.iter().flat_map(|f| f.findings.iter().cloned()));

@@ -114,7 +114,7 @@ pub fn simulate(
     for (i, (&trace, list)) in traces.iter().zip(&all).enumerate() {
         let count = list.moves().len();
         progress.stage("cut", count as u64);
-        let mut effects = Vec::with_capacity(count);
+        let mut effects = Vec::new();
         let mut done = 0;
         let cores = loose.get(i).map_or(&[][..], Vec::as_slice);
         let mut looked = Looks::default();
@@ -122,7 +122,7 @@ pub fn simulate(
             let to = trace.segments.partition_point(|s| s.item < item);
             // Pauses before the same segment share it.
             if to > done {
-                effects.extend(cut_list(&mut simulation.stock, list, done..to, progress)?);
+                append(&mut effects, cut_list(&mut simulation.stock, list, done..to, progress)?);
                 done = to;
             }
             match pause {
@@ -142,7 +142,7 @@ pub fn simulate(
                 Pause::Look(look) => looked.answer(look, (job, trace), &bodies, &simulation.stock),
             }
         }
-        effects.extend(cut_list(&mut simulation.stock, list, done..count, progress)?);
+        append(&mut effects, cut_list(&mut simulation.stock, list, done..count, progress)?);
         simulation.path_error =
             effects.iter().fold(simulation.path_error, |worst, e| worst.max(e.path_error));
         simulation.effects.push(effects);
@@ -158,6 +158,15 @@ pub fn simulate(
     }
     simulation.engagements = measured.into_iter().enumerate().map(found).collect::<Result<_>>()?;
     Ok(simulation)
+}
+
+/// Appends to a list that is mostly empty: then it is the other one.
+fn append<T>(all: &mut Vec<T>, more: Vec<T>) {
+    if all.is_empty() {
+        *all = more;
+    } else {
+        all.extend(more);
+    }
 }
 
 /// The surface of a stock of a job, within the memory that the job allows.
@@ -237,7 +246,7 @@ fn body(tool: &Tool) -> Result<ToolBody> {
 
 /// The moves of the segments of a setup, in their order.
 fn moves(job: &Job, trace: &Trace) -> Result<Vec<CutMove>> {
-    let one = |s: &Segment| {
+    let one = |s: &Segment| -> Result<CutMove> {
         let body = s.tool.and_then(|t| job.tools.iter().position(|x| x.number == t)).ok_or_else(|| {
             Finding::error(Code::NC_STATE, "the program moves before a tool is called")
                 .help("call a tool first")
@@ -250,7 +259,11 @@ fn moves(job: &Job, trace: &Trace) -> Result<Vec<CutMove>> {
         let watch = s.alternative || s.motion == SegmentPace::Rapid || !s.spindle_on;
         Ok(CutMove { curve: s.curve.clone(), stance, body: body as u32, removes: !s.alternative, watch })
     };
-    trace.segments.iter().map(one).collect()
+    let mut moves = Vec::with_capacity(trace.segments.len());
+    for segment in &trace.segments {
+        moves.push(one(segment)?);
+    }
+    Ok(moves)
 }
 
 /// Whether a tool has a nose that does not cut.

@@ -133,11 +133,12 @@ impl<'s> Reader<'s> {
 
     fn spindle_and_coolant(&mut self) {
         let rate = self.modal.speed;
-        for (code, bytes) in std::mem::take(&mut self.codes) {
+        let codes = std::mem::take(&mut self.codes);
+        for (code, bytes) in codes.iter().map(|(code, bytes)| (*code, bytes)) {
             match code {
                 Code::SpindleClockwise | Code::SpindleCounterClockwise => {
                     if rate.is_none() {
-                        self.warn(&bytes, "the spindle is switched on without a speed (S)");
+                        self.warn(bytes, "the spindle is switched on without a speed (S)");
                     }
                     let rate = rate.unwrap_or(0.0);
                     let clockwise = code == Code::SpindleClockwise;
@@ -150,16 +151,16 @@ impl<'s> Reader<'s> {
                 Code::CoolantOff => self.modal.coolant = Coolant::Off,
                 Code::Harmless(what) => {
                     let message =
-                        format!("`{}` ({what}) is not followed: it moves no axis", self.place.shown(&bytes));
+                        format!("`{}` ({what}) is not followed: it moves no axis", self.place.shown(bytes));
                     if self.findings.iter().all(|f| f.message != message) {
-                        let place = self.place.sources.locate(self.place.span(&bytes));
+                        let place = self.place.sources.locate(self.place.span(bytes));
                         self.findings.push(Finding::note(FindingCode::NC_WORD, message).at(place));
                     }
                 }
                 _ => {}
             }
-            self.codes.push((code, bytes));
         }
+        self.codes = codes;
     }
 
     fn tool_change(&mut self, bytes: &Bytes) -> Result<()> {

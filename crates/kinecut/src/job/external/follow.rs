@@ -91,8 +91,16 @@ pub(crate) fn follow(job: &Job, setup: usize, program: &JobProgram, missing: Mis
     };
     // The control starts so, too: that would come in every program and says nothing.
     let said = |line: &str| {
-        let code = line.split([';', '(']).next().unwrap_or_default().replace(' ', "").to_ascii_uppercase();
-        code.contains("G64") && !code.contains("G64P")
+        let code = line.bytes().take_while(|b| !matches!(b, b';' | b'(')).filter(|b| *b != b' ');
+        let (mut last, mut without) = ([0; 3], false);
+        for byte in code.map(|b| b.to_ascii_uppercase()) {
+            if last == *b"G64" && byte == b'P' {
+                return false;
+            }
+            last = [last[1], last[2], byte];
+            without |= last == *b"G64";
+        }
+        without
     };
     if program.control == Control::LinuxCnc
         && program.text.lines().any(said)

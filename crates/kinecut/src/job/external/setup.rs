@@ -34,11 +34,7 @@ pub(crate) fn external_setup(
 ) -> Result<SetupOutcome> {
     let Followed { reading, trace, lines, findings, unfollowed, .. } =
         follow(job, setup, program, Missing::Refused)?;
-    let posted = Posted {
-        text: program.text.clone(),
-        lines: vec![None; program.text.split('\n').count()],
-        notes: PostNotes::default(),
-    };
+    let posted = Posted { text: program.text.clone(), lines: Vec::new(), notes: PostNotes::default() };
     Ok(SetupOutcome {
         file: program.file.clone(),
         planned,

@@ -5,10 +5,13 @@
 //! nothing, and a single way that is far longer than any of these. A tool that rubs along a wall or floor that stays (a
 //! spring pass) is not in air.
 
-use super::work::{Work, highest, passes, works};
+use glam::DVec3;
+use rayon::prelude::*;
+
+use super::work::{Work, highest, passes};
 use super::{Done, Simulated};
 use crate::base::{Code, Finding};
-use crate::geom::Profile;
+use crate::geom::Aabb;
 use crate::job::look::TOUCH;
 use crate::program::Item;
 use crate::stock::near::touches;
@@ -22,7 +25,7 @@ const SHORT: [f64; 2] = [4.0, 10.0];
 const LONG: [f64; 2] = [20.0, 200.0];
 
 pub(super) fn air(simulated: &Simulated<'_>) -> Vec<Finding> {
-    works(simulated).iter().flat_map(|work| one(simulated, work)).collect()
+    simulated.works.iter().flat_map(|work| one(simulated, work)).collect()
 }
 
 fn one(simulated: &Simulated<'_>, work: &Work<'_>) -> Vec<Finding> {
@@ -40,10 +43,8 @@ fn one(simulated: &Simulated<'_>, work: &Work<'_>) -> Vec<Finding> {
     let most = |[diameters, least]: [f64; 2]| {
         if diameters * diameter > least { diameters * diameter } else { least }
     };
-    // Material nearby counts only if a path that meets nothing could be reported.
-    let ways = |near: Option<&Profile>| -> Vec<(&Done<'_>, AirMove)> {
-        work.feeds().map(|d| (d, way(simulated, work, d, near))).collect()
-    };
+    let feeds: Vec<&Done<'_>> = work.feeds().collect();
+    let (stock, radius) = (simulated.job.stock.bounds(), work.radius());
     let suspect = |ways: &[(&Done<'_>, AirMove)]| {
         let (depth, air) = ways.iter().fold((0.0, 0.0), |(all, air), (_, w)| (all + w.depth, air + w.air));
         let nearly_all = air >= NEARLY_ALL * depth && air > most(SHORT);
@@ -51,10 +52,14 @@ fn one(simulated: &Simulated<'_>, work: &Work<'_>) -> Vec<Finding> {
         let long = Some(longest(ways)).filter(|(way, _)| *way > most(LONG));
         (nearly_all.then_some(air), hole, long)
     };
-    if suspect(&ways(None)) == (None, None, None) {
+    // Material nearby counts only if a path that meets nothing could be reported.
+    let ways: Vec<_> = feeds.par_iter().map(|d| (*d, way(d, stock, radius, |_, _| false))).collect();
+    if suspect(&ways) == (None, None, None) {
         return Vec::new();
     }
-    let ways = ways(Some(&cutting));
+    let lines = &simulated.simulation.stock;
+    let near = |tip, axis| touches(lines, &[(&cutting, 0.0)], tip, axis, TOUCH);
+    let ways: Vec<_> = feeds.iter().map(|d| (*d, way(d, stock, radius, near))).collect();
     let (nearly_all, hole, long) = suspect(&ways);
     let finding = |message: String, way: f64| {
         Finding::warning(Code::FEED_IN_AIR, message)
@@ -109,25 +114,22 @@ struct AirMove {
     air: f64,
 }
 
-/// `cutting`: of the tool, where what is near it is not air.
-fn way(simulated: &Simulated<'_>, work: &Work<'_>, done: &Done<'_>, cutting: Option<&Profile>) -> AirMove {
+/// `near`: whether material is near a place of the tool, which is not in air there.
+fn way(done: &Done<'_>, stock: Aabb, radius: f64, near: impl Fn(DVec3, DVec3) -> bool) -> AirMove {
     let segment = done.segment;
-    let stock = simulated.job.stock.bounds();
-    let grown = stock.grown(work.radius());
+    let grown = stock.grown(radius);
     let up = segment.axis;
     if segment.turning.is_none() && -highest(segment.curve.bounds(), -up) >= highest(stock, up) - TOUCH {
         return AirMove { depth: 0.0, air: 0.0 };
     }
     let length = segment.curve.length();
-    let steps = (length / work.radius()).ceil().clamp(2.0, 40.0) as u32;
+    let steps = (length / radius).ceil().clamp(2.0, 40.0) as u32;
     let (mut deep, mut free) = (0u32, 0u32);
     for i in 0..steps {
         let (tip, axis) = segment.tool_at((f64::from(i) + 0.5) / f64::from(steps));
         let inside = passes(tip, axis, grown) && tip.dot(axis) < highest(stock, axis) - TOUCH;
         deep += u32::from(inside);
-        let near =
-            || cutting.is_some_and(|c| touches(&simulated.simulation.stock, &[(c, 0.0)], tip, axis, TOUCH));
-        free += u32::from(inside && !done.met() && !near());
+        free += u32::from(inside && !done.met() && !near(tip, axis));
     }
     let part = |n: u32| length * f64::from(n) / f64::from(steps);
     AirMove { depth: part(deep), air: part(free) }

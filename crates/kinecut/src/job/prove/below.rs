@@ -4,7 +4,7 @@
 use glam::DVec3;
 
 use super::Simulated;
-use super::work::{Work, highest, passes, works};
+use super::work::{Work, highest, passes};
 use crate::base::{Code, Finding};
 use crate::geom::{Aabb, Rigid};
 use crate::operations::OperationPlan;
@@ -17,7 +17,7 @@ const AROUND: f64 = 50.0;
 const ROUNDING: f64 = 2e-3;
 
 pub(super) fn below(simulated: &Simulated<'_>) -> Vec<Finding> {
-    works(simulated).iter().filter_map(|work| one(simulated, work)).collect()
+    simulated.works.iter().filter_map(|work| one(simulated, work)).collect()
 }
 
 /// The first block of a piece of work that goes too deep, with the greatest depth of all of them.

@@ -2,7 +2,7 @@
 //! force over a tool change. Only programs of others can have that; what a job says of each operation is its own.
 
 use super::text::Text;
-use super::work::{Work, radius, works};
+use super::work::{Work, radius};
 use super::{Done, Simulated};
 use crate::base::{Code, Finding};
 use crate::program::Speed;
@@ -12,9 +12,8 @@ use crate::tool::Tool;
 const ALIKE: f64 = 0.25;
 
 pub(super) fn carried(simulated: &Simulated<'_>) -> Vec<Finding> {
-    let works = works(simulated);
     let mut found = Vec::new();
-    for pair in works.windows(2) {
+    for pair in simulated.works.windows(2) {
         let [before, work] = pair else { continue };
         if before.setup == work.setup
             && simulated.setups[work.setup].external.is_some()

@@ -4,13 +4,13 @@
 use std::f64::consts::TAU;
 
 use super::cutting_data_bounds::{Bounds, bounds};
-use super::work::{Work, works};
+use super::work::Work;
 use super::{Done, Simulated};
 use crate::base::{Code, Finding};
 use crate::tool::Cutter;
 
 pub(super) fn cutting_data(simulated: &Simulated<'_>) -> Vec<Finding> {
-    works(simulated).iter().flat_map(|work| one(simulated, work)).collect()
+    simulated.works.iter().flat_map(|work| one(simulated, work)).collect()
 }
 
 fn one(simulated: &Simulated<'_>, work: &Work<'_>) -> Vec<Finding> {

@@ -1,7 +1,6 @@
 //! A feed that is faster than the tool may go, or the machine can.
 
 use super::Simulated;
-use super::work::works;
 use crate::base::{Code, Finding};
 
 /// Faster than this no machine tool feeds [mm/s]: 150 m/min, above the rapid of linear motors.
@@ -12,7 +11,7 @@ const ROUNDING: f64 = 1.0 + 1e-6;
 pub(super) fn feed(simulated: &Simulated<'_>) -> Vec<Finding> {
     let mut found = Vec::new();
     let dynamics = simulated.job.machine.as_ref().map(|m| m.dynamics);
-    for work in works(simulated) {
+    for work in simulated.works {
         let limits = [
             (work.tool.limits.max_feed, "`max_feed` of the tool"),
             (dynamics.and_then(|d| d.max_feed), "`max_feed` of the machine"),

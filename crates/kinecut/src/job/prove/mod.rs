@@ -36,16 +36,19 @@ use crate::base::{Finding, Location};
 use crate::stock::cut::MoveEffect;
 use crate::tool::{Tool, ToolNumber};
 use crate::trace::{Segment, SegmentPace};
+use work::{Work, works};
 
 /// A simulated job, as rules see it.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Simulated<'a> {
+struct Simulated<'a> {
     /// The job.
-    pub(super) job: &'a Job,
+    job: &'a Job,
     /// Its programs, followed.
-    pub(super) setups: &'a [SetupOutcome],
+    setups: &'a [SetupOutcome],
     /// The cut stock, and what each segment did to it.
-    pub(super) simulation: &'a Simulation,
+    simulation: &'a Simulation,
+    /// All pieces of work, in the order of the programs.
+    works: &'a [Work<'a>],
 }
 
 /// A segment with what it did.
@@ -146,6 +149,8 @@ const RULES: &[Rule] = &[
 ];
 
 /// Findings of all rules.
-pub(super) fn findings(simulated: &Simulated<'_>) -> Vec<Finding> {
-    RULES.iter().flat_map(|rule| rule(simulated)).collect()
+pub(super) fn findings(job: &Job, setups: &[SetupOutcome], simulation: &Simulation) -> Vec<Finding> {
+    let moves = Simulated { job, setups, simulation, works: &[] };
+    let simulated = Simulated { works: &works(&moves), ..moves };
+    RULES.iter().flat_map(|rule| rule(&simulated)).collect()
 }

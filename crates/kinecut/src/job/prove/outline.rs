@@ -8,7 +8,7 @@ use std::f64::consts::TAU;
 use glam::{DVec2, DVec3};
 
 use super::Simulated;
-use super::work::{Work, works};
+use super::work::Work;
 use crate::base::{Code, Finding};
 use crate::geom::{Aabb, Solid};
 use crate::operations::Operation;
@@ -24,10 +24,10 @@ const GROWTH: f64 = 1.1;
 pub(super) fn outline(simulated: &Simulated<'_>) -> Vec<Finding> {
     let mut raw: Option<Raw<'_>> = None;
     let mut found = Vec::new();
-    for work in works(simulated) {
+    for work in simulated.works {
         let Some(wall) = work.operation.and_then(Operation::outline) else { continue };
         let raw = raw.get_or_insert_with(|| Raw::new(&simulated.job.stock));
-        if let Some(finding) = one(simulated, &work, &wall, raw) {
+        if let Some(finding) = one(simulated, work, &wall, raw) {
             let first = work.feeds().next().or(work.done.first());
             found.extend(first.map(|d| simulated.at(work.setup, d.segment.item, finding)));
         }

@@ -1,6 +1,6 @@
 //! Work that is deeper than the flutes: a drilled hole from which chips cannot leave, a wall along which the shank rubs.
 
-use super::work::{Work, works};
+use super::work::Work;
 use super::{Done, Simulated};
 use crate::base::{Code, Finding};
 use crate::stock::near::{tops, touches};
@@ -13,7 +13,8 @@ const AS_THICK: f64 = 0.02;
 const MOST: usize = 50;
 
 pub(super) fn reach(simulated: &Simulated<'_>) -> Vec<Finding> {
-    works(simulated)
+    simulated
+        .works
         .iter()
         .filter_map(|work| match work.tool.cutter.is_axial() {
             true => drill(simulated, work),

@@ -5,7 +5,7 @@
 
 use std::collections::BTreeSet;
 
-use super::work::{Work, beside, works};
+use super::work::{Work, beside};
 use super::{Done, Simulated};
 use crate::base::{Code, Finding};
 use crate::geom::Aabb;
@@ -13,9 +13,8 @@ use crate::stock::{Axis, CutId, DexelGrid};
 use crate::tool::Cutter;
 
 pub(super) fn removal(simulated: &Simulated<'_>) -> Vec<Finding> {
-    let works = works(simulated);
     let mut pieces: Vec<(usize, String, Vec<&Work<'_>>)> = Vec::new();
-    for work in &works {
+    for work in simulated.works {
         let external = simulated.setups[work.setup].external.is_some();
         match pieces.last_mut() {
             Some((setup, _, parts))

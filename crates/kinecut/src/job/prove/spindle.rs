@@ -4,14 +4,14 @@ use std::f64::consts::TAU;
 
 use super::Simulated;
 use super::text::line_with;
-use super::work::{Work, works};
+use super::work::Work;
 use crate::base::{Code, Finding};
 use crate::operations::Operation;
 use crate::program::{Item, Spindle};
 use crate::tool::Hand;
 
 pub(super) fn spindle(simulated: &Simulated<'_>) -> Vec<Finding> {
-    let works = works(simulated);
+    let works = simulated.works;
     let mut found: Vec<Finding> = works.iter().filter_map(|w| backwards(simulated, w)).collect();
     found.extend(works.iter().filter_map(|w| too_fast(simulated, w)));
     found

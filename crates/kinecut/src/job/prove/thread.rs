@@ -3,7 +3,7 @@
 //!
 //! An operation of the job measures its core holes itself.
 
-use super::work::{Work, works};
+use super::work::Work;
 use super::{Done, Simulated};
 use crate::base::{Code, Finding};
 use crate::program::{Cycle, Item, SAME_PITCH};
@@ -14,13 +14,13 @@ const LEAST: f64 = 0.05;
 
 pub(super) fn thread(simulated: &Simulated<'_>) -> Vec<Finding> {
     let mut found = Vec::new();
-    for work in works(simulated) {
+    for work in simulated.works {
         let Cutter::Tap(tap) = work.tool.cutter else {
-            found.extend(work.feeds().find_map(|done| no_tap(simulated, &work, done)));
+            found.extend(work.feeds().find_map(|done| no_tap(simulated, work, done)));
             continue;
         };
-        found.extend(work.feeds().find_map(|done| not_geared(simulated, &work, done, tap)));
-        found.extend(solid(simulated, &work));
+        found.extend(work.feeds().find_map(|done| not_geared(simulated, work, done, tap)));
+        found.extend(solid(simulated, work));
     }
     found
 }
