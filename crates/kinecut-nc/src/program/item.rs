@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use super::frame_index::FrameIndex;
 use super::{Cycle, CycleStep, Frame, FrameId, Origin, OriginId, Setup, State, StateId, ToolNumber};
-use crate::base::{Code, CountBound, Sum};
+use crate::base::{Code, CountBound, Span, Sum};
 use crate::geom::{Arc, CubicSpan, Curve, CurveKind, InvoluteRecord, Line, Rise, Spiral};
 
 /// Direction of the tool axis at the end of a move.
@@ -191,6 +191,8 @@ pub struct Items {
     slots: Vec<Slot>,
     states: Vec<StateId>,
     origins: Vec<OriginId>,
+    /// First and last byte of the place of each, where its origin has one.
+    spans: Vec<[u32; 2]>,
     straights: Vec<DVec3>,
     moves: Vec<Move>,
     tools: Vec<ToolCall>,
@@ -396,9 +398,13 @@ impl Program {
         if self.states.last() != Some(state) {
             self.states.push(*state);
         }
-        if self.origins.last() != Some(&origin) {
-            self.origins.push(origin);
+        // A place is an item's own, and only its file is shared.
+        let span = origin.span.unwrap_or_default();
+        let shared = Origin { span: origin.span.map(|s| Span { start: 0, end: 0, ..s }), ..origin };
+        if self.origins.last() != Some(&shared) {
+            self.origins.push(shared);
         }
+        self.items.spans.push([span.start, span.end]);
         self.items.slots.push(slot);
         self.items.states.push(StateId(self.states.len() as u32 - 1));
         self.items.origins.push(OriginId(self.origins.len() as u32 - 1));
@@ -410,7 +416,9 @@ impl Program {
     }
 
     /// The origin of the item at an index.
-    pub fn origin(&self, index: usize) -> &Origin {
-        &self.origins[self.items.origins[index].0 as usize]
+    pub fn origin(&self, index: usize) -> Origin {
+        let shared = self.origins[self.items.origins[index].0 as usize];
+        let [start, end] = self.items.spans[index];
+        Origin { span: shared.span.map(|s| Span { start, end, ..s }), ..shared }
     }
 }

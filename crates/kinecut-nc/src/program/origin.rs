@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::base::Span;
 
-/// Index of an origin in a program.
+/// Index of an origin in a program; items whose origins differ in their place in the text only share it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct OriginId(pub u32);
 

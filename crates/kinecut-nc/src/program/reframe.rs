@@ -120,7 +120,7 @@ impl Program {
         let mut place = TipPosition::default();
         for index in 0..self.items.len() {
             let mut state = *self.state(index);
-            let origin: Origin = *self.origin(index);
+            let origin: Origin = self.origin(index);
             let known = into.get(state.frame.0 as usize).copied();
             let (frame, motion) = known.unwrap_or((state.frame, Rigid::IDENTITY));
             let angle = turn_about_z(&motion.rotation).ok_or_else(|| {

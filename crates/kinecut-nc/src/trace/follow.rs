@@ -7,6 +7,7 @@ use glam::{DMat3, DVec3};
 use super::chain::Chain;
 use super::comp::{Programmed, compensate, refused};
 use super::rapids;
+use super::segment::StartAxes;
 use super::turning::AxisTurning;
 use super::{CompStart, RegisterState, Segment, SegmentPace, Stand, StandKind, Trace, Untraced};
 use crate::base::{Code, Finding, Result};
@@ -505,8 +506,10 @@ impl<'a> Follow<'a> {
             setup: state.setup,
             duration: seconds,
             alternative: false,
-            rotary: self.rotary,
-            to_axes: self.shared((matrix * placed.rotation, matrix * placed.translation + shift)),
+            start_axes: self.shared(StartAxes {
+                rotary: self.rotary,
+                to_linear: (matrix * placed.rotation, matrix * placed.translation + shift),
+            }),
         };
         let dog_leg = match segment.turning.is_none() && self.runs_apart(state) {
             true => self.dog_leg(path.start(), path.end()),
@@ -522,11 +525,11 @@ impl<'a> Follow<'a> {
         Ok(())
     }
 
-    /// A map to the linear axes, the one of the segment before where it is the same.
-    fn shared(&self, to_axes: (DMat3, DVec3)) -> Arc<(DMat3, DVec3)> {
+    /// Axes at the start of a segment: those of the segment before where they are the same.
+    fn shared(&self, axes: StartAxes) -> Arc<StartAxes> {
         match self.trace.segments.last() {
-            Some(last) if *last.to_axes == to_axes => Arc::clone(&last.to_axes),
-            _ => Arc::new(to_axes),
+            Some(last) if *last.start_axes == axes => Arc::clone(&last.start_axes),
+            _ => Arc::new(axes),
         }
     }
 

@@ -24,7 +24,7 @@ const SQUARE: f64 = 1e-9;
 impl Segment {
     /// True if its rotary axes turn, or are not all at zero.
     pub fn axis_is_turned(&self) -> bool {
-        self.turning.is_some() || self.rotary != [0.0; 3]
+        self.turning.is_some() || self.rotary() != [0.0; 3]
     }
 }
 

@@ -67,11 +67,17 @@ pub struct Segment {
     /// A way that the machine may take instead of the segment before (a rapid axis by axis): to be checked for
     /// collision, not to be counted in time.
     pub alternative: bool,
-    /// Positions of the rotary axes A, B, C at the start [rad], where the machine is known.
-    pub rotary: [f64; 3],
-    /// Maps part coordinates of the tip into positions of the linear axes at the start's rotary positions; segments with the
-    /// same share it.
-    pub(super) to_axes: Arc<(DMat3, DVec3)>,
+    /// The axes at the start; segments with the same share them.
+    pub(super) start_axes: Arc<StartAxes>,
+}
+
+/// Axes of the machine at the start of a segment.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct StartAxes {
+    /// Positions of the rotary axes A, B, C [rad].
+    pub(super) rotary: [f64; 3],
+    /// Maps part coordinates of the tip into positions of the linear axes at these rotary positions.
+    pub(super) to_linear: (DMat3, DVec3),
 }
 
 impl Segment {
@@ -94,6 +100,11 @@ impl Segment {
         (tip, self.turning.as_ref().map_or(self.axis, |turning| turning.axis(t).0))
     }
 
+    /// Positions of the rotary axes A, B, C at the start [rad], where the machine is known.
+    pub fn rotary(&self) -> [f64; 3] {
+        self.start_axes.rotary
+    }
+
     /// Unit vector from tip to holder at the end [part coordinates].
     pub fn end_axis(&self) -> DVec3 {
         self.turning.as_ref().map_or(self.axis, |turning| turning.axis(1.0).0)
@@ -104,7 +115,7 @@ impl Segment {
     /// of the start; [`Segment::joints`] has the others.
     pub fn axes(&self, s: f64) -> [AxisJet; 3] {
         let jet = self.curve.at(s);
-        let (matrix, shift) = *self.to_axes;
+        let (matrix, shift) = self.start_axes.to_linear;
         let p = matrix * jet.p + shift;
         let [d1, d2, d3] = [jet.d1, jet.d2, jet.d3].map(|d| matrix * d);
         [0, 1, 2].map(|i| AxisJet { q: p[i], d1: d1[i], d2: d2[i], d3: d3[i] })
@@ -115,7 +126,10 @@ impl Segment {
     pub fn joints(&self, t: f64) -> Option<[f64; 6]> {
         let tip = self.curve.at(t * self.curve.length()).p;
         let (linear, rotary) = match &self.turning {
-            None => (self.to_axes.0 * tip + self.to_axes.1, self.rotary),
+            None => {
+                let StartAxes { rotary, to_linear: (matrix, shift) } = *self.start_axes;
+                (matrix * tip + shift, rotary)
+            }
             Some(turning) => turning.joints(tip, t)?,
         };
         Some([linear.x, linear.y, linear.z, rotary[0], rotary[1], rotary[2]])

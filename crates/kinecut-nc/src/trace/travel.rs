@@ -126,7 +126,7 @@ fn jump(segment: &Segment) -> Option<(char, f64)> {
 
 /// Range of the axes along a segment; `None` where its machine is not known.
 fn span(segment: &Segment) -> Option<AxisTravel> {
-    let (matrix, shift) = *segment.to_axes;
+    let (matrix, shift) = segment.start_axes.to_linear;
     let (mut low, mut high) = ([f64::INFINITY; 6], [f64::NEG_INFINITY; 6]);
     let (mut at_low, mut at_high) = (segment.curve.start(), segment.curve.end());
     // A line stays one under any matrix, other curves under a motion.
@@ -136,7 +136,7 @@ fn span(segment: &Segment) -> Option<AxisTravel> {
         let bounds = path.bounds();
         for i in 0..3 {
             (low[i], high[i]) = (bounds.min[i], bounds.max[i]);
-            (low[3 + i], high[3 + i]) = (segment.rotary[i], segment.rotary[i]);
+            (low[3 + i], high[3 + i]) = (segment.rotary()[i], segment.rotary()[i]);
         }
         let back = matrix.inverse();
         (at_low, at_high) = (back * (bounds.min - shift), back * (bounds.max - shift));

@@ -97,13 +97,13 @@ impl<'a> Walk<'a> {
         let mut state = *self.program.state(index);
         let controlled = state.tcp != Tcp::Off;
         let plain = !tilted(self.program, state.frame);
-        let origin = *self.program.origin(index);
+        let origin = self.program.origin(index);
         if let (Item::Move(motion), true) = (self.program.items.get(index), plain)
             && let Target::Tip { point, axis } = motion.end
         {
             let segments = self.segments(index as u32);
             let turned =
-                segments.iter().any(|s| s.turning.is_some() || s.rotary.iter().any(|q| q.abs() > TURNED));
+                segments.iter().any(|s| s.turning.is_some() || s.rotary().iter().any(|q| q.abs() > TURNED));
             if controlled || turned {
                 state.tcp = self.tcp;
                 return match segments {
@@ -154,7 +154,7 @@ impl<'a> Walk<'a> {
         let all = &self.source.trace.segments;
         let next =
             all.get(all.partition_point(|s| s.item <= index as u32)).filter(|s| s.setup == state.setup);
-        let origin = *self.program.origin(index);
+        let origin = self.program.origin(index);
         if self.say.wanted == OrientationName::Axes {
             let Some(next) = next.filter(|_| point.is_finite()) else {
                 return Err(Finding::error(
@@ -230,7 +230,7 @@ impl<'a> Walk<'a> {
             Tcp::Off => self.counted(segment, t, &frame)?,
             _ => frame.point(segment.curve.at(t * segment.curve.length()).p),
         };
-        let origin = *self.program.origin(index);
+        let origin = self.program.origin(index);
         self.made.push_move(Move { end: Target::Tip { point, axis }, path }, state, origin);
         self.of.push(index as u32);
         self.on = self.tcp != Tcp::Off;

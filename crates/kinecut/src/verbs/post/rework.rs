@@ -56,7 +56,7 @@ pub(crate) fn rework(source: &Program, radii: &[(u32, f64)], from: Control, to: 
             Comp::Right(register) => Comp::Right(number(register, tool)),
         };
         state.blend = blend_on(to, state.blend);
-        let origin = *source.origin(index);
+        let origin = source.origin(index);
         match source.items.get(index) {
             Item::Move(motion) => program.push_move(motion, &state, origin),
             Item::Cycle(cycle, _) => program.push_cycle(*cycle, &state, origin)?,

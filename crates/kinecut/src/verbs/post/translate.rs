@@ -137,7 +137,7 @@ pub fn translate(
         reworked
             .findings
             .iter()
-            .map(|(item, f)| Finding { place: place(reworked.program.origin(*item as usize)), ..f.clone() }),
+            .map(|(item, f)| Finding { place: place(&reworked.program.origin(*item as usize)), ..f.clone() }),
     );
     findings.extend(lost_words(&source.reading.findings, to));
     findings.extend(lost_blends(read, to, place));
@@ -162,7 +162,7 @@ fn at_source(
     place: impl Fn(&Origin) -> Option<crate::base::Location>,
 ) -> Error {
     if let Some(item) = error.0.item.take_if(|i| (*i as usize) < program.items.len()) {
-        error.0.place = place(program.origin(item as usize));
+        error.0.place = place(&program.origin(item as usize));
     }
     error
 }
@@ -212,7 +212,7 @@ fn lost_blends(
             name(blend_on(to, wanted))
         );
         let finding = Finding::warning(Code::TRANSLATED, what).help("look at the corners of the part");
-        findings.push(Finding { place: place(program.origin(i)), ..finding });
+        findings.push(Finding { place: place(&program.origin(i)), ..finding });
     }
     findings
 }

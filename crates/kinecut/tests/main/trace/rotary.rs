@@ -315,7 +315,7 @@ fn a_retraction_runs_along_the_machines_axis() {
     assert!((0..2).all(|i| (a[i] - b[i]).abs() < 1e-9), "X and Y stand still");
     assert!((0..3).all(|i| (a[3 + i] - b[3 + i]).abs() < 1e-15));
     let last = trace.segments.last().unwrap();
-    assert_eq!(last.rotary, [0.0; 3]);
+    assert_eq!(last.rotary(), [0.0; 3]);
     for segment in &trace.segments {
         consistent(segment, &machine, &program, trace.chord_error);
     }
