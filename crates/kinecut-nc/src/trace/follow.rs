@@ -441,8 +441,7 @@ impl<'a> Follow<'a> {
 
     fn segment(&mut self, index: usize, path: &Curve, state: &State) -> Result<()> {
         let axis_rapid = self.options.machine.and_then(|m| m.dynamics.rapid);
-        let delta = path.end() - path.start();
-        let rapid = axis_rapid.map(|rapid| delta.abs().max_element() / rapid);
+        let rapid = axis_rapid.map(|rapid| (path.end() - path.start()).abs().max_element() / rapid);
         let seconds = self.seconds(path.length(), rapid, state);
         self.piece(index, path, None, seconds, state)
     }
