@@ -6,8 +6,8 @@
 //! lattice point ask about one and the same point of space and agree on whether it is material, also where a face of
 //! the tool or of the stock runs exactly through the lattice.
 //!
-//! **Late lines.** Moves of an upright tool cut the lines along it; the lines across it are cut when something asks for them
-//! (`cut/above/late.rs`). Whoever reads lines does not see a difference.
+//! **Late lines.** Lines that moves of an upright tool take all above their underside from are cut when something asks for them
+//! (`cut/above/late.rs`, `cut/above/tops.rs`). Whoever reads lines does not see a difference.
 
 use std::sync::OnceLock;
 use std::thread::{self, ScopedJoinHandle};
@@ -82,6 +82,21 @@ impl Grid {
         };
         self.tiles.par_iter().enumerate().map(one).sum()
     }
+
+    /// Length of all lines along the tool axis of moves that have still to cut some [fixed steps].
+    fn content_within(&self, above: &FromAbove) -> i128 {
+        let row = |b: u32| -> i128 {
+            let line = |a: u32| self.within(a, b, above.limits(a, b));
+            (0..self.counts[0]).map(|a| i128::from(line(a))).sum()
+        };
+        (0..self.counts[1]).into_par_iter().map(row).sum()
+    }
+
+    /// Length of the material of a line between two coordinates [fixed steps].
+    pub(super) fn within(&self, a: u32, b: u32, [low, high]: [i32; 2]) -> i64 {
+        let part = |i: &Interval| i64::from(i.hi.at.min(high)) - i64::from(i.lo.at.max(low));
+        self.line(a, b).iter().map(|i| part(i).max(0)).sum()
+    }
 }
 
 /// A tri-dexel body: the stock, before, while and after it is cut.
@@ -101,8 +116,9 @@ pub struct TriDexel {
     /// Knowledge from cutting from above, and the moves that have still to cut the lines across their axis; it holds as long as
     /// material is only taken out.
     pub(super) above: Option<FromAbove>,
-    /// The grids across that axis with all moves cut, made where somebody reads them before they are.
+    /// The grids across that axis with all moves cut, made where somebody reads them before they are; and the one along it.
     whole: OnceLock<Box<[Grid; 3]>>,
+    whole_along: OnceLock<Box<Grid>>,
     /// Faces beside the lines along Z.
     pub(super) skimmed: Skimmed,
 }
@@ -122,7 +138,8 @@ impl TriDexel {
         let lattice = lattice_of(bounds, step)?;
         let grids = Axis::ALL.map(|axis| Grid::new(axis, &lattice, alike[axis.index()]));
         let skimmed = Skimmed::UNKNOWN;
-        Ok(TriDexel { lattice, bounds, grids, above: None, whole: OnceLock::new(), skimmed })
+        let (whole, whole_along) = (OnceLock::new(), OnceLock::new());
+        Ok(TriDexel { lattice, bounds, grids, above: None, whole, whole_along, skimmed })
     }
 
     /// Memory that a stock in a box needs at a grid step [bytes], at most two intervals a line. It grows with the
@@ -194,40 +211,56 @@ impl TriDexel {
     }
 
     fn volume_along(&self, axis: Axis) -> f64 {
-        self.grid(axis).content() as f64 * FIXED_STEP * self.lattice.step * self.lattice.step
+        let (grid, above) = self.grid_within(axis);
+        let content = above.map_or_else(|| grid.content(), |above| grid.content_within(above));
+        content as f64 * FIXED_STEP * self.lattice.step * self.lattice.step
     }
 
     /// The lines along an axis, with all moves cut.
     pub(super) fn grid(&self, axis: Axis) -> &Grid {
         match &self.above {
-            Some(above) if above.owes(axis) => &self.whole.get_or_init(|| self.settled_apart())[axis.index()],
+            Some(above) if !above.owes(axis) => &self.grids[axis.index()],
+            Some(above) if above.is_across(axis) => {
+                &self.whole.get_or_init(|| self.settled_apart())[axis.index()]
+            }
+            Some(_) => self.whole_along.get_or_init(|| self.settled_along_apart(axis)),
             _ => &self.grids[axis.index()],
         }
     }
 
-    /// The grids that moves have still to cut, cut by them, by threads of their own: those that wait for the result cannot be asked to
-    /// help with it.
+    /// The lines along an axis, and who knows of more that they have lost: without cutting them for it where they run along the tool
+    /// axis.
+    pub(super) fn grid_within(&self, axis: Axis) -> (&Grid, Option<&FromAbove>) {
+        match &self.above {
+            Some(above) if !above.is_across(axis) && self.whole_along.get().is_none() => {
+                (&self.grids[axis.index()], Some(above))
+            }
+            _ => (self.grid(axis), None),
+        }
+    }
+
+    /// The grid along the tool axis, cut by the moves that have still to do so.
+    fn settled_along_apart(&self, axis: Axis) -> Box<Grid> {
+        apart(|| {
+            let mut grid = self.grids[axis.index()].clone();
+            if let Some(above) = &self.above {
+                above.clone().settle_along(&mut grid, &self.lattice, &Silent);
+            }
+            Box::new(grid)
+        })
+    }
+
+    /// The grids across the tool axis, cut by the moves that have still to do so.
     fn settled_apart(&self) -> Box<[Grid; 3]> {
-        let settle = || {
+        apart(|| {
             let mut grids = self.grids.each_ref().map(|grid| match &self.above {
-                Some(above) if above.owes(grid.axis) => grid.clone(),
+                Some(above) if above.is_across(grid.axis) && above.owes(grid.axis) => grid.clone(),
                 _ => grid.without_lines(),
             });
             if let Some(above) = &self.above {
-                above.clone().settle(&mut grids, (&self.lattice, self.bounds), &Silent);
+                above.clone().settle_across(&mut grids, (&self.lattice, self.bounds), &Silent);
             }
             Box::new(grids)
-        };
-        let threads = rayon::current_num_threads();
-        // Where there are no threads nobody waits.
-        let Ok(pool) = rayon::ThreadPoolBuilder::new().num_threads(threads).build() else { return settle() };
-        thread::scope(|scope| {
-            let made = thread::Builder::new().spawn_scoped(scope, || pool.install(settle));
-            match made.map(ScopedJoinHandle::join) {
-                Ok(Ok(grids)) => grids,
-                Ok(Err(panic)) => std::panic::resume_unwind(panic),
-                Err(_) => settle(),
-            }
         })
     }
 
@@ -239,7 +272,7 @@ impl TriDexel {
 
     /// Before more is cut: lines that were cut apart, as somebody has read them, become the stock's own.
     pub(super) fn take_back(&mut self) {
-        if self.whole.get().is_some() {
+        if self.whole.get().is_some() || self.whole_along.get().is_some() {
             self.settle(&Silent);
         }
     }
@@ -248,14 +281,22 @@ impl TriDexel {
     /// this waits for it then. When it is cancelled they are left for later still.
     pub fn settle(&mut self, progress: &dyn Progress) {
         let Some(above) = &mut self.above else { return };
+        if let Some(grid) = self.whole_along.take() {
+            let axis = grid.axis;
+            self.grids[axis.index()] = *grid;
+            above.owe_nothing_along();
+        }
         match self.whole.take() {
             Some(whole) => {
                 for (own, grid) in self.grids.iter_mut().zip(*whole) {
-                    if above.owes(grid.axis) {
+                    if above.is_across(grid.axis) && above.owes(grid.axis) {
                         *own = grid;
                     }
                 }
-                above.owe_nothing();
+                above.settle_along(&mut self.grids[above.along().index()], &self.lattice, progress);
+                if !progress.cancelled() {
+                    above.owe_nothing();
+                }
             }
             None => above.settle(&mut self.grids, (&self.lattice, self.bounds), progress),
         }
@@ -287,6 +328,21 @@ impl DexelGrid for TriDexel {
     fn line(&self, axis: Axis, a: u32, b: u32) -> &[Interval] {
         self.grid(axis).line(a, b)
     }
+}
+
+/// Does work by threads of its own: those that wait for the result cannot be asked to help with it.
+fn apart<T: Send>(work: impl Fn() -> T + Sync) -> T {
+    let threads = rayon::current_num_threads();
+    // Where there are no threads nobody waits.
+    let Ok(pool) = rayon::ThreadPoolBuilder::new().num_threads(threads).build() else { return work() };
+    thread::scope(|scope| {
+        let made = thread::Builder::new().spawn_scoped(scope, || pool.install(&work));
+        match made.map(ScopedJoinHandle::join) {
+            Ok(Ok(made)) => made,
+            Ok(Err(panic)) => std::panic::resume_unwind(panic),
+            Err(_) => work(),
+        }
+    })
 }
 
 /// Tile and line within it of the lattice indices of a line.

@@ -19,6 +19,7 @@
 use rayon::prelude::*;
 
 use crate::geom::{Mesh, Solid};
+use crate::stock::cut::FromAbove;
 use crate::stock::skimmed::Strip;
 use crate::stock::surface::{CutSurface, SurfaceOptions};
 use crate::stock::tile::TILE_EDGE;
@@ -99,11 +100,11 @@ impl Volume {
     /// assert!((left.value - 8000.0 + 960.0).abs() < left.bound && left.bound < 1.05 * 0.7 * 120.0);
     /// ```
     pub fn of_lines(stock: &TriDexel) -> Volume {
-        let (grid, lattice) = (stock.grid(Axis::Z), stock.lattice());
+        let ((grid, above), lattice) = (stock.grid_within(Axis::Z), stock.lattice());
         let bounds = stock.bounds();
         let across = [0, 1].map(|k| Across::new(stock, k));
         let rows = (0..grid.tiles_across()[1]).into_par_iter();
-        let parts: Vec<Part> = rows.map(|row| of_tiles(grid, row, &across)).collect();
+        let parts: Vec<Part> = rows.map(|row| of_tiles((grid, above), row, &across)).collect();
         let sum = |of: fn(&Part) -> f64| parts.iter().map(of).sum::<f64>() * FIXED_STEP;
         // Ends are rounded.
         let area = bounds.size().x * bounds.size().y;
@@ -175,12 +176,13 @@ struct Part {
 }
 
 /// The sums of the lines of a row of tiles.
-fn of_tiles(grid: &Grid, row: u32, across: &[Across; 2]) -> Part {
+fn of_tiles((grid, above): (&Grid, Option<&FromAbove>), row: u32, across: &[Across; 2]) -> Part {
     let [columns, rows] = [across[0].count, across[1].count];
     let first = (row * TILE_EDGE) as usize;
     let within = |i: usize, j: usize, [low, high]: [i32; 2]| -> i64 {
-        let line = grid.line(i as u32, j as u32).iter();
-        line.map(|part| (i64::from(part.hi.at.min(high)) - i64::from(part.lo.at.max(low))).max(0)).sum()
+        let (a, b) = (i as u32, j as u32);
+        let [from, to] = above.map_or([i32::MIN, i32::MAX], |above| above.limits(a, b));
+        grid.within(a, b, [low.max(from), high.min(to)])
     };
     // A row beyond the stock is like the one at its border.
     let lengths =

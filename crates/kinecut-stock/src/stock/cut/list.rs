@@ -21,12 +21,17 @@ pub struct CutList {
     pub(super) options: CutOptions,
     /// Distance of the lines that the tools are ready for [mm].
     pub(super) step: f64,
-    /// Boxes of the paths of [`BLOCK`] moves each, grown by their tools' radii.
-    blocks: OnceLock<Vec<Aabb>>,
+    /// Boxes of the paths of [`BLOCK`] moves each, grown by their tools' radii, and of as many of these.
+    blocks: OnceLock<[Vec<Aabb>; 2]>,
 }
 
-/// Moves that share a box.
+/// Moves that share a box, and boxes that share one.
 const BLOCK: usize = 64;
+
+/// The boxes of [`BLOCK`] boxes each.
+fn unions(boxes: &[Aabb]) -> Vec<Aabb> {
+    boxes.chunks(BLOCK).map(|some| some.iter().copied().fold(Aabb::EMPTY, Aabb::union)).collect()
+}
 
 impl CutList {
     /// Moves of tools in the order in which they are made; `step`: distance of the lines of the stock that they will cut [mm].
@@ -97,22 +102,28 @@ impl CutList {
         &'a self,
         range: Range<usize>,
         meets: impl Fn(Aabb) -> bool + Copy + 'a,
-    ) -> impl Iterator<Item = usize> + 'a {
+    ) -> impl DoubleEndedIterator<Item = usize> + 'a {
         let around = |i: usize| {
             let one = &self.moves[i];
             one.curve.bounds().grown(self.tools[one.body as usize].radius)
         };
-        let blocks = self.blocks.get_or_init(|| {
-            let starts = (0..self.moves.len()).step_by(BLOCK);
-            let all = |start: usize| start..self.moves.len().min(start + BLOCK);
-            starts.map(|start| all(start).map(around).fold(Aabb::EMPTY, Aabb::union)).collect()
+        let [blocks, piles] = self.blocks.get_or_init(|| {
+            let moves: Vec<Aabb> = (0..self.moves.len()).map(around).collect();
+            let blocks = unions(&moves);
+            let piles = unions(&blocks);
+            [blocks, piles]
         });
-        (range.start / BLOCK..range.end.div_ceil(BLOCK)).filter(move |b| meets(blocks[*b])).flat_map(
-            move |b| {
-                let some = range.start.max(b * BLOCK)..range.end.min((b + 1) * BLOCK);
-                some.filter(move |i| meets(around(*i)))
-            },
-        )
+        // Those of a block that lie within a range, counted in what the block holds.
+        let within =
+            |n: usize, range: &Range<usize>| range.start.max(n * BLOCK)..range.end.min((n + 1) * BLOCK);
+        let of_moves = range.start / BLOCK..range.end.div_ceil(BLOCK);
+        let of_blocks = of_moves.start / BLOCK..of_moves.end.div_ceil(BLOCK);
+        of_blocks
+            .filter(move |pile| meets(piles[*pile]))
+            .flat_map(move |pile| within(pile, &of_moves))
+            .filter(move |block| meets(blocks[*block]))
+            .flat_map(move |block| within(block, &range))
+            .filter(move |i| meets(around(*i)))
     }
 
     /// The number that the cut of a move carries.

@@ -35,6 +35,7 @@ mod body;
 mod edge;
 mod effect;
 mod face;
+mod followed;
 mod hollow;
 mod in_order;
 mod leaning;

@@ -103,12 +103,28 @@ pub fn cut_list(
 pub(super) enum Order {
     /// In long runs, as far as those tell all that has to be told.
     InRuns,
+    /// In runs of which only the outcome counts, however short.
+    #[cfg(test)]
+    AtOnce,
     /// Line by line in the order of the moves: what the other way is compared with.
     #[cfg(test)]
     OneByOne,
 }
 
-/// Cuts moves in one of two ways.
+impl Order {
+    /// In runs, long or short.
+    pub(super) fn is_in_runs(self) -> bool {
+        match self {
+            Order::InRuns => true,
+            #[cfg(test)]
+            Order::AtOnce => true,
+            #[cfg(test)]
+            Order::OneByOne => false,
+        }
+    }
+}
+
+/// Cuts moves in one of these ways.
 pub(super) fn cut_as(
     stock: &mut TriDexel,
     list: &Arc<CutList>,

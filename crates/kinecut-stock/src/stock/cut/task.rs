@@ -77,6 +77,8 @@ pub(super) struct Task<'a> {
     pub(super) removes: bool,
     /// The lines across the tool axis are looked at for what the cutting part meets.
     pub(super) watch: bool,
+    /// Cutting part and shank are known to meet nothing; see `followed.rs`.
+    pub(super) free: bool,
     pub(super) frame: ToolFrame,
     pub(super) tool: &'a Tool,
     /// See [`CutOptions::clearance`].

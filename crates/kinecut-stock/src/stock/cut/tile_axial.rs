@@ -75,17 +75,23 @@ pub(super) fn cut_along(
     changed
 }
 
-/// Takes all above the lowest reach of a task out of a line; what it meets is not noted.
-pub(super) fn cut_above(tile: &mut Tile, l: usize, over: DVec2, task: &Task) {
-    let mut lowest: Option<(usize, Hit)> = None;
-    for (i, part) in task.tool.cutting.parts.iter().enumerate() {
-        hits(part, &task.piece, over, |hit| {
-            if lowest.is_none_or(|(_, old)| hit.lo < old.lo) {
-                lowest = Some((i, hit));
-            }
-        });
+/// Takes all above the lowest reach of the tasks of a move out of a line; what it meets is not noted.
+pub(super) fn cut_above(tile: &mut Tile, l: usize, over: DVec2, tasks: &[Task]) {
+    let mut lowest: Option<(&Task, usize, Hit)> = None;
+    for task in tasks {
+        let mut own: Option<(&Task, usize, Hit)> = None;
+        for (i, part) in task.tool.cutting.parts.iter().enumerate() {
+            hits(part, &task.piece, over, |hit| {
+                if own.is_none_or(|(.., old)| hit.lo < old.lo) {
+                    own = Some((task, i, hit));
+                }
+            });
+        }
+        // Of equal ends the earlier.
+        let lower = |hit: &Hit| lowest.is_none_or(|(.., old)| fixed(hit.lo) < fixed(old.lo));
+        lowest = own.filter(|(.., hit)| lower(hit)).or(lowest);
     }
-    let Some((part, hit)) = lowest else { return };
+    let Some((task, part, hit)) = lowest else { return };
     let (normal, face) = surface(&task.tool.cutting.parts[part], &task.piece, over, hit.lo_at);
     let end = |at: i32| task.end(at, normal, face.class(part));
     // Nothing is left beyond the other end.

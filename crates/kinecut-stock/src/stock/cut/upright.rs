@@ -3,9 +3,10 @@
 use std::ops::Range;
 use std::sync::Arc;
 
-use super::above::{Done, are_clear, cut_from_above, settle_near};
+use super::above::{Done, are_clear, cut_from_above, settle_near, stride};
 use super::axis::ToolFrame;
 use super::effect::Sum;
+use super::followed::is_followed;
 use super::hollow::standing;
 use super::in_order::cut_in_order;
 use super::list::CutList;
@@ -22,6 +23,9 @@ const MOST: usize = 32_768;
 /// Tasks that are cut from above at once, as one move may have many.
 const MOST_TASKS: usize = 65_536;
 
+/// Tasks of a run from which on they are cut at once.
+const LEAST: usize = 1024;
+
 /// Moves of one tool axis made ready.
 struct Batch<'a> {
     tasks: Vec<Task<'a>>,
@@ -32,14 +36,23 @@ struct Batch<'a> {
 }
 
 impl<'a> Batch<'a> {
-    /// Of a range of moves, as many as there is room for; tasks count them from its start.
-    fn new(list: &'a CutList, range: Range<usize>, frame: &ToolFrame) -> Batch<'a> {
+    /// Of a range of moves, as many as there is room for; tasks count them from its start. `free` says of a move that its cutting part
+    /// and shank are known to meet nothing.
+    fn new(
+        list: &'a CutList,
+        range: Range<usize>,
+        frame: &ToolFrame,
+        free: impl Fn(usize) -> bool,
+    ) -> Batch<'a> {
         let mut batch = Batch { tasks: Vec::new(), errors: Vec::new(), filled: Vec::new() };
         for i in range.clone() {
             if batch.tasks.len() >= MOST_TASKS {
                 break;
             }
+            let first = batch.tasks.len();
             let (error, filled) = tasks_of(list, i, frame, (i - range.start) as u32, &mut batch.tasks);
+            let free = free(i);
+            batch.tasks[first..].iter_mut().for_each(|task| task.free = free);
             batch.errors.push(error);
             batch.filled.push(filled);
         }
@@ -92,7 +105,7 @@ fn look(
     at: usize,
     progress: &dyn Progress,
 ) -> MoveEffect {
-    let batch = Batch::new(list, at..at + 1, frame);
+    let batch = Batch::new(list, at..at + 1, frame, |_| false);
     if are_clear(stock, (axis, frame), &batch.tasks) {
         return MoveEffect { path_error: batch.errors[0], ..MoveEffect::default() };
     }
@@ -119,6 +132,7 @@ pub(super) fn tasks_of<'a>(
         cut: list.cut(at),
         removes: m.removes,
         watch: m.watch || across(&piece),
+        free: false,
         frame: *frame,
         tool,
         clearance: list.options.clearance,
@@ -142,21 +156,37 @@ pub(super) fn cut_upright(
         stock.settle(progress);
     }
     let (mut next, mut size, mut singly) = (moves.start, BATCH, 1);
+    // By move: it was cut from above.
+    let mut whole: Vec<bool> = Vec::new();
     while next < moves.end {
         let mut some = next..moves.end.min(next + size);
-        if order == Order::InRuns {
-            let low = list.moves[some.clone()].iter().position(|m| m.watch && goes_below(stock, &frame, m));
-            some.end = low.map_or(some.end, |low| next + low);
+        // Moves that should meet nothing and go below the top: they are looked at by themselves, or known to be clear.
+        let mut free = vec![false; some.len()];
+        if order.is_in_runs() {
+            for (i, free) in some.clone().zip(&mut free) {
+                let m = &list.moves[i];
+                if !(m.watch && goes_below(stock, &frame, m)) {
+                    continue;
+                }
+                // Those that come with it in this run are cut from above, or it is not reached.
+                let is_whole = |i: usize| i >= next || whole[i - moves.start];
+                *free = is_followed(list, (moves.start, i), &frame, is_whole);
+                if !*free {
+                    some.end = i;
+                    break;
+                }
+            }
         }
         if some.is_empty() {
             let effect = look(stock, (axis, &frame), list, next, progress);
             effects.push(effect);
+            whole.push(false);
             still_wanted(progress)?;
             progress.advance(1);
             next += 1;
             continue;
         }
-        let batch = Batch::new(list, some, &frame);
+        let batch = Batch::new(list, some, &frame, |i| free[i - next]);
         let count = batch.errors.len();
         // What is cut from above, by move: length removed, depth, a contact.
         let mut sums = vec![(0, 0, None::<(f64, [f64; 3])>); count];
@@ -171,7 +201,16 @@ pub(super) fn cut_upright(
             }
         };
         let stopped = match order {
-            Order::InRuns => cut_from_above(stock, (axis, &frame), &batch.tasks, progress, &mut note),
+            Order::InRuns => {
+                let stride = (batch.tasks.len() >= LEAST).then(|| stride(&batch.tasks, step));
+                let stride = stride.filter(|stride| *stride > 1);
+                cut_from_above(stock, (axis, &frame), (&batch.tasks, stride), progress, &mut note)
+            }
+            #[cfg(test)]
+            Order::AtOnce => {
+                let stride = Some(stride(&batch.tasks, step));
+                cut_from_above(stock, (axis, &frame), (&batch.tasks, stride), progress, &mut note)
+            }
             #[cfg(test)]
             Order::OneByOne => Some(0),
         };
@@ -188,12 +227,14 @@ pub(super) fn cut_upright(
                 ..MoveEffect::default()
             },
         ));
+        whole.resize(next - moves.start + from_above, true);
         let mut end = from_above;
         if stopped.is_some() {
             // The more often it stops, the more moves are looked at line by line before it is tried again.
             end = count.min(from_above + singly);
             singly = if from_above < singly { (2 * singly).min(BATCH) } else { 1 };
             effects.extend(batch.cut_in_order(stock, &frame, from_above..end, progress));
+            whole.resize(next - moves.start + end, false);
             size = (size / 2).max(2 * singly);
         } else {
             size = (2 * size).min(MOST);

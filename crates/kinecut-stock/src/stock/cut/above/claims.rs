@@ -7,7 +7,7 @@ use pulp::NullaryFnOnce;
 
 use super::super::task::Task;
 use super::layers::Layers;
-use super::patch::{BLOCKS, Blocks, HEIGHTS, Patch, ROUNDING, SIDE, height_at, row_at};
+use super::patch::{BLOCKS, Blocks, HEIGHTS, Patch, ROUNDING, SIDE, height_at, put_row, row_at};
 use super::sweep::{BLOCK, Sweep, least, most};
 
 /// Layers of a row in which a task is to be cut.
@@ -75,7 +75,7 @@ impl Patch {
                 lows[c] = low;
                 below[c] += if low - ROUNDING < ceilings[c] + 2.0 * ROUNDING { 1.0 } else { 0.0 };
             }
-            self.lows[k][start..start + BLOCK].copy_from_slice(&lows);
+            put_row(&mut self.lows[k][..], start, lows);
         }
         below.into_iter().sum::<f64>() > 0.0
     }

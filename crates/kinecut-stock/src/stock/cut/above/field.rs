@@ -9,6 +9,7 @@ use super::super::axis::ToolFrame;
 use super::super::task::Task;
 use super::patch::SIDE;
 use super::sweep::Sweep;
+use super::tops::Kept;
 use crate::geom::Aabb;
 use crate::stock::tile::TILE_EDGE;
 use crate::stock::tri_dexel::{Grid, LINE_OFFSET};
@@ -21,7 +22,7 @@ pub(super) const OWN: i64 = SIDE as i64 - 1;
 pub(super) type Line = (usize, usize);
 
 /// The lines along the tool axis, numbered along the two directions across it, x and y; one row of ways more than lines leads
-/// out of the stock on either side.
+/// out of the stock on either side. Or some of these lines, a stride apart, without the ways between them.
 pub(super) struct Field<'a> {
     grid: &'a Grid,
     sign: f64,
@@ -29,6 +30,11 @@ pub(super) struct Field<'a> {
     origin: [f64; 2],
     /// Distance of the lines [mm].
     pub(super) step: f64,
+    /// Heights down to which lines are gone that the grid does not know of.
+    kept: Option<Kept<'a>>,
+    /// Distance of the lines, counted in those of the grid, and the first of them.
+    pub(super) stride: i64,
+    first: [i64; 2],
     /// A height above all material, in the tool frame [mm].
     pub(super) highest: f64,
     /// Instructions of the machine.
@@ -36,8 +42,14 @@ pub(super) struct Field<'a> {
 }
 
 impl<'a> Field<'a> {
-    /// The field of a grid of a stock within `bounds`.
-    pub(super) fn new(grid: &'a Grid, lattice: &Lattice, frame: &ToolFrame, bounds: Aabb) -> Field<'a> {
+    /// The field of a grid of a stock within `bounds`; `kept`: what is known of its lines beside it.
+    pub(super) fn new(
+        grid: &'a Grid,
+        lattice: &Lattice,
+        frame: &ToolFrame,
+        bounds: Aabb,
+        kept: Option<Kept<'a>>,
+    ) -> Field<'a> {
         let axes: [Axis; 2] = grid.axis.others().into();
         let along = grid.axis.index();
         let highest = if frame.sign > 0.0 { bounds.max[along] } else { -bounds.min[along] };
@@ -47,8 +59,24 @@ impl<'a> Field<'a> {
             counts: grid.counts.map(i64::from),
             origin: axes.map(|axis| lattice.origin[axis.index()]),
             step: lattice.step,
+            kept,
+            stride: 1,
+            first: [0; 2],
             highest,
             arch: Arch::new(),
+        }
+    }
+
+    /// Some of the lines, a stride apart.
+    pub(super) fn sparse(self, stride: i64) -> Field<'a> {
+        let first = self.counts.map(|n| (stride / 2).min((n - 1) / 2));
+        Field {
+            counts: [0, 1].map(|k| (self.counts[k] - first[k] + stride - 1) / stride),
+            origin: [0, 1].map(|k| self.origin[k] + first[k] as f64 * self.step),
+            step: self.step * stride as f64,
+            stride,
+            first,
+            ..self
         }
     }
 
@@ -70,13 +98,18 @@ impl<'a> Field<'a> {
 
     /// A line by its indices, when it is one.
     pub(super) fn line(&self, a: i64, b: i64) -> Option<Line> {
-        let inside = |n: i64, count: i64| (0..count).contains(&n);
-        if !(inside(a, self.counts[0]) && inside(b, self.counts[1])) {
-            return None;
-        }
-        let edge = i64::from(TILE_EDGE);
+        let [a, b] = self.in_grid(a, b)?;
+        let edge = TILE_EDGE as usize;
         let across = self.grid.tiles_across()[0] as usize;
-        Some(((b / edge) as usize * across + (a / edge) as usize, (b % edge * edge + a % edge) as usize))
+        Some((b / edge * across + a / edge, b % edge * edge + a % edge))
+    }
+
+    /// Indices of a line in the grid, when it is one.
+    fn in_grid(&self, a: i64, b: i64) -> Option<[usize; 2]> {
+        let inside = |n: i64, count: i64| (0..count).contains(&n);
+        let is_line = inside(a, self.counts[0]) && inside(b, self.counts[1]);
+        is_line
+            .then(|| [self.first[0] + a * self.stride, self.first[1] + b * self.stride].map(|n| n as usize))
     }
 
     /// True if a way leads along the direction `k` to a line from the one before it, or to or from the outside.
@@ -92,13 +125,18 @@ impl<'a> Field<'a> {
 
     /// Heights of the lowest and the topmost material of a line, in the tool frame [fixed steps]; as low as can be when it has no
     /// material.
-    pub(super) fn ends(&self, line: Line) -> [f64; 2] {
+    pub(super) fn ends(&self, a: i64, b: i64) -> [f64; 2] {
+        let (Some(line), Some([i, j])) = (self.line(a, b), self.in_grid(a, b)) else {
+            return [f64::NEG_INFINITY; 2];
+        };
         let material = self.material(line);
-        match (material.first(), material.last()) {
-            (Some(first), Some(last)) if self.sign > 0.0 => [first.lo.at, last.hi.at].map(f64::from),
-            (Some(first), Some(last)) => [last.hi.at, first.lo.at].map(|at| -f64::from(at)),
-            _ => [f64::NEG_INFINITY; 2],
-        }
+        let (Some(first), Some(last)) = (material.first(), material.last()) else {
+            return [f64::NEG_INFINITY; 2];
+        };
+        let [low, high] =
+            if self.sign > 0.0 { [first.lo.at, last.hi.at] } else { [-last.hi.at, -first.lo.at] };
+        let top = self.kept.and_then(|kept| kept.top(i, j)).map_or(high, |top| top.min(high));
+        if top > low { [low, top].map(f64::from) } else { [f64::NEG_INFINITY; 2] }
     }
 
     /// For each patch the tasks that may reach it, in order.

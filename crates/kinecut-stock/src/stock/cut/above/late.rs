@@ -1,4 +1,4 @@
-//! Lines across the tool axis that are cut late.
+//! Lines that are cut late: those across the tool axis, and who is to cut them.
 //!
 //! Moves that were cut from above owe these lines. They are paid by rectangles of patches: all that is owed on the ways within, by all
 //! moves since the last time, at the ceilings of today.
@@ -21,6 +21,7 @@ use super::layers::Layers;
 use super::patch::{Known, Patch};
 use super::sides::{clear, cut_claims, direction};
 use super::sweep::Sweep;
+use super::tops::{self, Kept};
 use crate::base::Progress;
 use crate::geom::Aabb;
 use crate::stock::tri_dexel::Grid;
@@ -57,6 +58,9 @@ impl FromAbove {
         FromAbove {
             axis,
             ceilings: vec![None; all],
+            tops: vec![None; all],
+            behind: false,
+            across: patches[0],
             late: Late {
                 debts: Vec::new(),
                 count: 0,
@@ -89,7 +93,29 @@ impl FromAbove {
 
     /// Whether moves have still to cut lines along an axis of the stock.
     pub(in crate::stock) fn owes(&self, axis: Axis) -> bool {
-        !self.late.debts.is_empty() && self.axis.along() != axis
+        match self.is_across(axis) {
+            true => !self.late.debts.is_empty(),
+            false => self.behind,
+        }
+    }
+
+    /// Whether lines along an axis of the stock run across the tool axis.
+    pub(in crate::stock) fn is_across(&self, axis: Axis) -> bool {
+        self.axis.along() != axis
+    }
+
+    /// What is known of the lines along the tool axis beside the grid.
+    pub(in crate::stock) fn kept(&self) -> Kept<'_> {
+        Kept { tops: &self.tops, across: self.across }
+    }
+
+    /// Coordinates between which the material of a line along the tool axis is left [fixed steps], as far as the grid does not know it.
+    pub(in crate::stock) fn limits(&self, a: u32, b: u32) -> [i32; 2] {
+        match (self.kept().top(a as usize, b as usize), self.axis.sign() > 0.0) {
+            (None, _) => [i32::MIN, i32::MAX],
+            (Some(top), true) => [i32::MIN, top],
+            (Some(top), false) => [-top, i32::MAX],
+        }
     }
 
     /// All lines have been cut.
@@ -98,6 +124,7 @@ impl FromAbove {
         late.debts.clear();
         late.paid.fill(late.count);
         late.cleared.fill(self.ceilings.clone());
+        self.owe_nothing_along();
     }
 
     /// Cuts all lines that are behind.
@@ -107,12 +134,47 @@ impl FromAbove {
         stock: (&Lattice, Aabb),
         progress: &dyn Progress,
     ) {
-        if !self.late.debts.is_empty() {
-            self.pay(grids, stock, |field| field.patches().map(|n| 0..n), progress);
+        self.settle_along(&mut grids[self.axis.along().index()], stock.0, progress);
+        if !self.late.debts.is_empty() && !progress.cancelled() {
+            self.settle_across(grids, stock, progress);
             if !progress.cancelled() {
                 self.owe_nothing();
             }
         }
+    }
+
+    /// Cuts the lines across the tool axis that are behind.
+    pub(in crate::stock) fn settle_across(
+        &mut self,
+        grids: &mut [Grid; 3],
+        stock: (&Lattice, Aabb),
+        progress: &dyn Progress,
+    ) {
+        self.pay(grids, stock, |field| field.patches().map(|n| 0..n), progress);
+    }
+
+    /// The axis of the stock along which the tools stand.
+    pub(in crate::stock) fn along(&self) -> Axis {
+        self.axis.along()
+    }
+
+    /// All lines along the tool axis have been cut.
+    pub(in crate::stock) fn owe_nothing_along(&mut self) {
+        self.tops.fill(None);
+        self.behind = false;
+    }
+
+    /// Cuts the lines along the tool axis that are behind.
+    pub(in crate::stock) fn settle_along(
+        &mut self,
+        grid: &mut Grid,
+        lattice: &Lattice,
+        progress: &dyn Progress,
+    ) {
+        let all = [0..self.across, 0..self.tops.len().checked_div(self.across).unwrap_or(0)];
+        let frame = ToolFrame::new(self.axis);
+        tops::settle(grid, (lattice, &frame), (&mut self.tops, self.across), &all, &self.late, progress);
+        self.behind &= progress.cancelled();
     }
 
     /// Cuts the lines of a rectangle of patches, as far as these reach.
@@ -126,7 +188,7 @@ impl FromAbove {
         let frame = ToolFrame::new(self.axis);
         let along = frame.axes[2];
         let shape = grids[along.index()].without_lines();
-        let field = Field::new(&shape, lattice, &frame, bounds);
+        let field = Field::new(&shape, lattice, &frame, bounds, None);
         let open =
             Open { patches: field.patches(), rectangle: rectangle(&field), paid: self.late.paid.clone() };
         // Material above ceilings first, on whole lines: the rest of them is then short.
@@ -238,6 +300,19 @@ impl Open {
 }
 
 impl Late {
+    /// Number of all moves that were ever owed.
+    pub(super) fn count(&self) -> usize {
+        self.count
+    }
+
+    /// The list of a move that is owed, and its index there.
+    pub(super) fn owed(&self, number: usize) -> Option<(&CutList, usize)> {
+        let next = self.debts.partition_point(|debt| debt.first <= number);
+        let debt = self.debts.get(next.checked_sub(1)?)?;
+        let at = debt.moves.start + (number - debt.first);
+        debt.moves.contains(&at).then_some((&*debt.list, at))
+    }
+
     /// Tasks of the moves from one on that cut, and may reach open patches, as many as there is room for, with the numbers of their
     /// moves; and the first move after them.
     fn tasks(&self, from: usize, frame: &ToolFrame, field: &Field, open: &Open) -> (Vec<Task<'_>>, usize) {
@@ -287,5 +362,12 @@ pub(in crate::stock::cut) fn settle_near(stock: &mut TriDexel, tasks: &[Task], p
         }
         all.unwrap_or([0..0, 0..0])
     };
-    above.pay(&mut stock.grids, (&lattice, bounds), rectangle, progress);
+    let (frame, along) = (ToolFrame::new(above.axis), above.axis.along().index());
+    let near = {
+        let shape = stock.grids[along].without_lines();
+        rectangle(&Field::new(&shape, &lattice, &frame, bounds, None))
+    };
+    let tops = (&mut above.tops[..], above.across);
+    tops::settle(&mut stock.grids[along], (&lattice, &frame), tops, &near, &above.late, progress);
+    above.pay(&mut stock.grids, (&lattice, bounds), |_| near.clone(), progress);
 }

@@ -9,9 +9,11 @@
 //! A move that should meet nothing, and goes down below the top of the stock, is no part of a run: it is looked at by itself. Material
 //! that a shank or a holder may meet, an edge that leaves a core, or a top of a tool under material end a run before that move: it is cut line by line, then the next run begins. Ceilings are kept for it: material never grows.
 //!
-//! The lines across the axis are cut late, by all moves since the last time together: where a move is looked at line by line those
-//! near it, and all when something asks for them (`late.rs`). The lower the ceilings have become, the less is left to do.
+//! All lines are cut late, by all moves since the last time together: where a move is looked at line by line those near it, and all
+//! when something asks for them. Of the lines along the axis a height and a move are kept (`tops.rs`); for those across it, the lower
+//! the ceilings have become, the less is left to do (`late.rs`).
 
+mod at_once;
 mod claims;
 mod column;
 mod field;
@@ -20,25 +22,25 @@ mod layers;
 mod patch;
 mod sides;
 mod sweep;
+mod tops;
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU32, Ordering::Relaxed};
 
-use glam::DVec2;
 use rayon::prelude::*;
 
-use self::field::{Field, OWN};
+use self::field::Field;
 use self::late::Late;
-use self::patch::{Known, NONE, Patch, PatchCeilings, Winners};
+use self::patch::{Known, Patch, PatchCeilings};
+use self::tops::Tops;
 use super::CutAxis;
 use super::axis::ToolFrame;
-use super::task::{Task, TileLines};
-use super::tile_axial::cut_above;
+use super::task::Task;
 use crate::base::Progress;
-use crate::stock::tile::TILE_EDGE;
-use crate::stock::{DexelGrid, Lattice, TriDexel};
+use crate::stock::{DexelGrid, TriDexel};
 
+pub(super) use self::at_once::stride;
 pub(super) use self::late::settle_near;
 
 /// Ceilings from cutting along one axis, and the moves that still owe lines across it.
@@ -47,6 +49,12 @@ pub(in crate::stock) struct FromAbove {
     axis: CutAxis,
     /// By patch, heights above which nothing is left on the ways between lines; `None` where they are as high as the stock.
     ceilings: Vec<Known>,
+    /// By patch, the heights of lines along the axis that are to be cut.
+    tops: Vec<Option<Box<Tops>>>,
+    /// There may be some.
+    behind: bool,
+    /// Number of patches along the first direction.
+    across: usize,
     late: Late,
 }
 
@@ -65,35 +73,34 @@ pub(in crate::stock::cut) struct Done {
 
 /// The outcome of a run in a patch.
 struct Outcome {
-    /// The tasks that went lowest.
-    winners: Winners,
+    /// Heights of the lines and the tasks that went down to them.
+    tops: Box<Tops>,
     done: Vec<Done>,
     ceilings: Arc<PatchCeilings>,
 }
 
 /// Cuts tasks, in order, up to the first move that has to be looked at line by line; returns its index, and tells by `each` what
-/// tasks did, those of one move one after another in no order. Nothing but whole moves is cut.
+/// tasks did, those of one move one after another in no order. Nothing but whole moves is cut. With a stride the tasks are cut at once, and
+/// their amounts measured on lines that far apart.
 pub(super) fn cut_from_above(
     stock: &mut TriDexel,
     (axis, frame): (CutAxis, &ToolFrame),
-    tasks: &[Task],
+    (tasks, stride): (&[Task], Option<i64>),
     progress: &dyn Progress,
     mut each: impl FnMut(&Done),
 ) -> Option<u32> {
     let lattice = *stock.lattice();
     let along = frame.axes[2].index();
-    let field = Field::new(&stock.grids[along], &lattice, frame, stock.bounds());
-    let patches = field.patches();
-    let mut above = match stock.above.take() {
-        Some(kept) if kept.axis == axis => kept,
-        _ => FromAbove::new(axis, patches),
-    };
+    let taken = stock.above.take().filter(|above| above.axis == axis);
+    let shape = Field::new(&stock.grids[along], &lattice, frame, stock.bounds(), None);
+    let mut above = taken.unwrap_or_else(|| FromAbove::new(axis, shape.patches()));
+    let field = Field::new(&stock.grids[along], &lattice, frame, stock.bounds(), Some(above.kept()));
     let bins = field.bins(tasks);
     let run = |patches: &mut dyn Iterator<Item = usize>, limit: &AtomicU32| -> Vec<(usize, Outcome)> {
         let patches: Vec<usize> = patches.collect();
         let one = |patch: usize| {
             let (bin, known) = (&bins[patch], above.ceilings[patch].as_deref());
-            Some((patch, pass(&field, (patch, known), (bin, tasks), limit, progress)?))
+            Some((patch, pass(&field, (patch, known), (bin, tasks, stride.is_some()), limit, progress)?))
         };
         patches.into_par_iter().filter_map(one).collect()
     };
@@ -120,13 +127,20 @@ pub(super) fn cut_from_above(
             outcomes[patch] = Some(outcome);
         }
     }
+    if let Some(stride) = stride {
+        let end = tasks.partition_point(|t| t.index < stopped);
+        at_once::measure(&field.sparse(stride), &tasks[..end], progress).iter().for_each(&mut each);
+    }
     for done in outcomes.iter().flatten().flat_map(|o| &o.done) {
         each(done);
     }
-    cut_lines(stock, &lattice, along, (tasks, patches), &outcomes);
-    for (kept, outcome) in above.ceilings.iter_mut().zip(outcomes) {
+    // The moves of the tasks are owed next.
+    let first = above.late.count() as u32;
+    for ((ceilings, tops), outcome) in above.ceilings.iter_mut().zip(&mut above.tops).zip(outcomes) {
         if let Some(outcome) = outcome {
-            *kept = Some(outcome.ceilings);
+            *ceilings = Some(outcome.ceilings);
+            outcome.tops.add_to(tops, |task| first + tasks[task as usize].index);
+            above.behind = true;
         }
     }
     stock.above = Some(above);
@@ -136,8 +150,9 @@ pub(super) fn cut_from_above(
 /// Whether tasks that should meet nothing are known to do so by the heights of the lines and the ceilings between them.
 pub(super) fn are_clear(stock: &TriDexel, (axis, frame): (CutAxis, &ToolFrame), tasks: &[Task]) -> bool {
     let along = frame.axes[2].index();
-    let field = Field::new(&stock.grids[along], stock.lattice(), frame, stock.bounds());
     let above = stock.above.as_ref().filter(|above| above.axis == axis);
+    let kept = above.map(FromAbove::kept);
+    let field = Field::new(&stock.grids[along], stock.lattice(), frame, stock.bounds(), kept);
     let mut near: BTreeMap<usize, Vec<u32>> = BTreeMap::new();
     field.each_near(tasks, |patch, task| near.entry(patch).or_default().push(task));
     let is_clear = |(patch, bin): (&usize, &Vec<u32>)| {
@@ -153,7 +168,7 @@ pub(super) fn are_clear(stock: &TriDexel, (axis, frame): (CutAxis, &ToolFrame), 
 fn pass(
     field: &Field,
     (patch, known): (usize, Option<&PatchCeilings>),
-    (bin, tasks): (&[u32], &[Task]),
+    (bin, tasks, at_once): (&[u32], &[Task], bool),
     limit: &AtomicU32,
     progress: &dyn Progress,
 ) -> Option<Outcome> {
@@ -161,66 +176,44 @@ fn pass(
     const LOOK: usize = 64;
     let mut patch = Patch::new(field, patch, known).with_lines(field);
     let mut all = Vec::new();
-    for (n, index) in bin.iter().enumerate() {
-        if n % LOOK == 0 && progress.cancelled() {
-            return None;
+    let (mut next, mut looked) = (0, 0);
+    while next < bin.len() {
+        if next >= looked {
+            if progress.cancelled() {
+                return None;
+            }
+            looked = next + LOOK;
         }
-        let task = &tasks[*index as usize];
+        if at_once {
+            let (highest, end) = (patch.highest(), limit.load(Relaxed));
+            let is_plain = |index: &&u32| {
+                let task = &tasks[**index as usize];
+                task.index < end && at_once::is_plain(task, highest)
+            };
+            let group = bin[next..].iter().take_while(is_plain).count();
+            if group > 0 {
+                at_once::cut(&mut patch, &bin[next..next + group], tasks);
+                next += group;
+                continue;
+            }
+        }
+        let index = bin[next];
+        let task = &tasks[index as usize];
         if task.index >= limit.load(Relaxed) {
             break;
         }
-        let Some(done) = patch.take(field, *index, task) else {
+        let Some(done) = patch.take(field, index, task) else {
             limit.fetch_min(task.index, Relaxed);
             return None;
         };
-        if done.removed > 0 || done.first.is_some() {
+        if !at_once && (done.removed > 0 || done.first.is_some()) {
             all.push(done);
         }
+        next += 1;
+    }
+    if at_once {
+        all = patch.left(field, tasks);
     }
     let ceilings = Arc::new(patch.kept_ceilings());
-    Some(Outcome { winners: patch.winners(), done: all, ceilings })
-}
-
-/// Cuts the lines along the tool axis, each by one task.
-fn cut_lines(
-    stock: &mut TriDexel,
-    lattice: &Lattice,
-    along: usize,
-    (tasks, patches): (&[Task], [usize; 2]),
-    outcomes: &[Option<Outcome>],
-) {
-    let (own, edge) = (OWN as usize, TILE_EDGE as usize);
-    let grid = &mut stock.grids[along];
-    let across = grid.tiles_across().map(|n| n as usize);
-    // A tile has lines of up to two patches along both directions.
-    let mut reached = vec![false; grid.tiles.len()];
-    for (p, _) in outcomes.iter().enumerate().filter(|(_, outcome)| outcome.is_some()) {
-        let tiles = |at: usize, across: usize| at * own / edge..((at * own + own - 1) / edge + 1).min(across);
-        for row in tiles(p / patches[0], across[1]) {
-            for column in tiles(p % patches[0], across[0]) {
-                reached[row * across[0] + column] = true;
-            }
-        }
-    }
-    let empty = grid.without_lines();
-    let work = grid.tiles.par_iter_mut().enumerate().filter(|(t, _)| reached[*t]);
-    work.for_each(|(t, tile)| {
-        let places = TileLines::new(&empty, lattice, t);
-        let (first, size) = empty.tile_lines(t);
-        for j in 0..size[1] as usize {
-            let b = first[1] as usize + j;
-            for i in 0..size[0] as usize {
-                let a = first[0] as usize + i;
-                let Some(outcome) = &outcomes[b / own * patches[0] + a / own] else { continue };
-                let winner = outcome.winners[b % own * own + a % own];
-                if winner == NONE {
-                    continue;
-                }
-                let task = &tasks[winner as usize];
-                let (p, q) = (places.at[0][i], places.at[1][j]);
-                let over = if task.frame.sign < 0.0 { DVec2::new(q, p) } else { DVec2::new(p, q) };
-                cut_above(tile, j * edge + i, over, task);
-            }
-        }
-    });
+    Some(Outcome { tops: patch.cut_tops(), done: all, ceilings })
 }

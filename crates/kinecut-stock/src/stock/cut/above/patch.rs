@@ -10,14 +10,16 @@ use std::sync::Arc;
 use glam::DVec2;
 use pulp::{Arch, NullaryFnOnce};
 
+use super::super::body::RevolvedParts;
 use super::super::edge::most_below;
 use super::super::effect::Looked;
 use super::super::task::Task;
 use super::Done;
-use super::column::Column;
-use super::field::{Field, rounded};
+use super::column::{Column, heights};
+use super::field::{Field, OWN, rounded};
 use super::sweep::{BLOCK, BlockOf, Sweep, least, most};
-use crate::stock::FIXED_STEP;
+use super::tops::Tops;
+use crate::stock::{FIXED_STEP, Interval};
 
 /// Lines along an edge of a patch that are computed; the first row and column belong to the neighbours.
 pub(super) const SIDE: usize = 32;
@@ -36,10 +38,7 @@ pub(super) const ROUNDING: f64 = 2.0 * FIXED_STEP;
 /// The task of a line that none has cut.
 const NO_TASK: f64 = -1.0;
 
-/// For each own line of a patch, row by row, a task or [`NONE`].
-pub(super) type Winners = Box<[u32]>;
-
-/// The winner of a line that no task has cut.
+/// The number of no move.
 pub(super) const NONE: u32 = u32::MAX;
 
 /// Ceilings of a patch as they are kept between calls: along the first direction across the tool axis and the second, each of
@@ -48,6 +47,29 @@ pub(in crate::stock) type PatchCeilings = [[f32; LINES]; 2];
 
 /// Ceilings of a patch, shared by the times at which they were the same; `None` where they are as high as the stock.
 pub(super) type Known = Option<Arc<PatchCeilings>>;
+
+/// The bodies of a task that should meet nothing, as far as that is not known.
+pub(super) fn bodies<'a>(task: &Task<'a>) -> impl Iterator<Item = (&'a RevolvedParts, Looked)> {
+    let tool = task.tool;
+    let asked = [
+        task.watch && !task.free,
+        // What cuts below it, or meets nothing, leaves nothing to a shank that is no wider.
+        tool.shank.radius > tool.cutting.radius,
+        true,
+    ];
+    let all =
+        [(&tool.contact, Looked::Cutting), (&tool.shank, Looked::Shank), (&tool.holder, Looked::Holder)];
+    all.into_iter()
+        .zip(asked)
+        .filter(|((body, _), asked)| *asked && !body.parts.is_empty())
+        .map(|(body, _)| body)
+}
+
+/// Distance below a body down to which material counts as near [mm].
+pub(super) fn lowered(task: &Task) -> f64 {
+    let slack = if task.tool.edges.is_some() { most_below(task.step).max(task.step) } else { 0.0 };
+    slack + task.clearance
+}
 
 /// Index of the height over a line in row `r` and column `c`.
 #[inline(always)]
@@ -73,6 +95,13 @@ impl Blocks {
 /// First column and row of a block.
 fn corner(block: usize) -> (usize, usize) {
     (block % ACROSS * BLOCK, block / ACROSS * BLOCK)
+}
+
+/// A plane above the tops and ceilings of a block: its height over the middle [mm], and its slopes along x and y.
+#[derive(Clone, Copy, Debug, Default)]
+struct Cover {
+    height: f64,
+    slopes: [f64; 2],
 }
 
 /// The state of a patch while tasks go over it.
@@ -103,8 +132,14 @@ pub(super) struct Patch {
     pub(super) step: f64,
     /// Indices of the first line, which is not its own.
     pub(super) first: [i64; 2],
+    /// The last of the tasks that went lowest on the lines of each block.
+    latest: [f64; BLOCKS],
+    /// Covers of the blocks, where they are kept.
+    covers: Option<[Cover; BLOCKS]>,
     /// No line has more than one interval.
     simple: bool,
+    /// The ways between the lines are asked for, too.
+    between: bool,
     /// Instructions of the machine.
     pub(super) arch: Arch,
 }
@@ -127,6 +162,9 @@ impl Patch {
             heights: Box::new([f64::INFINITY; HEIGHTS * HEIGHTS]),
             arch: field.arch,
             hull: [0.0; BLOCKS],
+            latest: [NO_TASK; BLOCKS],
+            covers: None,
+            between: field.stride == 1,
             radius: (0.5 * (BLOCK - 1) as f64 * SQRT_2 + 1.0) * field.step,
             step: field.step,
             first,
@@ -143,7 +181,7 @@ impl Patch {
             for c in 1..SIDE {
                 let (l, a, b) = (r * SIDE + c, first[0] + c as i64, first[1] + r as i64);
                 for (k, ceilings) in made.ceilings.iter_mut().enumerate() {
-                    if field.has_way(k, a, b) {
+                    if field.stride == 1 && field.has_way(k, a, b) {
                         ceilings[l] = known.map_or(field.highest, |known| f64::from(known[k][l]));
                     }
                 }
@@ -161,7 +199,7 @@ impl Patch {
             for c in 1..SIDE {
                 let (l, a, b) = (r * SIDE + c, self.first[0] + c as i64, self.first[1] + r as i64);
                 if let Some(line) = field.line(a, b) {
-                    [self.bottom[l], self.top[l]] = field.ends(line);
+                    [self.bottom[l], self.top[l]] = field.ends(a, b);
                     self.simple &= field.material(line).len() < 2;
                 }
             }
@@ -212,6 +250,114 @@ impl Patch {
         most(most(greatest(ways), beyond), greatest(tops) * FIXED_STEP)
     }
 
+    /// The last of the tasks that went lowest on the lines of a block.
+    #[inline(always)]
+    fn latest_of(&self, block: usize) -> f64 {
+        let (c0, r0) = corner(block);
+        let mut latest = [NO_TASK; BLOCK];
+        for r in r0..r0 + BLOCK {
+            let row = row_at(&self.task[..], r * SIDE + c0);
+            for c in 0..BLOCK {
+                latest[c] = most(latest[c], row[c]);
+            }
+        }
+        latest.into_iter().fold(NO_TASK, most)
+    }
+
+    /// The blocks in which a task may go lowest, by its bounds on them: lower than the hull, or as low and earlier.
+    pub(super) fn open_to(&self, bounds: &[f64; BLOCKS], index: f64) -> Blocks {
+        let mut mask = 0;
+        for b in 0..BLOCKS {
+            let slack = if index < self.latest[b] { FIXED_STEP } else { 0.0 };
+            mask |= u32::from(bounds[b] < self.hull[b] + slack) << b;
+        }
+        Blocks(mask)
+    }
+
+    /// Those of some blocks in which a task may go lowest, by planes that it stays above.
+    pub(super) fn open_by_planes(&self, sweep: &Sweep, blocks: Blocks, index: f64) -> Blocks {
+        /// Rounding of planes [mm].
+        const NEAR: f64 = 1e-9;
+        let Some(covers) = &self.covers else { return blocks };
+        let [heights, along_x, along_y] = self.arch.dispatch(Tangents { patch: self, sweep });
+        // From the middle to the farthest line with a way to the block.
+        let half = (0.5 * (BLOCK - 1) as f64 + 1.0) * self.step;
+        let mut mask = 0;
+        for b in 0..BLOCKS {
+            let Cover { height, slopes: [x, y] } = covers[b];
+            let apart = (x - along_x[b]).abs() + (y - along_y[b]).abs();
+            let slack = if index < self.latest[b] { FIXED_STEP } else { NEAR };
+            mask |= u32::from(heights[b] < height + half * apart + slack) << b;
+        }
+        Blocks(blocks.0 & mask)
+    }
+
+    /// Begins to keep the covers of the blocks.
+    pub(super) fn keep_covers(&mut self) {
+        self.covers = Some(self.arch.dispatch(Covers(self)));
+    }
+
+    /// A plane along the tops of a block, above them and above the ceilings of the ways to and from its lines.
+    #[inline(always)]
+    fn cover_of(&self, block: usize) -> Cover {
+        let (c0, r0) = corner(block);
+        let step = self.step;
+        // Slopes from one border of the block to the other.
+        let (mut over_x, mut over_y) = ([0.0; BLOCK], [0.0; BLOCK]);
+        let (low, high) =
+            (row_at(&self.top[..], r0 * SIDE + c0), row_at(&self.top[..], (r0 + BLOCK - 1) * SIDE + c0));
+        for i in 0..BLOCK {
+            over_y[i] = high[i] - low[i];
+            let row = (r0 + i) * SIDE + c0;
+            over_x[i] = self.top[row + BLOCK - 1] - self.top[row];
+        }
+        let scale = FIXED_STEP / (BLOCK as f64 * (BLOCK - 1) as f64 * step);
+        let slopes = [over_x, over_y].map(|over| over.into_iter().sum::<f64>() * scale);
+        let slopes = if slopes[0].is_finite() && slopes[1].is_finite() { slopes } else { [0.0; 2] };
+        let [sx, sy] = slopes;
+        // Of a way the end at which the plane is higher: a part that takes it comes down to its ceiling at both.
+        let (back_x, back_y) = (most(0.0, -sx * step), most(0.0, -sy * step));
+        let middle = 0.5 * (BLOCK - 1) as f64;
+        let mut across = [0.0; BLOCK];
+        for c in 0..BLOCK {
+            across[c] = sx * (c as f64 - middle) * step;
+        }
+        let mut most_of = [f64::NEG_INFINITY; BLOCK];
+        for r in 0..BLOCK {
+            let start = (r0 + r) * SIDE + c0;
+            let row = |of: &[f64; LINES]| row_at(&of[..], start);
+            let (top, along, up) = (row(&self.top), row(&self.ceilings[0]), row(&self.ceilings[1]));
+            let off = sy * (r as f64 - middle) * step;
+            for c in 0..BLOCK {
+                let highest = most(top[c] * FIXED_STEP, most(along[c] - back_x, up[c] - back_y));
+                most_of[c] = most(most_of[c], highest - (across[c] + off));
+            }
+            if c0 + BLOCK < SIDE {
+                let beyond =
+                    self.ceilings[0][start + BLOCK] - back_x - (sx * (BLOCK as f64 - middle) * step + off);
+                most_of[0] = most(most_of[0], beyond);
+            }
+        }
+        if r0 + BLOCK < SIDE {
+            let next = row_at(&self.ceilings[1][..], (r0 + BLOCK) * SIDE + c0);
+            let off = sy * (BLOCK as f64 - middle) * step;
+            for c in 0..BLOCK {
+                most_of[c] = most(most_of[c], next[c] - back_y - (across[c] + off));
+            }
+        }
+        Cover { height: most_of.into_iter().fold(f64::NEG_INFINITY, most), slopes }
+    }
+
+    /// Bounds on a part by block, as [`Sweep::bounds`] has them.
+    pub(super) fn bounds(&self, sweep: &Sweep) -> [f64; BLOCKS] {
+        self.arch.dispatch(Bounds { patch: self, sweep })
+    }
+
+    /// Greatest of tops and ceilings [mm].
+    pub(super) fn highest(&self) -> f64 {
+        self.hull.into_iter().fold(f64::NEG_INFINITY, most)
+    }
+
     /// The blocks that a part may go lower in than the hull and a slack [mm]; where nothing was cut yet, all that it reaches.
     pub(super) fn active(&self, sweep: &Sweep, slack: f64) -> Blocks {
         self.arch.dispatch(Reached { patch: self, sweep, slack })
@@ -246,7 +392,7 @@ impl Patch {
     #[inline(always)]
     fn set_heights(&mut self, (c, r): (usize, usize), heights: &BlockOf<f64>) {
         for (i, row) in heights.iter().enumerate() {
-            self.heights[height_at(r + i, c)..][..BLOCK].copy_from_slice(row);
+            put_row(&mut self.heights[..], height_at(r + i, c), *row);
         }
     }
 
@@ -254,40 +400,33 @@ impl Patch {
     pub(super) fn lower(&mut self, blocks: Blocks) {
         for (c, r) in blocks.corners() {
             for i in 0..BLOCK {
-                self.heights[height_at(r + i, c)..][..BLOCK].fill(f64::INFINITY);
+                put_row(&mut self.heights[..], height_at(r + i, c), [f64::INFINITY; BLOCK]);
             }
         }
     }
 
     /// True if a task may meet, where it should not, something that this patch knows too little about.
     pub(super) fn is_unclear(&self, task: &Task) -> bool {
-        let tool = task.tool;
-        let slack = if tool.edges.is_some() { most_below(self.step).max(self.step) } else { 0.0 };
-        let bodies =
-            [(&tool.contact, Looked::Cutting), (&tool.shank, Looked::Shank), (&tool.holder, Looked::Holder)];
-        bodies.into_iter().any(|(body, looked)| {
-            let asked = looked != Looked::Cutting || task.watch;
-            let bottom = task.tip_range().0 + body.bottom - slack - task.clearance;
-            asked && !body.parts.is_empty() && {
-                let reach = body.radius + 2.0 * self.step;
-                let is_near = |x: f64, y: f64, reach: f64| {
-                    let at = Sweep::exchanged(task, DVec2::new(x, y));
-                    task.piece.plan.distance_squared(at) <= reach * reach
-                };
-                let is_higher = |height: f64| bottom < height + ROUNDING;
-                // Blocks first, then their lines, each with the ways to it.
-                (0..BLOCKS).any(|b| {
-                    is_higher(self.hull[b])
-                        && is_near(self.middles[0][b], self.middles[1][b], reach + self.radius)
-                        && (0..BLOCK * BLOCK).any(|i| {
-                            let (c, r) = (corner(b).0 + i % BLOCK, corner(b).1 + i / BLOCK);
-                            let l = r * SIDE + c;
-                            let ways = most(self.ceilings[0][l], self.ceilings[1][l]);
-                            is_higher(most(self.top[l] * FIXED_STEP, ways))
-                                && is_near(self.x[c], self.y[r], reach + self.step)
-                        })
-                })
-            }
+        bodies(task).into_iter().any(|(body, _)| {
+            let bottom = task.tip_range().0 + body.bottom - lowered(task);
+            let reach = body.radius + 2.0 * self.step;
+            let is_near = |x: f64, y: f64, reach: f64| {
+                let at = Sweep::exchanged(task, DVec2::new(x, y));
+                task.piece.plan.distance_squared(at) <= reach * reach
+            };
+            let is_higher = |height: f64| bottom < height + ROUNDING;
+            // Blocks first, then their lines, each with the ways to it.
+            (0..BLOCKS).any(|b| {
+                is_higher(self.hull[b])
+                    && is_near(self.middles[0][b], self.middles[1][b], reach + self.radius)
+                    && (0..BLOCK * BLOCK).any(|i| {
+                        let (c, r) = (corner(b).0 + i % BLOCK, corner(b).1 + i / BLOCK);
+                        let l = r * SIDE + c;
+                        let ways = most(self.ceilings[0][l], self.ceilings[1][l]);
+                        is_higher(most(self.top[l] * FIXED_STEP, ways))
+                            && is_near(self.x[c], self.y[r], reach + self.step)
+                    })
+            })
         })
     }
 
@@ -299,35 +438,44 @@ impl Patch {
             return None;
         }
         // What is watched and clear meets nothing.
-        if !task.watch {
-            for part in &task.tool.cutting.parts {
-                let sweep = Sweep::new(task, part);
-                let active = self.active(&sweep, 0.0);
-                if active.is_empty() {
-                    continue;
-                }
-                let top = task.tip_range().0 + part.top;
-                let whole = task.removes && task.tool.hollow.is_none();
-                if !whole || (0..BLOCKS).any(|b| active.0 >> b & 1 == 1 && self.hull[b] > top) {
-                    return None;
-                }
-                if !sweep.is_convex() {
-                    self.raise_one_by_one(&sweep, active);
-                    self.sink_ceilings_one_by_one(&sweep, active);
-                }
-                let sunk = self.arch.dispatch(Sink {
-                    patch: self,
-                    sweep: &sweep,
-                    blocks: active,
-                    index: f64::from(index),
-                });
-                for (corner, sunk) in active.corners().zip(&sunk) {
-                    self.note(field, corner, task, sunk, &mut done);
-                }
-                self.lower(active);
-            }
+        if !task.watch && !self.cut(field, task, &mut done) {
+            return None;
         }
         (rising || !self.is_unclear(task)).then_some(done)
+    }
+
+    /// Lets the parts of a task go through the patch, and notes what they take; false, with nothing noted, where it does not take all
+    /// above its underside.
+    pub(super) fn cut(&mut self, field: &Field, task: &Task, done: &mut Done) -> bool {
+        for part in &task.tool.cutting.parts {
+            let sweep = Sweep::new(task, part);
+            let active = self.active(&sweep, 0.0);
+            if active.is_empty() {
+                continue;
+            }
+            let top = task.tip_range().0 + part.top;
+            let whole = task.removes && task.tool.hollow.is_none();
+            if !whole || (0..BLOCKS).any(|b| active.0 >> b & 1 == 1 && self.hull[b] > top) {
+                return false;
+            }
+            let sunk = self.sink(&sweep, active, f64::from(done.task));
+            for (corner, sunk) in active.corners().zip(&sunk) {
+                self.note(field, corner, task, sunk, done);
+            }
+            self.lower(active);
+        }
+        true
+    }
+
+    /// Lets a part go through blocks; its heights stay until they are forgotten.
+    pub(super) fn sink(&mut self, sweep: &Sweep, blocks: Blocks, index: f64) -> [Sunk; BLOCKS] {
+        if !sweep.is_convex() {
+            self.raise_one_by_one(sweep, blocks);
+            if self.between {
+                self.sink_ceilings_one_by_one(sweep, blocks);
+            }
+        }
+        self.arch.dispatch(Sink { patch: self, sweep, blocks, index })
     }
 
     /// Lowers the tops of a block to the heights of a part.
@@ -342,16 +490,17 @@ impl Patch {
             let mut overlap = [0.0; BLOCK];
             for c in 0..BLOCK {
                 let at = most(rounded(heights[c]), bottom[c]);
-                let lower = at < top[c];
-                overlap[c] = if lower { top[c] - at } else { 0.0 };
-                task[c] = if lower { index } else { task[c] };
-                top[c] = if lower { at } else { top[c] };
+                // Heights are whole numbers: of tasks that go equally low the first.
+                let limit = top[c] + if index < task[c] { 0.5 } else { 0.0 };
+                task[c] = if at < limit { index } else { task[c] };
+                overlap[c] = most(top[c] - at, 0.0);
+                top[c] = least(top[c], at);
                 sum[c] += overlap[c];
                 greatest[c] = most(greatest[c], overlap[c]);
             }
-            self.top[start..start + BLOCK].copy_from_slice(&top);
-            self.task[start..start + BLOCK].copy_from_slice(&task);
-            self.overlap[start..start + BLOCK].copy_from_slice(&overlap);
+            put_row(&mut self.top[..], start, top);
+            put_row(&mut self.task[..], start, task);
+            put_row(&mut self.overlap[..], start, overlap);
         }
         Sunk { greatest: greatest.into_iter().fold(0.0, most), sum: sum.into_iter().sum::<f64>() }
     }
@@ -417,8 +566,8 @@ impl Patch {
                 a[c] = least(a[c], most(here[c], left[c]));
                 u[c] = least(u[c], most(here[c], below[c]));
             }
-            along[start..start + BLOCK].copy_from_slice(&a);
-            up[start..start + BLOCK].copy_from_slice(&u);
+            put_row(&mut along[..], start, a);
+            put_row(&mut up[..], start, u);
         }
     }
 
@@ -440,18 +589,59 @@ impl Patch {
         }
     }
 
-    /// For each of its own lines, row by row, the task that went lowest; [`NONE`] where none did.
-    pub(super) fn winners(&self) -> Winners {
-        let of = |task: f64| if task == NO_TASK { NONE } else { task as u32 };
-        (1..SIDE)
-            .flat_map(|r| self.task[r * SIDE + 1..(r + 1) * SIDE].iter().map(move |task| of(*task)))
-            .collect()
+    /// Whether the height down to which a task went over a line lies in the material that was there.
+    fn leaves_end(&self, field: &Field, l: usize, task: &Task) -> bool {
+        let line = field.line(self.first[0] + (l % SIDE) as i64, self.first[1] + (l / SIDE) as i64);
+        let is_in = |interval: &Interval| {
+            let (from, to) = heights(interval, task);
+            f64::from(from) <= self.top[l] && self.top[l] < f64::from(to)
+        };
+        line.is_some_and(|line| field.material(line).iter().any(is_in))
+    }
+
+    /// The tasks that have left an end on a line of the patch: they have taken something, of which no more is known than one rounding.
+    pub(super) fn left(&self, field: &Field, tasks: &[Task]) -> Vec<Done> {
+        let mut all: Vec<(u32, usize)> = Vec::new();
+        for (l, task) in self.task.iter().enumerate().filter(|(_, task)| **task != NO_TASK) {
+            if !self.simple && !self.leaves_end(field, l, &tasks[*task as usize]) {
+                continue;
+            }
+            if all.last().is_none_or(|(last, _)| *last != *task as u32) {
+                all.push((*task as u32, l));
+            }
+        }
+        all.sort_unstable();
+        all.dedup_by_key(|(task, _)| *task);
+        let point = |task: &Task, l: usize| {
+            let over = Sweep::exchanged(task, DVec2::new(self.x[l % SIDE], self.y[l / SIDE]));
+            task.frame.stock(over.extend(self.top[l] * FIXED_STEP)).to_array()
+        };
+        let done = |(task, l)| {
+            let first = Some((1.0, point(&tasks[task as usize], l)));
+            Done { task, removed: 1, deepest: 1, first }
+        };
+        all.into_iter().map(done).collect()
+    }
+
+    /// The heights of the own lines that a task has cut, and the tasks.
+    pub(super) fn cut_tops(&self) -> Box<Tops> {
+        let mut tops = Box::new(Tops::UNCUT);
+        for r in 1..SIDE {
+            for c in 1..SIDE {
+                let (l, own) = (r * SIDE + c, (r - 1) * OWN as usize + c - 1);
+                if self.task[l] != NO_TASK {
+                    tops.at[own] = self.top[l] as i32;
+                    tops.by[own] = self.task[l] as u32;
+                }
+            }
+        }
+        tops
     }
 }
 
 /// What a part took out of a block [fixed steps]: the most of one line, and of all.
 #[derive(Clone, Copy, Debug, Default)]
-struct Sunk {
+pub(super) struct Sunk {
     greatest: f64,
     sum: f64,
 }
@@ -480,6 +670,54 @@ impl NullaryFnOnce for Reached<'_, '_> {
     }
 }
 
+/// Planes below a part by block.
+struct Tangents<'a, 'b> {
+    patch: &'a Patch,
+    sweep: &'a Sweep<'b>,
+}
+
+impl NullaryFnOnce for Tangents<'_, '_> {
+    type Output = [[f64; BLOCKS]; 3];
+
+    #[inline(always)]
+    fn call(self) -> [[f64; BLOCKS]; 3] {
+        let Tangents { patch, sweep } = self;
+        sweep.planes(&patch.middles[0], &patch.middles[1])
+    }
+}
+
+/// The covers of all blocks.
+struct Covers<'a>(&'a Patch);
+
+impl NullaryFnOnce for Covers<'_> {
+    type Output = [Cover; BLOCKS];
+
+    #[inline(always)]
+    fn call(self) -> [Cover; BLOCKS] {
+        let mut covers = [Cover::default(); BLOCKS];
+        for (b, cover) in covers.iter_mut().enumerate() {
+            *cover = self.0.cover_of(b);
+        }
+        covers
+    }
+}
+
+/// Bounds on a part by block.
+struct Bounds<'a, 'b> {
+    patch: &'a Patch,
+    sweep: &'a Sweep<'b>,
+}
+
+impl NullaryFnOnce for Bounds<'_, '_> {
+    type Output = [f64; BLOCKS];
+
+    #[inline(always)]
+    fn call(self) -> [f64; BLOCKS] {
+        let Bounds { patch, sweep } = self;
+        sweep.bounds(&patch.middles[0], &patch.middles[1], patch.radius)
+    }
+}
+
 /// A part goes through blocks; if it is along a straight path its heights are computed.
 struct Sink<'a, 'b> {
     patch: &'a mut Patch,
@@ -501,12 +739,19 @@ impl NullaryFnOnce for Sink<'_, '_> {
         let mut sunk = [Sunk::default(); BLOCKS];
         for (corner, sunk) in blocks.corners().zip(&mut sunk) {
             *sunk = patch.sink_tops(corner, index);
-            if convex {
+            if convex && patch.between {
                 patch.sink_ceilings(corner);
             }
         }
         for b in (0..BLOCKS).filter(|b| blocks.0 >> b & 1 == 1) {
             patch.hull[b] = patch.hull_of(b);
+            patch.latest[b] = patch.latest_of(b);
+        }
+        if let Some(mut covers) = patch.covers {
+            for b in (0..BLOCKS).filter(|b| blocks.0 >> b & 1 == 1) {
+                covers[b] = patch.cover_of(b);
+            }
+            patch.covers = Some(covers);
         }
         sunk
     }
@@ -515,7 +760,14 @@ impl NullaryFnOnce for Sink<'_, '_> {
 /// A row of a block.
 #[inline(always)]
 pub(super) fn row_at(of: &[f64], start: usize) -> [f64; BLOCK] {
-    let mut row = [0.0; BLOCK];
-    row.copy_from_slice(&of[start..start + BLOCK]);
-    row
+    // Not by copying a slice: that is a call unless the compiler sees its length.
+    of[start..].first_chunk().copied().unwrap_or_default()
+}
+
+/// Puts a row of a block in its place.
+#[inline(always)]
+pub(super) fn put_row(of: &mut [f64], start: usize, row: [f64; BLOCK]) {
+    if let Some(place) = of[start..].first_chunk_mut() {
+        *place = row;
+    }
 }

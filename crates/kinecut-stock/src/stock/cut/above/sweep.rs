@@ -105,33 +105,131 @@ impl<'a> Sweep<'a> {
     /// reached.
     #[inline(always)]
     pub(super) fn bounds<const N: usize>(&self, x: &[f64; N], y: &[f64; N], radius: f64) -> [f64; N] {
-        let mut bounds = [0.0; N];
         let part = self.part;
-        match &self.straight {
-            Some(path) => {
-                let reach = part.r1 + radius;
-                for i in 0..N {
-                    let (along, beside) = path.place(x[i], y[i]);
-                    let off = along - most(0.0, least(along, path.length));
-                    let d = most((off * off + beside * beside).sqrt() - radius, 0.0);
-                    // The tip is no lower than at the ends of the way on which the disc is reached.
-                    let ends = [along - reach, along + reach].map(|t| most(0.0, least(t, path.length)));
-                    let tip = path.from + least(path.slope * ends[0], path.slope * ends[1]);
-                    bounds[i] = if d > part.r1 { f64::INFINITY } else { tip + self.foot(d) };
+        let Some(path) = &self.straight else {
+            let mut bounds = [f64::INFINITY; N];
+            for i in 0..N {
+                let d = self.piece.plan.distance_squared(DVec2::new(x[i], y[i])).sqrt() - radius;
+                if d <= part.r1 {
+                    bounds[i] = self.low + part.height(d.clamp(0.0, part.r1));
                 }
             }
-            None => {
-                for i in 0..N {
-                    let d = self.piece.plan.distance_squared(DVec2::new(x[i], y[i])).sqrt() - radius;
-                    bounds[i] = if d > part.r1 {
-                        f64::INFINITY
-                    } else {
-                        self.low + part.height(d.clamp(0.0, part.r1))
-                    };
-                }
+            return bounds;
+        };
+        let (z0, r0) = (part.z0, part.r0);
+        // Not in the loop: a choice there is made for one after the other.
+        match part.foot {
+            Foot::Flat => self.bounds_along(path, [x, y], radius, |_| z0),
+            Foot::Cone { rise } => self.bounds_along(path, [x, y], radius, |d| z0 + rise * most(d - r0, 0.0)),
+            Foot::Torus { centre_radius, centre_z, radius: r } => {
+                let foot = |d: f64| {
+                    let off = d - centre_radius;
+                    let h = centre_z - root((r - off) * (r + off));
+                    if d <= r0 { z0 } else { h }
+                };
+                self.bounds_along(path, [x, y], radius, foot)
             }
         }
+    }
+
+    /// Bounds along a straight path, by the height of the foot at a distance from the axis.
+    #[inline(always)]
+    fn bounds_along<const N: usize>(
+        &self,
+        path: &Straight,
+        [x, y]: [&[f64; N]; 2],
+        radius: f64,
+        foot: impl Fn(f64) -> f64,
+    ) -> [f64; N] {
+        let (r1, reach) = (self.part.r1, self.part.r1 + radius);
+        let mut bounds = [0.0; N];
+        for i in 0..N {
+            let (along, beside) = path.place(x[i], y[i]);
+            let off = along - most(0.0, least(along, path.length));
+            let d = most((off * off + beside * beside).sqrt() - radius, 0.0);
+            // The tip is no lower than at the ends of the way on which the disc is reached.
+            let first = most(0.0, least(along - reach, path.length));
+            let last = most(0.0, least(along + reach, path.length));
+            let tip = path.from + least(path.slope * first, path.slope * last);
+            let bound = tip + foot(least(d, r1));
+            bounds[i] = if d > r1 { f64::INFINITY } else { bound };
+        }
         bounds
+    }
+
+    /// For each of some middles a plane that no point of what is swept lies below: its height over the middle, and its slopes along x
+    /// and y. Without a straight path there is none.
+    ///
+    /// The plane is square to a normal of the part, near the one at the lowest place over the middle. However near, it lies as low as the
+    /// part reaches in its direction at either end of the path: what is swept is convex.
+    #[inline(always)]
+    pub(super) fn planes<const N: usize>(&self, x: &[f64; N], y: &[f64; N]) -> [[f64; N]; 3] {
+        let Some(path) = &self.straight else {
+            return [[f64::NEG_INFINITY; N], [0.0; N], [0.0; N]];
+        };
+        let part = self.part;
+        match part.foot {
+            Foot::Flat => self.planes_along(path, [x, y], |_| 0.0),
+            Foot::Cone { rise } => {
+                let sine = rise / rise.hypot(1.0);
+                self.planes_along(path, [x, y], |rho| if rho > part.r0 { sine } else { 0.0 })
+            }
+            Foot::Torus { centre_radius, radius, .. } => {
+                self.planes_along(path, [x, y], |rho| most((rho - centre_radius) / radius, 0.0))
+            }
+        }
+    }
+
+    /// Planes along a straight path, by the sine of the angle of the normal to the tool axis at a distance from it.
+    #[inline(always)]
+    fn planes_along<const N: usize>(
+        &self,
+        path: &Straight,
+        [x, y]: [&[f64; N]; 2],
+        sine: impl Fn(f64) -> f64,
+    ) -> [[f64; N]; 3] {
+        /// Steepest normal: beyond it a plane says little of heights.
+        const MOST: f64 = 0.98;
+        let part = self.part;
+        // The foot reaches lowest at one of its rims, or on its arc.
+        let (r, z) = match part.foot {
+            Foot::Torus { centre_radius, centre_z, .. } => (centre_radius, centre_z),
+            Foot::Flat | Foot::Cone { .. } => (part.r1, part.z1),
+        };
+        let arc = if let Foot::Torus { radius, .. } = part.foot { radius } else { 0.0 };
+        let k = path.slope;
+        let [mut height, mut along_x, mut along_y] = [[0.0; N]; 3];
+        for i in 0..N {
+            let (along, beside) = path.place(x[i], y[i]);
+            let t = most(0.0, least(along, path.length));
+            // From the axis of the tool to the middle.
+            let off = along - t;
+            let rho = (off * off + beside * beside).sqrt();
+            let s = least(sine(rho), MOST);
+            let share = s / most(rho, 1e-12);
+            // The normal by its parts along the path and beside it, and downwards.
+            let down = root((1.0 - s) * (1.0 + s));
+            let (a, b) = (off * share, beside * share);
+            // Square to a path that is long enough to have a say.
+            let tilt = (a - k * down) / (1.0 + k * k);
+            let free = (along > 0.0) & (along < path.length);
+            let (a, down) = if free { (a - tilt, down + k * tilt) } else { (a, down) };
+            let across = (a * a + b * b).sqrt();
+            let low = most(down, 1e-3);
+            // How far the part reaches in the direction of the normal from the tip: the arc goes with the normal's length.
+            let long = (across * across + down * down).sqrt();
+            let reach = most(part.r0 * across - part.z0 * down, r * across - z * down + arc * long);
+            // The tip at the start and at the end.
+            let ends = most(0.0, (a - k * down) * path.length);
+            // n . q - n . start - reach - the further end, over what points down.
+            let over = along * a + beside * b - (reach + ends);
+            height[i] = if down > 1e-3 { path.from + over / low } else { f64::NEG_INFINITY };
+            // The ways along the path and beside it, in x and y.
+            let (gx, gy) = (a * path.way.x + b * path.way.y, a * path.way.y - b * path.way.x);
+            along_x[i] = gx / low;
+            along_y[i] = gy / low;
+        }
+        [height, along_x, along_y]
     }
 
     /// The lowest height over each line of a block, line by line; infinite where the part does not pass.
@@ -241,21 +339,6 @@ impl<'a> Sweep<'a> {
                 *h = if l > r1 || first > last { f64::INFINITY } else { low };
             }
         }
-    }
-
-    /// Height of the part at a distance from its axis.
-    #[inline(always)]
-    fn foot(&self, rho: f64) -> f64 {
-        let part = self.part;
-        let beyond = match part.foot {
-            Foot::Flat => part.z0,
-            Foot::Cone { rise } => part.z0 + rise * (rho - part.r0),
-            Foot::Torus { centre_radius, centre_z, radius } => {
-                let d = rho - centre_radius;
-                centre_z - root(radius * radius - d * d)
-            }
-        };
-        if rho <= part.r0 { part.z0 } else { beyond }
     }
 
     /// The lowest height over a line, and the fraction of the piece at which it is reached.

@@ -1,11 +1,12 @@
-//! A stock cut in runs, and move after move: the two are compared line by line.
+//! A stock cut in runs, at once, and move after move: they are compared line by line.
 
 use crate::base::Silent;
 use crate::stock::cut::run::{Order, cut_as};
 use crate::stock::cut::{CutList, CutMove, CutOptions, MoveEffect, ToolBody};
 use crate::stock::{Axis, DexelGrid, Interval, TriDexel};
 
-/// Cuts a stock in runs and move after move, and compares all lines; returns the effects of both.
+/// Cuts a stock in runs, long or however short, and move after move, and compares all lines; returns the effects of the runs as they
+/// are used, and of the moves.
 pub(super) fn compare(
     stock: &TriDexel,
     bodies: &[ToolBody],
@@ -15,13 +16,23 @@ pub(super) fn compare(
 ) -> [Vec<MoveEffect>; 2] {
     let step = stock.lattice().step;
     let list = CutList::new(bodies, moves.to_vec(), &CutOptions::default(), step).unwrap();
-    let cut = [Order::InRuns, Order::OneByOne].map(|order| {
+    let [runs, at_once, singly] = [Order::InRuns, Order::AtOnce, Order::OneByOne].map(|order| {
         let mut stock = stock.clone();
         let effects = cut_as(&mut stock, &list, 0..moves.len(), order, &Silent).unwrap();
         (stock, effects)
     });
-    compare_lines([&cut[0].0, &cut[1].0], what, is_same);
-    cut.map(|(_, effects)| effects)
+    compare_lines([&runs.0, &singly.0], what, is_same);
+    compare_lines([&at_once.0, &singly.0], &format!("{what}, at once"), is_same);
+    for (i, (some, exact)) in at_once.1.iter().zip(&singly.1).enumerate() {
+        // A move that leaves an end, or takes something from a line that is looked at, has met something.
+        assert!(
+            some.first_contact.is_none() || exact.first_contact.is_some() || exact.removed > 0.0,
+            "{what}, move {i}: {some:?} {exact:?} {:?}",
+            moves[i].curve
+        );
+        assert_eq!((some.shank(), some.holder()), (exact.shank(), exact.holder()), "{what}, at once, move {i}");
+    }
+    [runs.1, singly.1]
 }
 
 /// Compares all lines of two stocks over one lattice.

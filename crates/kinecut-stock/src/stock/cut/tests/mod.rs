@@ -9,4 +9,4 @@ mod hollow;
 mod in_two_ways;
 mod late;
 mod leaning;
-mod reference;
+pub(super) mod reference;

@@ -165,15 +165,15 @@ impl Swept {
 }
 
 /// Numbers that repeat: a linear congruential generator.
-pub(super) struct Random(pub(super) u64);
+pub(in crate::stock::cut) struct Random(pub(in crate::stock::cut) u64);
 
 impl Random {
-    pub(super) fn unit(&mut self) -> f64 {
+    pub(in crate::stock::cut) fn unit(&mut self) -> f64 {
         self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
         (self.0 >> 11) as f64 / (1u64 << 53) as f64
     }
 
-    pub(super) fn within(&mut self, from: f64, to: f64) -> f64 {
+    pub(in crate::stock::cut) fn within(&mut self, from: f64, to: f64) -> f64 {
         from + (to - from) * self.unit()
     }
 

@@ -1,0 +1,122 @@
+//! Many tasks over a patch, of which only the outcome counts: in any order, those first that go lowest.
+//!
+//! The outcome is that of taking them one after another: the least height of each line and ceiling, and of tasks that go equally low
+//! the first. A block that has been cut to about its final height leaves nearly all other tasks out.
+//!
+//! The amounts that moves remove depend on the order: they are measured on some of the lines (`Field::sparse`), no more than a quarter
+//! of the radius of the thinnest tool apart.
+
+use rayon::prelude::*;
+
+use super::super::body::ConvexPart;
+use super::super::effect::Looked;
+use super::super::task::Task;
+use super::Done;
+use super::field::Field;
+use super::patch::{BLOCKS, Patch, ROUNDING, bodies, lowered};
+use super::sweep::Sweep;
+use crate::base::Progress;
+
+/// Distances of the lines on which amounts are measured, to a radius of the tool.
+const LINES: f64 = 4.0;
+
+/// Largest stride of these lines: as long as an edge of a tile.
+const MOST_STRIDE: f64 = 16.0;
+
+/// Stride of the lines on which amounts are measured; 1 where all are needed.
+pub(in crate::stock::cut) fn stride(tasks: &[Task], step: f64) -> i64 {
+    let cutting = tasks.iter().filter(|task| !task.watch);
+    let radius = cutting.map(|task| task.tool.cutting.radius).fold(f64::INFINITY, f64::min);
+    (radius / (LINES * step)).clamp(1.0, MOST_STRIDE) as i64
+}
+
+/// Measures what tasks remove, one after another, on the lines of a sparse field.
+pub(super) fn measure(field: &Field, tasks: &[Task], progress: &dyn Progress) -> Vec<Done> {
+    let bins = field.bins(tasks);
+    let one = |(p, bin): (usize, &Vec<u32>)| {
+        let mut patch = Patch::new(field, p, None).with_lines(field);
+        let mut all = Vec::new();
+        for index in bin {
+            let task = &tasks[*index as usize];
+            if task.watch || progress.cancelled() {
+                continue;
+            }
+            let mut done = Done { task: *index, removed: 0, deepest: 0, first: None };
+            patch.cut(field, task, &mut done);
+            if done.removed > 0 || done.first.is_some() {
+                done.removed *= field.stride * field.stride;
+                all.push(done);
+            }
+        }
+        all
+    };
+    bins.par_iter().enumerate().filter(|(_, bin)| !bin.is_empty()).flat_map_iter(one).collect()
+}
+
+/// Whether only the outcome of a task counts in a patch with material up to a height: it takes all above its underside, or is known to
+/// meet nothing, and what does not cut stays above.
+pub(super) fn is_plain(task: &Task, highest: f64) -> bool {
+    let tip = task.tip_range().0;
+    let cuts = || {
+        let reaches = |part: &ConvexPart| tip + part.top >= highest;
+        task.removes && task.tool.hollow.is_none() && task.tool.cutting.parts.iter().all(reaches)
+    };
+    let is_above = |bottom: f64| tip + bottom - lowered(task) >= highest + ROUNDING;
+    let asked = bodies(task).into_iter().filter(|(_, looked)| *looked != Looked::Cutting);
+    (task.free || !task.watch && cuts()) && asked.into_iter().all(|(body, _)| is_above(body.bottom))
+}
+
+/// A task's part with its bounds on the blocks of a patch.
+struct Bounded<'a> {
+    index: u32,
+    sweep: Sweep<'a>,
+    bounds: [f64; BLOCKS],
+}
+
+/// Lets tasks of a run go over a patch: each takes all above its underside.
+pub(super) fn cut(patch: &mut Patch, group: &[u32], tasks: &[Task]) {
+    let mut all: Vec<Bounded> = Vec::with_capacity(group.len());
+    for index in group {
+        let task = &tasks[*index as usize];
+        // One that is watched meets nothing.
+        let parts = if task.watch { &[][..] } else { &task.tool.cutting.parts };
+        for part in parts {
+            let sweep = Sweep::new(task, part);
+            let bounds = patch.bounds(&sweep);
+            if !patch.open_to(&bounds, f64::from(*index)).is_empty() {
+                all.push(Bounded { index: *index, sweep, bounds });
+            }
+        }
+    }
+    // The one that may go lowest in each block, then all others in their order.
+    let mut lowest = [None::<(usize, f64)>; BLOCKS];
+    for (i, one) in all.iter().enumerate() {
+        for (lowest, bound) in lowest.iter_mut().zip(one.bounds) {
+            if lowest.is_none_or(|(_, least)| bound < least) {
+                *lowest = Some((i, bound));
+            }
+        }
+    }
+    let mut first: Vec<usize> = lowest.iter().flatten().map(|(i, _)| *i).collect();
+    first.sort_unstable();
+    first.dedup();
+    let go = |patch: &mut Patch, one: &Bounded| {
+        let index = f64::from(one.index);
+        let mut open = patch.open_to(&one.bounds, index);
+        if !open.is_empty() {
+            open = patch.open_by_planes(&one.sweep, open, index);
+        }
+        if !open.is_empty() {
+            patch.sink(&one.sweep, open, index);
+            patch.lower(open);
+        }
+    };
+    first.iter().for_each(|i| go(patch, &all[*i]));
+    patch.keep_covers();
+    let mut done = first.iter().peekable();
+    for (i, one) in all.iter().enumerate() {
+        if done.next_if_eq(&&i).is_none() {
+            go(patch, one);
+        }
+    }
+}

@@ -1,0 +1,140 @@
+//! Lines along the tool axis that are cut late: how far down, and by which move, is kept; the ends of the lines follow when somebody
+//! reads them.
+
+use std::collections::BTreeMap;
+use std::ops::Range;
+use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
+
+use glam::DVec2;
+use rayon::prelude::*;
+
+use super::super::axis::ToolFrame;
+use super::super::task::{Task, TileLines};
+use super::super::tile_axial::cut_above;
+use super::super::upright::tasks_of;
+use super::field::OWN;
+use super::late::Late;
+use super::patch::NONE;
+use crate::base::Progress;
+use crate::stock::Lattice;
+use crate::stock::tile::TILE_EDGE;
+use crate::stock::tri_dexel::Grid;
+
+/// Lines of a patch that are its own.
+pub(super) const OWN_LINES: usize = (OWN * OWN) as usize;
+
+/// The own lines of a patch, row by row.
+#[derive(Clone, Debug)]
+pub(in crate::stock) struct Tops {
+    /// Heights in the tool frame above which nothing is left [fixed steps].
+    pub(super) at: [i32; OWN_LINES],
+    /// Numbers of the moves that went down to them, among those that are owed; [`NONE`] where the line is as it is in the grid.
+    pub(super) by: [u32; OWN_LINES],
+}
+
+impl Tops {
+    /// All lines are as they are in the grid.
+    pub(super) const UNCUT: Tops = Tops { at: [i32::MAX; OWN_LINES], by: [NONE; OWN_LINES] };
+
+    /// Adds lines that tasks have cut since to those that are kept; `number` is that of a task's move.
+    pub(super) fn add_to(mut self: Box<Tops>, kept: &mut Option<Box<Tops>>, number: impl Fn(u32) -> u32) {
+        for by in self.by.iter_mut().filter(|by| **by != NONE) {
+            *by = number(*by);
+        }
+        match kept {
+            None => *kept = Some(self),
+            Some(kept) => {
+                for line in (0..OWN_LINES).filter(|line| self.by[*line] != NONE) {
+                    (kept.at[line], kept.by[line]) = (self.at[line], self.by[line]);
+                }
+            }
+        }
+    }
+}
+
+/// The heights of the lines of a field, by patch.
+#[derive(Clone, Copy)]
+pub(in crate::stock) struct Kept<'a> {
+    pub(super) tops: &'a [Option<Box<Tops>>],
+    /// Number of patches along the first direction.
+    pub(super) across: usize,
+}
+
+impl Kept<'_> {
+    /// The height above which nothing is left on a line, in the tool frame [fixed steps]; `None` where it is as it is in the grid.
+    pub(in crate::stock) fn top(&self, a: usize, b: usize) -> Option<i32> {
+        let own = OWN as usize;
+        let tops = self.tops[b / own * self.across + a / own].as_ref()?;
+        let line = b % own * own + a % own;
+        (tops.by[line] != NONE).then_some(tops.at[line])
+    }
+}
+
+/// Cuts the lines of the patches of a rectangle that are behind, and forgets their heights.
+pub(super) fn settle(
+    grid: &mut Grid,
+    (lattice, frame): (&Lattice, &ToolFrame),
+    (tops, across): (&mut [Option<Box<Tops>>], usize),
+    rectangle: &[Range<usize>; 2],
+    late: &Late,
+    progress: &dyn Progress,
+) {
+    let [columns, rows] = rectangle;
+    let inside = |p: usize| columns.contains(&(p % across)) && rows.contains(&(p / across));
+    let (own, edge) = (OWN as usize, TILE_EDGE as usize);
+    let tiles_across = grid.tiles_across().map(|n| n as usize);
+    // A tile has lines of up to two patches along both directions.
+    let mut reached = vec![false; grid.tiles.len()];
+    for (p, _) in tops.iter().enumerate().filter(|(p, tops)| tops.is_some() && inside(*p)) {
+        let tiles = |at: usize, across: usize| at * own / edge..((at * own + own - 1) / edge + 1).min(across);
+        for row in tiles(p / across, tiles_across[1]) {
+            for column in tiles(p % across, tiles_across[0]) {
+                reached[row * tiles_across[0] + column] = true;
+            }
+        }
+    }
+    let stopped = AtomicBool::new(false);
+    let (empty, kept) = (grid.without_lines(), &*tops);
+    let work = grid.tiles.par_iter_mut().enumerate().filter(|(t, _)| reached[*t]);
+    work.for_each(|(t, tile)| {
+        if progress.cancelled() {
+            stopped.store(true, Relaxed);
+            return;
+        }
+        let places = TileLines::new(&empty, lattice, t);
+        let (first, size) = empty.tile_lines(t);
+        let mut moves: BTreeMap<u32, Vec<Task>> = BTreeMap::new();
+        for j in 0..size[1] as usize {
+            let b = first[1] as usize + j;
+            for i in 0..size[0] as usize {
+                let a = first[0] as usize + i;
+                let p = b / own * across + a / own;
+                let Some(tops) = kept[p].as_ref().filter(|_| inside(p)) else { continue };
+                let by = tops.by[b % own * own + a % own];
+                if by == NONE {
+                    continue;
+                }
+                let tasks = moves.entry(by).or_insert_with(|| late.tasks_of_move(by, frame));
+                let (p, q) = (places.at[0][i], places.at[1][j]);
+                let over = if frame.sign < 0.0 { DVec2::new(q, p) } else { DVec2::new(p, q) };
+                cut_above(tile, j * edge + i, over, tasks);
+            }
+        }
+    });
+    if !stopped.load(Relaxed) {
+        for (_, tops) in tops.iter_mut().enumerate().filter(|(p, _)| inside(*p)) {
+            *tops = None;
+        }
+    }
+}
+
+impl Late {
+    /// The tasks of a move by its number.
+    fn tasks_of_move(&self, number: u32, frame: &ToolFrame) -> Vec<Task<'_>> {
+        let mut tasks = Vec::new();
+        if let Some((list, at)) = self.owed(number as usize) {
+            tasks_of(list, at, frame, number, &mut tasks);
+        }
+        tasks
+    }
+}
