@@ -272,20 +272,26 @@ impl TriDexel {
 
     /// Before more is cut: lines that were cut apart, as somebody has read them, become the stock's own.
     pub(super) fn take_back(&mut self) {
-        if self.whole.get().is_some() || self.whole_along.get().is_some() {
+        self.take_back_along();
+        if self.whole.get().is_some() {
             self.settle(&Silent);
+        }
+    }
+
+    /// The same for the lines along the tool axis alone.
+    fn take_back_along(&mut self) {
+        if let (Some(grid), Some(above)) = (self.whole_along.take(), &mut self.above) {
+            let axis = grid.axis;
+            self.grids[axis.index()] = *grid;
+            above.owe_nothing_along();
         }
     }
 
     /// Lets moves cut the lines that they have left for later: those across the axis of upright tools. Whoever reads these lines without
     /// this waits for it then. When it is cancelled they are left for later still.
     pub fn settle(&mut self, progress: &dyn Progress) {
+        self.take_back_along();
         let Some(above) = &mut self.above else { return };
-        if let Some(grid) = self.whole_along.take() {
-            let axis = grid.axis;
-            self.grids[axis.index()] = *grid;
-            above.owe_nothing_along();
-        }
         match self.whole.take() {
             Some(whole) => {
                 for (own, grid) in self.grids.iter_mut().zip(*whole) {
@@ -299,6 +305,16 @@ impl TriDexel {
                 }
             }
             None => above.settle(&mut self.grids, (&self.lattice, self.bounds), progress),
+        }
+    }
+
+    /// The same for the lines along the tool axis alone: before somebody reads some of them. It costs what moves have cut since.
+    pub fn settle_along(&mut self, progress: &dyn Progress) {
+        self.take_back_along();
+        if let Some(above) = &mut self.above
+            && above.owes(above.along())
+        {
+            above.settle_along(&mut self.grids[above.along().index()], &self.lattice, progress);
         }
     }
 

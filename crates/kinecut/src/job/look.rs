@@ -1,7 +1,10 @@
 //! Questions of the rules about the stock between two cuts: at a tool that stands still, and before it goes down.
 
+use glam::DVec3;
+
 use super::check::Job;
-use crate::geom::Profile;
+use crate::base::Silent;
+use crate::geom::{Aabb, Profile};
 use crate::stock::TriDexel;
 use crate::stock::cut::ToolBody;
 use crate::stock::near::{above, face_below, highest, touches};
@@ -35,7 +38,7 @@ pub struct StandContact {
     pub stand: usize,
     /// Whether its edges or its shank touch material.
     pub touches: bool,
-    /// Height of the highest material above its tip, along its axis [mm].
+    /// Height of the highest material above its tip, along its axis [mm]; where the tool stands above the raw stock that of its box.
     pub below: f64,
 }
 
@@ -98,6 +101,11 @@ pub(super) fn looks(job: &Job, trace: &Trace) -> Vec<(u32, Look)> {
     list
 }
 
+/// Greatest height of a box along an axis [mm].
+fn top(bounds: Aabb, axis: DVec3) -> f64 {
+    (bounds.min * axis).max(bounds.max * axis).element_sum()
+}
+
 /// Whether a tool goes down along its axis at feed.
 fn goes_down(segment: &Segment) -> bool {
     let way = segment.curve.end() - segment.curve.start();
@@ -134,7 +142,7 @@ impl Looks {
         look: Look,
         (job, trace): (&Job, &Trace),
         bodies: &[ToolBody],
-        stock: &TriDexel,
+        stock: &mut TriDexel,
     ) {
         match look {
             Look::Stand(index) => {
@@ -142,6 +150,13 @@ impl Looks {
                 let body = job.tools.iter().position(|t| t.number == stand.tool).map(|i| &bodies[i]);
                 if let Some(body) = body {
                     let (tip, axis) = (stand.tip, stand.axis);
+                    let most = top(stock.bounds(), axis) - tip.dot(axis);
+                    if most <= -TOUCH {
+                        self.stands.push(StandContact { stand: index, touches: false, below: most });
+                        return;
+                    }
+                    stock.settle_along(&Silent);
+                    let stock = &*stock;
                     let below = highest(stock, axis).map_or(f64::NEG_INFINITY, |top| top - tip.dot(axis));
                     let touches = below > -TOUCH && touches(stock, &parts(body), tip, axis, TOUCH);
                     self.stands.push(StandContact { stand: index, touches, below });
@@ -154,7 +169,8 @@ impl Looks {
                 let (start, axis) = segment.tool_at(0.0);
                 let radius = 0.5 * tool.cutter.diameter(tool.flute_length);
                 let reach = (segment.curve.end() - start).length() + tool.cutter.tip_height();
-                if let Some(normal) = face_below(stock, start, axis, radius, reach) {
+                stock.settle_along(&Silent);
+                if let Some(normal) = face_below(&*stock, start, axis, radius, reach) {
                     self.entries.push(DrillEntry { segment: index, angle: normal.angle_between(axis) });
                 }
             }
@@ -162,6 +178,8 @@ impl Looks {
                 let segment = &trace.segments[index];
                 let tool = segment.tool.and_then(|n| job.tools.iter().find(|t| t.number == n));
                 if let Some(tool) = tool {
+                    stock.settle_along(&Silent);
+                    let stock = &*stock;
                     // The flat of a face mill is at its tip.
                     let radius = 0.5 * DEAD_CENTRE * tool.cutter.diameter(0.0);
                     let core = |i: u32| {

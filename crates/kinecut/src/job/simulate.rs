@@ -132,14 +132,18 @@ pub fn simulate(
                 }
                 Pause::Probe(p) => {
                     let probe = &probes[p];
+                    simulation.stock.settle_along(progress);
                     let axis = CutAxis::of(probe.out).ok_or_else(off_axis)?;
                     measured[p] = Some(point_engagement(&simulation.stock, &probe.edge, probe.at, axis));
                 }
                 Pause::Face(f) => {
+                    simulation.stock.settle_along(progress);
                     let axis = CutAxis::of(faces[f].out).ok_or_else(off_axis)?;
                     simulation.walls[f] = wall_ends(&simulation.stock, axis, faces[f].height).1;
                 }
-                Pause::Look(look) => looked.answer(look, (job, trace), &bodies, &simulation.stock),
+                Pause::Look(look) => {
+                    looked.answer(look, (job, trace), &bodies, &mut simulation.stock);
+                }
             }
         }
         append(&mut effects, cut_list(&mut simulation.stock, list, done..count, progress)?);
