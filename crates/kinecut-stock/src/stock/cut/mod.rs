@@ -199,9 +199,9 @@ pub struct Edge {
 
 /// Effect of a move on the stock: removed volume and depths on the lines along the tool axis, contacts on all lines.
 ///
-/// In long runs of moves that lean or turn, and are meant to cut, `removed`, `deepest` and `first_contact` are measured on some of
-/// the lines: no more than a quarter of the radius of the run's thinnest tool apart, or all where the lines of the stock are no
-/// closer; along the axis of the stock that is nearest to most of the run's tool axes, for a tool within 53 degrees of it. A move
+/// In long runs of moves that are meant to cut, `removed`, `deepest` and `first_contact` are measured on some of the lines: no more
+/// than a quarter of the radius of the run's thinnest tool apart, or all where the lines of the stock are no closer; of tools that lean
+/// or turn along the axis of the stock that is nearest to most of the run's tool axes, for a tool within 53 degrees of it. A move
 /// between those lines that leaves a surface is told as removing one square of a step, [`FIXED_STEP`](crate::stock::FIXED_STEP)
 /// deep; one that leaves none is told as removing nothing.
 #[derive(Clone, Debug, Default, PartialEq)]

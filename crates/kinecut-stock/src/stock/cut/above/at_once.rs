@@ -104,7 +104,7 @@ pub(super) fn cut(patch: &mut Patch, group: &[u32], tasks: &[Task]) {
         let index = f64::from(one.index);
         let mut open = patch.open_to(&one.bounds, index);
         if !open.is_empty() {
-            open = patch.open_by_planes(&one.sweep, open, index);
+            open = patch.open_by_planes(&one.sweep, open, |block| patch.slack(block, index));
         }
         if !open.is_empty() {
             patch.sink(&one.sweep, open, index);
@@ -112,7 +112,7 @@ pub(super) fn cut(patch: &mut Patch, group: &[u32], tasks: &[Task]) {
         }
     };
     first.iter().for_each(|i| go(patch, &all[*i]));
-    patch.keep_covers();
+    patch.keep_covers(false);
     let mut done = first.iter().peekable();
     for (i, one) in all.iter().enumerate() {
         if done.next_if_eq(&&i).is_none() {

@@ -37,19 +37,27 @@ impl Patch {
     pub(super) fn claim(&mut self, layers: &Layers, index: u32, task: &Task, claims: &mut [Vec<Claim>; 2]) {
         for part in &task.tool.cutting.parts {
             let sweep = Sweep::new(task, part);
-            let blocks = self.active(&sweep, 4.0 * ROUNDING);
+            let mut blocks = self.active(&sweep, 4.0 * ROUNDING);
+            if !blocks.is_empty() {
+                blocks = self.open_by_planes(&sweep, blocks, |_| 4.0 * ROUNDING);
+            }
             if blocks.is_empty() {
                 continue;
             }
             let claimed = self.arch.dispatch(Bound { patch: self, sweep: &sweep, blocks });
             for ((c0, r0), claimed) in blocks.corners().zip(claimed) {
-                for k in (0..2).filter(|k| claimed[*k]) {
-                    for i in 0..BLOCK {
-                        for j in 0..BLOCK {
-                            // One way after the other along a row.
-                            let (r, c) = if k == 0 { (i, j) } else { (j, i) };
-                            self.claim_way(layers, (r0 + r, c0 + c, k), (index, &sweep), &mut claims[k]);
-                        }
+                for (k, rows) in claimed.into_iter().enumerate() {
+                    // One way after the other along a row.
+                    let ways = (0..BLOCK * BLOCK).filter(|i| match k {
+                        0 => rows[i / BLOCK] >> (i % BLOCK) & 1 == 1,
+                        _ => rows[i % BLOCK] >> (i / BLOCK) & 1 == 1,
+                    });
+                    if rows == [0; BLOCK] {
+                        continue;
+                    }
+                    for i in ways {
+                        let (r, c) = if k == 0 { (i / BLOCK, i % BLOCK) } else { (i % BLOCK, i / BLOCK) };
+                        self.claim_way(layers, (r0 + r, c0 + c, k), (index, &sweep), &mut claims[k]);
                     }
                 }
             }
@@ -57,12 +65,12 @@ impl Patch {
         }
     }
 
-    /// Bounds on the ways along a direction to the lines of a block, from the heights of a part; true where one is below its
-    /// ceiling.
+    /// Bounds on the ways along a direction to the lines of a block, from the heights of a part; by row a bit for each that is below
+    /// its ceiling.
     #[inline(always)]
-    fn bound_ways(&mut self, (c0, r0): (usize, usize), k: usize) -> bool {
+    fn bound_ways(&mut self, (c0, r0): (usize, usize), k: usize) -> [u8; BLOCK] {
         let back = if k == 0 { 1 } else { HEIGHTS };
-        let mut below = [0.0; BLOCK];
+        let mut rows = [0; BLOCK];
         for r in r0..r0 + BLOCK {
             let (at, start) = (height_at(r, c0), r * SIDE + c0);
             let heights = &self.heights[..];
@@ -73,11 +81,15 @@ impl Patch {
             for c in 0..BLOCK {
                 let low = most(convex(before[c], from[c]), convex(behind[c], to[c]));
                 lows[c] = low;
-                below[c] += if low - ROUNDING < ceilings[c] + 2.0 * ROUNDING { 1.0 } else { 0.0 };
             }
+            let mut below = 0;
+            for c in 0..BLOCK {
+                below |= u8::from(lows[c] - ROUNDING < ceilings[c] + 2.0 * ROUNDING) << c;
+            }
+            rows[r - r0] = below;
             put_row(&mut self.lows[k][..], start, lows);
         }
-        below.into_iter().sum::<f64>() > 0.0
+        rows
     }
 
     /// The claim on the way to a line from the one before it, given a bound from below.
@@ -110,8 +122,8 @@ impl Patch {
     }
 }
 
-/// Bounds on the ways of blocks, in the widest instructions of the machine; for each block and direction whether one is below
-/// its ceiling.
+/// Bounds on the ways of blocks, in the widest instructions of the machine; for each block and direction, by row, a bit for each that
+/// is below its ceiling.
 struct Bound<'a, 'b> {
     patch: &'a mut Patch,
     sweep: &'a Sweep<'b>,
@@ -119,16 +131,16 @@ struct Bound<'a, 'b> {
 }
 
 impl NullaryFnOnce for Bound<'_, '_> {
-    type Output = [[bool; 2]; BLOCKS];
+    type Output = [[[u8; BLOCK]; 2]; BLOCKS];
 
     #[inline(always)]
-    fn call(self) -> [[bool; 2]; BLOCKS] {
+    fn call(self) -> Self::Output {
         let Bound { patch, sweep, blocks } = self;
         if sweep.is_convex() {
             patch.raise(sweep, blocks);
         }
         // Without heights nothing is known.
-        let mut claimed = [[false; 2]; BLOCKS];
+        let mut claimed = [[[0; BLOCK]; 2]; BLOCKS];
         for (corner, claimed) in blocks.corners().zip(&mut claimed) {
             *claimed = [patch.bound_ways(corner, 0), patch.bound_ways(corner, 1)];
         }

@@ -9,7 +9,7 @@ use super::super::axis::ToolFrame;
 use super::super::task::Task;
 use super::patch::SIDE;
 use super::sweep::Sweep;
-use super::tops::Kept;
+use super::tops::{Kept, Tops};
 use crate::geom::Aabb;
 use crate::stock::tile::TILE_EDGE;
 use crate::stock::tri_dexel::{Grid, LINE_OFFSET};
@@ -123,20 +123,28 @@ impl<'a> Field<'a> {
         self.grid.tiles[tile].line(line)
     }
 
-    /// Heights of the lowest and the topmost material of a line, in the tool frame [fixed steps]; as low as can be when it has no
-    /// material.
-    pub(super) fn ends(&self, a: i64, b: i64) -> [f64; 2] {
-        let (Some(line), Some([i, j])) = (self.line(a, b), self.in_grid(a, b)) else {
-            return [f64::NEG_INFINITY; 2];
-        };
+    /// Heights of the lowest and the topmost material of a line, in the tool frame [fixed steps], of which nothing is left above `kept`;
+    /// as low as can be when it has no material.
+    pub(super) fn ends(&self, line: Line, kept: Option<i32>) -> [f64; 2] {
         let material = self.material(line);
         let (Some(first), Some(last)) = (material.first(), material.last()) else {
             return [f64::NEG_INFINITY; 2];
         };
         let [low, high] =
             if self.sign > 0.0 { [first.lo.at, last.hi.at] } else { [-last.hi.at, -first.lo.at] };
-        let top = self.kept.and_then(|kept| kept.top(i, j)).map_or(high, |top| top.min(high));
+        let top = kept.map_or(high, |top| top.min(high));
         if top > low { [low, top].map(f64::from) } else { [f64::NEG_INFINITY; 2] }
+    }
+
+    /// The heights that are kept of the lines of a patch, where they are those of the field.
+    pub(super) fn kept_of(&self, patch: usize) -> Option<&'a Tops> {
+        self.kept.filter(|_| self.stride == 1)?.tops[patch].as_deref()
+    }
+
+    /// The height above which nothing is left on a line, where the lines are sparse; `None` where it is as it is in the grid.
+    pub(super) fn kept_top(&self, a: i64, b: i64) -> Option<i32> {
+        let [i, j] = self.in_grid(a, b)?;
+        self.kept.filter(|_| self.stride > 1)?.top(i, j)
     }
 
     /// For each patch the tasks that may reach it, in order.

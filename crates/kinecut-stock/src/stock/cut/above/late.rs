@@ -241,6 +241,7 @@ impl FromAbove {
             .map(|(p, bin)| {
                 let mut claims = [Vec::new(), Vec::new()];
                 let mut patch = Patch::new(field, p, self.ceilings[p].as_deref());
+                patch.keep_covers(true);
                 for i in bin {
                     if progress.cancelled() {
                         break;

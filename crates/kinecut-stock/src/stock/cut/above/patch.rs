@@ -132,10 +132,14 @@ pub(super) struct Patch {
     pub(super) step: f64,
     /// Indices of the first line, which is not its own.
     pub(super) first: [i64; 2],
+    /// Its number in the field.
+    number: usize,
     /// The last of the tasks that went lowest on the lines of each block.
     latest: [f64; BLOCKS],
     /// Covers of the blocks, where they are kept.
     covers: Option<[Cover; BLOCKS]>,
+    /// See [`Patch::keep_covers`].
+    whole: bool,
     /// No line has more than one interval.
     simple: bool,
     /// The ways between the lines are asked for, too.
@@ -164,10 +168,12 @@ impl Patch {
             hull: [0.0; BLOCKS],
             latest: [NO_TASK; BLOCKS],
             covers: None,
+            whole: false,
             between: field.stride == 1,
             radius: (0.5 * (BLOCK - 1) as f64 * SQRT_2 + 1.0) * field.step,
             step: field.step,
             first,
+            number: patch,
             simple: true,
             x,
             y,
@@ -195,11 +201,16 @@ impl Patch {
 
     /// The patch with the material of its own lines.
     pub(super) fn with_lines(mut self, field: &Field) -> Patch {
+        let tops = field.kept_of(self.number);
         for r in 1..SIDE {
             for c in 1..SIDE {
                 let (l, a, b) = (r * SIDE + c, self.first[0] + c as i64, self.first[1] + r as i64);
                 if let Some(line) = field.line(a, b) {
-                    [self.bottom[l], self.top[l]] = field.ends(a, b);
+                    let kept = match tops {
+                        Some(tops) => tops.top((r - 1) * OWN as usize + c - 1),
+                        None => field.kept_top(a, b),
+                    };
+                    [self.bottom[l], self.top[l]] = field.ends(line, kept);
                     self.simple &= field.material(line).len() < 2;
                 }
             }
@@ -274,10 +285,20 @@ impl Patch {
         Blocks(mask)
     }
 
-    /// Those of some blocks in which a task may go lowest, by planes that it stays above.
-    pub(super) fn open_by_planes(&self, sweep: &Sweep, blocks: Blocks, index: f64) -> Blocks {
+    /// Height above a block's cover up to which a task may still go lowest: where it does as low, and comes earlier [mm].
+    pub(super) fn slack(&self, block: usize, index: f64) -> f64 {
         /// Rounding of planes [mm].
         const NEAR: f64 = 1e-9;
+        if index < self.latest[block] { FIXED_STEP } else { NEAR }
+    }
+
+    /// Those of some blocks whose covers a part may come down to, with some slack, by planes that it stays above.
+    pub(super) fn open_by_planes(
+        &self,
+        sweep: &Sweep,
+        blocks: Blocks,
+        slack: impl Fn(usize) -> f64,
+    ) -> Blocks {
         let Some(covers) = &self.covers else { return blocks };
         let [heights, along_x, along_y] = self.arch.dispatch(Tangents { patch: self, sweep });
         // From the middle to the farthest line with a way to the block.
@@ -286,14 +307,14 @@ impl Patch {
         for b in 0..BLOCKS {
             let Cover { height, slopes: [x, y] } = covers[b];
             let apart = (x - along_x[b]).abs() + (y - along_y[b]).abs();
-            let slack = if index < self.latest[b] { FIXED_STEP } else { NEAR };
-            mask |= u32::from(heights[b] < height + half * apart + slack) << b;
+            mask |= u32::from(heights[b] < height + half * apart + slack(b)) << b;
         }
         Blocks(blocks.0 & mask)
     }
 
-    /// Begins to keep the covers of the blocks.
-    pub(super) fn keep_covers(&mut self) {
+    /// Begins to keep the covers of the blocks; `whole`: above the ceilings on all of their ways, not at one end of each.
+    pub(super) fn keep_covers(&mut self, whole: bool) {
+        self.whole = whole;
         self.covers = Some(self.arch.dispatch(Covers(self)));
     }
 
@@ -302,21 +323,25 @@ impl Patch {
     fn cover_of(&self, block: usize) -> Cover {
         let (c0, r0) = corner(block);
         let step = self.step;
-        // Slopes from one border of the block to the other.
+        // Slopes from one border of the block to the other, of the lines where they are known.
+        let (of, unit) = match self.top[r0 * SIDE + c0] > f64::NEG_INFINITY {
+            true => (&self.top, FIXED_STEP),
+            false => (&self.ceilings[0], 1.0),
+        };
         let (mut over_x, mut over_y) = ([0.0; BLOCK], [0.0; BLOCK]);
-        let (low, high) =
-            (row_at(&self.top[..], r0 * SIDE + c0), row_at(&self.top[..], (r0 + BLOCK - 1) * SIDE + c0));
+        let (low, high) = (row_at(&of[..], r0 * SIDE + c0), row_at(&of[..], (r0 + BLOCK - 1) * SIDE + c0));
         for i in 0..BLOCK {
             over_y[i] = high[i] - low[i];
             let row = (r0 + i) * SIDE + c0;
-            over_x[i] = self.top[row + BLOCK - 1] - self.top[row];
+            over_x[i] = of[row + BLOCK - 1] - of[row];
         }
-        let scale = FIXED_STEP / (BLOCK as f64 * (BLOCK - 1) as f64 * step);
+        let scale = unit / (BLOCK as f64 * (BLOCK - 1) as f64 * step);
         let slopes = [over_x, over_y].map(|over| over.into_iter().sum::<f64>() * scale);
         let slopes = if slopes[0].is_finite() && slopes[1].is_finite() { slopes } else { [0.0; 2] };
         let [sx, sy] = slopes;
-        // Of a way the end at which the plane is higher: a part that takes it comes down to its ceiling at both.
-        let (back_x, back_y) = (most(0.0, -sx * step), most(0.0, -sy * step));
+        // Of a way the end at which the plane is higher: a part that takes it comes down to its ceiling at both. Or the other one.
+        let of_way = |slope: f64| if self.whole { -most(0.0, slope) } else { most(0.0, -slope) };
+        let (back_x, back_y) = (of_way(sx * step), of_way(sy * step));
         let middle = 0.5 * (BLOCK - 1) as f64;
         let mut across = [0.0; BLOCK];
         for c in 0..BLOCK {

@@ -426,6 +426,62 @@ mod tests {
         -torus.k * root((rho - l) * (rho + l)) - torus.r * root((1.0 - s) * (1.0 + s))
     }
 
+    /// Planes against heights of random moves and tools at random places: none lies above, and near to where they are asked for they
+    /// say more than the least height.
+    #[test]
+    fn no_tool_goes_below_its_planes() {
+        use super::super::super::axis::ToolFrame;
+        use super::super::super::tests::reference::Random;
+        use super::super::super::upright::tasks_of;
+        use super::super::super::{CutAxis, CutList, CutMove, CutOptions, ToolBody};
+        use crate::geom::{Line, Profile, ProfileElement};
+        use glam::DVec3;
+
+        let cone = ProfileElement::Cone { z0: 0.0, r0: 1.0, z1: 2.0, r1: 3.0 };
+        let side = ProfileElement::Cone { z0: 2.0, r0: 3.0, z1: 20.0, r1: 3.0 };
+        let profiles = [
+            Profile::bull_nose(6.0, 3.0, 20.0).unwrap(),
+            Profile::bull_nose(6.0, 1.0, 20.0).unwrap(),
+            Profile::cylinder(6.0, 20.0).unwrap(),
+            Profile::new(vec![cone, side]).unwrap(),
+        ];
+        let mut random = Random(41);
+        let (mut tight, mut asked) = (0, 0);
+        for round in 0..kinecut_cases::cases(200, 4_000) {
+            let axis = CutAxis::ALL[round as usize % 6];
+            let frame = ToolFrame::new(axis);
+            let tool = ToolBody::new(profiles[round as usize % 4].clone());
+            let size = [0.3, 3.0, 30.0][round as usize % 3];
+            let mut place = || {
+                let p =
+                    DVec3::new(random.within(-1.0, 1.0), random.within(-1.0, 1.0), random.within(-1.0, 1.0));
+                frame.stock(p * size)
+            };
+            let line = Line { start: place(), end: place() };
+            let moves = vec![CutMove::new(line, axis, 0)];
+            let list = CutList::new(&[tool], moves, &CutOptions::default(), 0.1).unwrap();
+            let mut tasks = Vec::new();
+            tasks_of(&list, 0, &frame, 0, &mut tasks);
+            let sweep = Sweep::new(&tasks[0], &tasks[0].tool.cutting.parts[0]);
+            let mut spot = || random.within(-1.2, 1.2) * (size + 3.0);
+            let middle = [spot(), spot()];
+            let [height, x, y] = sweep.planes(&[middle[0]; 1], &[middle[1]; 1]).map(|of| of[0]);
+            for i in 0..60 {
+                let far = [0.0, 0.2, 4.0][i % 3] * (1.0 + size);
+                let off = DVec2::new(random.within(-far, far), random.within(-far, far));
+                let over = DVec2::from_array(middle) + off;
+                let own = sweep.height(over).0;
+                let plane = height + DVec2::new(x, y).dot(off);
+                assert!(own >= plane - 1e-9, "round {round}, {line:?}: {own} below {plane}");
+                if i == 0 && own < f64::INFINITY {
+                    asked += 1;
+                    tight += u32::from(own - plane < 0.05 * size);
+                }
+            }
+        }
+        assert!(2 * tight > asked && asked > 20, "{tight} of {asked}");
+    }
+
     #[test]
     fn a_torus_on_a_slope_is_passed_no_higher_than_by_a_tenth_of_a_rounding() {
         /// A tenth of a fixed step [mm].

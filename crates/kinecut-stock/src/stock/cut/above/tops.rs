@@ -36,6 +36,11 @@ impl Tops {
     /// All lines are as they are in the grid.
     pub(super) const UNCUT: Tops = Tops { at: [i32::MAX; OWN_LINES], by: [NONE; OWN_LINES] };
 
+    /// The height above which nothing is left on an own line; `None` where it is as it is in the grid.
+    pub(super) fn top(&self, line: usize) -> Option<i32> {
+        (self.by[line] != NONE).then_some(self.at[line])
+    }
+
     /// Adds lines that tasks have cut since to those that are kept; `number` is that of a task's move.
     pub(super) fn add_to(mut self: Box<Tops>, kept: &mut Option<Box<Tops>>, number: impl Fn(u32) -> u32) {
         for by in self.by.iter_mut().filter(|by| **by != NONE) {
@@ -65,8 +70,7 @@ impl Kept<'_> {
     pub(in crate::stock) fn top(&self, a: usize, b: usize) -> Option<i32> {
         let own = OWN as usize;
         let tops = self.tops[b / own * self.across + a / own].as_ref()?;
-        let line = b % own * own + a % own;
-        (tops.by[line] != NONE).then_some(tops.at[line])
+        tops.top(b % own * own + a % own)
     }
 }
 

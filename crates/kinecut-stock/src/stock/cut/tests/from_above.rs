@@ -66,7 +66,7 @@ fn same_effects([fast, slow]: &[Vec<MoveEffect>; 2], step: f64, what: &str) {
         // One by one an arc that comes by twice is counted twice.
         assert!(fast.deepest > slow.deepest - 2.1e-5, "{what}, move {i}: {fast:?} {slow:?}");
         assert_eq!(fast.first_contact.is_some(), slow.first_contact.is_some(), "{what}, move {i}");
-assert_eq!((fast.shank(), fast.holder()), (slow.shank(), slow.holder()), "{what}, move {i}");
+        assert_eq!((fast.shank(), fast.holder()), (slow.shank(), slow.holder()), "{what}, move {i}");
         // A tool that goes where it has cut is known to clip no edge; line by line that may be a doubt.
         let edges = (fast.edge(), slow.edge());
         assert!(edges.0.is_none() || edges.0 == edges.1, "{what}, move {i}: {fast:?} {slow:?}");

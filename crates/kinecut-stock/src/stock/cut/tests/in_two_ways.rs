@@ -30,7 +30,11 @@ pub(super) fn compare(
             "{what}, move {i}: {some:?} {exact:?} {:?}",
             moves[i].curve
         );
-        assert_eq!((some.shank(), some.holder()), (exact.shank(), exact.holder()), "{what}, at once, move {i}");
+        assert_eq!(
+            (some.shank(), some.holder()),
+            (exact.shank(), exact.holder()),
+            "{what}, at once, move {i}"
+        );
     }
     [runs.1, singly.1]
 }
