@@ -309,10 +309,17 @@ fn round(part: &ConvexPart, rho: f64, z: f64) -> (f64, (f64, f64)) {
     let Foot::Torus { centre_radius, centre_z, radius } = part.foot else {
         return (f64::NEG_INFINITY, (0.0, -1.0));
     };
-    let (x, y) = ((rho - centre_radius).max(0.0), (z - centre_z).min(0.0));
+    let (out, up) = (rho - centre_radius, z - centre_z);
+    let (x, y) = (out.max(0.0), up.min(0.0));
     let h = (x * x + y * y).sqrt();
-    // Within the disc of the arc's centres it is as deep everywhere.
-    if h > 0.0 { (h - radius, (x / h, y / h)) } else { (-radius, (0.0, 0.0)) }
+    if h > 0.0 {
+        (h - radius, (x / h, y / h))
+    } else if out > -up {
+        // Beside the sector of its normals it goes on as its ends do.
+        (out - radius, (1.0, 0.0))
+    } else {
+        (-up - radius, (0.0, -1.0))
+    }
 }
 
 /// The roots of `a s^2 + 2 b s + c` with `a > 0`, the lesser first.
