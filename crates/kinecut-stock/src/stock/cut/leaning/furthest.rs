@@ -134,9 +134,9 @@ impl Look<'_> {
                 // No lower than where the tangents meet.
                 let meet = ((cb - ca) + ga * from - gb * to) / (ga - gb);
                 // A cubic where the chords change smoothly, the tangents at an edge; the middle in case.
-                let next = match search.steps % 4 {
-                    0 => middle,
-                    2 => meet,
+                let next = match (STEPS - search.steps) % 4 {
+                    1 => meet,
+                    3 => middle,
                     _ => hermite([from, to], [ca, cb], [ga, gb]).unwrap_or(meet),
                 };
                 let rate = if -ga > gb { ga } else { gb };

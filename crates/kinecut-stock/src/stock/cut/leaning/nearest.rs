@@ -34,17 +34,41 @@ enum Gap {
 }
 
 impl Look<'_> {
-    /// True if the part stays away from the material of the line: by the gauge at its ends in the middle of the time.
+    /// True if the part stays away from the material of the line: by the gauge at its ends in the middle of the time,
+    /// or by that and the gauge at the end of the time to which the part comes nearer.
     pub(super) fn misses(&self) -> bool {
         let pose = &self.of.poses[1];
         let from = LineFrom::new(self.line.start, self.line.along, pose);
-        let clear = |s: f64| {
-            let g = from.gauge(self.part, s);
-            g.value > 0.0
-                && self.least(&Plane { s, value: g.value, normal: g.normal }, pose, &from, 0.5) > 0.0
+        let plane = |from: &LineFrom, s: f64| {
+            let gauge = from.gauge(self.part, s);
+            Plane { s, value: gauge.value, normal: gauge.normal }
         };
-        let [a, b] = self.line.material;
-        clear(b) || clear(a)
+        let [mut near, mut far] = self.line.material.map(|s| plane(&from, s));
+        if far.value < near.value {
+            (near, far) = (far, near);
+        }
+        if !(near.value > 0.0) {
+            return false;
+        }
+        if self.least(&near, pose, &from, 0.5) > 0.0 || self.least(&far, pose, &from, 0.5) > 0.0 {
+            return true;
+        }
+        let rate = -near.normal.dot(pose.velocity(from.point(near.s)));
+        let (time, pose_then) = if rate > 0.0 { (-0.5, &self.of.poses[0]) } else { (0.5, &self.of.poses[2]) };
+        let then = LineFrom::new(self.line.start, self.line.along, pose_then);
+        let last = plane(&then, near.s);
+        let last_rate = -last.normal.dot(pose_then.velocity(then.point(near.s)));
+        // The planes in shares with which what both say of that end does not change in time; else the last alone.
+        let share = if (rate > 0.0) != (last_rate > 0.0) { last_rate / (last_rate - rate) } else { 0.0 };
+        let bend = 8.0 * self.bend * (0.25 * share + (1.0 - share));
+        self.line.material.iter().all(|s| {
+            let says = |plane: &Plane, from: &LineFrom, pose: &Pose| {
+                let rate = -plane.normal.dot(pose.velocity(from.point(*s)));
+                (plane.value + plane.normal[self.line.along] * (s - plane.s), rate)
+            };
+            let ((v, r), (w, q)) = (says(&near, &from, pose), says(&last, &then, pose_then));
+            [-0.5, 0.5].iter().all(|t| share * (v + r * t) + (1.0 - share) * (w + q * (t - time)) > bend)
+        })
     }
 
     /// True if the part stays away from the material of the line, and from all that is no farther than `by` from it [mm].

@@ -211,6 +211,11 @@ impl Look<'_> {
     fn end(&self, met: &Met, upper: bool) -> CoverEnd {
         let (s, touch) =
             if upper { (met.chord.hi, met.chord.hi_at) } else { (met.chord.lo, met.chord.lo_at) };
+        let [low, high] = self.line.material;
+        if s < low - ROUNDING || s > high + ROUNDING {
+            // It does not stay.
+            return CoverEnd { s, t: met.t, normal: DVec3::Z, touch };
+        }
         let pose = self.of.span.at(met.t);
         let from = LineFrom::new(self.line.start, self.line.along, &pose);
         let mut normal = from.outward(self.part, s, touch);
