@@ -1,8 +1,9 @@
 //! Amounts that the moves of a run remove, in order, on some of the lines.
 //!
-//! Every nth line of those along the tool axis is taken, n up to 16 so that they are no more than a quarter of the radius of the
-//! run's thinnest tool apart, or all where the lines of the stock are no closer. Of a span, poses are taken that are a quarter of the
-//! radius apart or less. Such an amount is measured, not bounded.
+//! Of the lines along the tool axis one in the middle of each square of n lines is taken, n up to 16 so that they are no more than a
+//! quarter of the radius of the run's thinnest tool apart, or all where the lines of the stock are no closer; each counts for the
+//! lines of its square. Of a span, poses are taken that are a quarter of the radius apart or less. Such an amount is measured, not
+//! bounded. Neighbours are asked about together first, with one tangent plane for all of them.
 
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
@@ -11,11 +12,11 @@ use super::super::super::body::RevolvedParts;
 use super::super::super::effect::{Effect, Effects};
 use super::super::super::task::TileLines;
 use super::super::chord::LineFrom;
-use super::super::swept::{MOST_STRETCHES, StockLine};
 use super::super::task::SpanTask;
+use super::near::{Beside, SweptPart};
 use crate::base::Progress;
 use crate::geom::Aabb;
-use crate::stock::tile::{TILE_EDGE, Tile};
+use crate::stock::tile::TILE_EDGE;
 use crate::stock::tri_dexel::Grid;
 use crate::stock::{Axis, CutId, DexelGrid, TriDexel, fixed, unfixed};
 
@@ -32,10 +33,31 @@ const MOST_POSES: usize = 17;
 struct Sample {
     /// Its point at the coordinate 0.
     start: DVec3,
+    /// Lines that it counts for.
+    lines: i64,
     /// Its material [fixed steps].
     material: Vec<(i32, i32)>,
     /// The last move that cut it, and the material that it met there so far [fixed steps].
     met: (CutId, i64),
+}
+
+/// Lines next to one another on which is measured.
+struct Group {
+    samples: Vec<Sample>,
+    /// The place in their middle, as seen along them, and the distance of the farthest of them [mm].
+    middle: DVec2,
+    half: f64,
+    /// Coordinates between which all their material lies [fixed steps]; the wrong way round when there is none.
+    hull: (i32, i32),
+}
+
+/// Room for the stretches of a line.
+#[derive(Default)]
+struct Room {
+    planes: Vec<Beside>,
+    chords: Vec<(i32, i32)>,
+    covered: Vec<(i32, i32)>,
+    contact: Vec<(i32, i32)>,
 }
 
 /// Tells what moves remove, on the lines along the axis that most of their tools are nearest to; a tool that leans from it by more
@@ -43,6 +65,7 @@ struct Sample {
 pub(super) fn account(
     stock: &TriDexel,
     tasks: &[SpanTask],
+    swept: &[SweptPart],
     progress: &dyn Progress,
     mut each: impl FnMut(&Effect),
 ) {
@@ -52,7 +75,14 @@ pub(super) fn account(
     let main: Vec<usize> =
         axes.map(|axis| if axis[usual] > FLAT { usual } else { Axis::nearest(axis).index() }).collect();
     let radius = tasks.iter().map(|t| t.tool.cutting.radius).fold(f64::INFINITY, f64::min);
-    let apart = apart(radius / (LINES * lattice.step));
+    let apart = (radius / (LINES * lattice.step)).clamp(1.0, f64::from(TILE_EDGE)) as u32;
+    let mut rest = swept;
+    let own = |task: &SpanTask| {
+        let own;
+        (own, rest) = rest.split_at(task.tool.cutting.parts.len());
+        own
+    };
+    let parts: Vec<&[SweptPart]> = tasks.iter().map(own).collect();
     for grid in &stock.grids {
         let along = grid.axis.index();
         if !main.contains(&along) {
@@ -62,29 +92,26 @@ pub(super) fn account(
             (0..grid.tiles.len()).map(|t| TileLines::new(grid, &lattice, t)).collect();
         let shadows: Vec<Shadow> = tasks.iter().map(|t| Shadow::new(t, along, stock.bounds())).collect();
         let bins = bins(grid, &lines, &shadows);
-        let work = grid.tiles.par_iter().zip(&bins).zip(&lines).filter(|((_, bin), _)| !bin.is_empty());
-        let done: Vec<Vec<Effect>> = work
-            .map(|((tile, bin), lines)| {
-                let mut effects = Effects::default();
-                let mut samples = samples(tile, lines, along, apart);
-                let shares = [lines.size.iter().product(), samples.len()].map(|n| n as i64);
+        let work = bins.par_iter().zip(&lines).enumerate().filter(|(_, (bin, _))| !bin.is_empty());
+        let done: Vec<Effects> = work
+            .map(|(tile, (bin, lines))| {
+                let (mut effects, mut room) = (Effects::default(), Room::default());
+                let mut groups = groups(grid, tile, lines, apart);
                 for i in bin {
-                    let task = &tasks[*i as usize];
-                    if samples.is_empty() || progress.cancelled() {
+                    if groups.is_empty() || progress.cancelled() {
                         break;
                     }
-                    let is_main = main[*i as usize] == along;
+                    let task = (&tasks[*i as usize], parts[*i as usize]);
                     let shadow = &shadows[*i as usize];
-                    for sample in samples.iter_mut().filter(|s| shadow.is_near(plan(s.start, along), 0.0)) {
-                        pass(sample, task, along, is_main.then_some(&mut effects));
+                    let is_main = main[*i as usize] == along;
+                    for group in groups.iter_mut().filter(|g| shadow.is_near(g.middle, g.half)) {
+                        group.pass(task, shadow, along, is_main.then_some(&mut effects), &mut room);
                     }
                 }
-                // Each stands for as many lines.
-                let scaled = |e: &Effect| Effect { removed: e.removed * shares[0] / shares[1].max(1), ..*e };
-                effects.iter().map(scaled).collect::<Vec<Effect>>()
+                effects
             })
             .collect();
-        done.iter().flatten().for_each(&mut each);
+        done.iter().flat_map(Effects::iter).for_each(&mut each);
     }
 }
 
@@ -152,101 +179,168 @@ fn bins(grid: &Grid, lines: &[TileLines], shadows: &[Shadow]) -> Vec<Vec<u32>> {
     bins
 }
 
-/// Lines from one that is looked at to the next: a power of two up to the edge of a tile.
-fn apart(wanted: f64) -> u32 {
-    let mut apart = 1;
-    while apart < TILE_EDGE && f64::from(2 * apart) <= wanted {
-        apart *= 2;
-    }
-    apart
-}
-
-/// The lines of a tile on which is measured.
-fn samples(tile: &Tile, lines: &TileLines, along: usize, apart: u32) -> Vec<Sample> {
-    let mut samples = Vec::new();
-    let apart = apart as usize;
-    // In the middle of their squares; at least one of a narrow tile.
-    let places = |n: usize| ((apart / 2).min(n - 1)..n).step_by(apart);
-    for b in places(lines.size[1]) {
-        for a in places(lines.size[0]) {
-            let line = tile.line(b * TILE_EDGE as usize + a);
-            let mut start = DVec3::ZERO;
-            // The two other axes in cyclic order, see `Axis::others`.
-            start[(along + 1) % 3] = lines.at[0][a];
-            start[(along + 2) % 3] = lines.at[1][b];
-            let material = line.iter().map(|i| (i.lo.at, i.hi.at)).collect();
-            samples.push(Sample { start, material, met: (0, 0) });
+/// The lines of a tile on which is measured: those in the middle of squares of `apart` lines.
+fn groups(grid: &Grid, tile: usize, lines: &TileLines, apart: u32) -> Vec<Group> {
+    let (first, size) = grid.tile_lines(tile);
+    let along = grid.axis.index();
+    // Index in the tile, and lines across.
+    let places: [Vec<(u32, u32)>; 2] = [0, 1].map(|k| {
+        let (from, end) = (first[k], first[k] + size[k]);
+        let squares = (from / apart..=end / apart).map(|n| (n * apart, grid.counts[k].min((n + 1) * apart)));
+        let middles = squares.filter(|(a, b)| a < b).map(|(a, b)| ((a + b) / 2, b - a));
+        middles.filter(|(i, _)| (from..end).contains(i)).map(|(i, n)| (i - from, n)).collect()
+    });
+    let mut groups = Vec::new();
+    for rows in places[1].chunks(2) {
+        for columns in places[0].chunks(2) {
+            let mut samples = Vec::with_capacity(4);
+            for (b, height) in rows {
+                for (a, width) in columns {
+                    let mut start = DVec3::ZERO;
+                    // The two other axes in cyclic order, see `Axis::others`.
+                    start[(along + 1) % 3] = lines.at[0][*a as usize];
+                    start[(along + 2) % 3] = lines.at[1][*b as usize];
+                    let line = grid.tiles[tile].line((b * TILE_EDGE + a) as usize);
+                    let material = line.iter().map(|i| (i.lo.at, i.hi.at)).collect();
+                    let lines = i64::from(width * height);
+                    samples.push(Sample { start, lines, material, met: (0, 0) });
+                }
+            }
+            let ends = [0, samples.len() - 1].map(|i| plan(samples[i].start, along));
+            let (middle, half) = ((ends[0] + ends[1]) * 0.5, 0.5 * ends[0].distance(ends[1]));
+            let mut group = Group { samples, middle, half, hull: (0, 0) };
+            group.look();
+            groups.push(group);
         }
     }
-    samples
+    groups
 }
 
-/// Takes a span past a line; tells what it does there if that is asked for.
-fn pass(sample: &mut Sample, task: &SpanTask, along: usize, effects: Option<&mut Effects>) {
-    let (Some(first), Some(last)) = (sample.material.first(), sample.material.last()) else { return };
-    let (low, high) = (fixed(task.bounds.min[along]), fixed(task.bounds.max[along]));
-    if high <= first.0 || last.1 <= low {
-        return;
+impl Group {
+    /// Sets the hull of the material.
+    fn look(&mut self) {
+        let ends = self.samples.iter().flat_map(|s| &s.material);
+        self.hull = ends.fold((i32::MAX, i32::MIN), |hull, of| (hull.0.min(of.0), hull.1.max(of.1)));
     }
-    let hull = [unfixed(first.0), unfixed(last.1)];
-    let seen = StockLine { start: sample.start, along, material: hull, stretches: [hull; MOST_STRETCHES] };
-    if task.tool.cutting.parts.iter().all(|part| task.poses.surely_misses(part, task.bend, &seen)) {
-        return;
-    }
-    let covered = covered(&task.tool.cutting, task, sample.start, along);
-    if covered.iter().all(|c| length(&sample.material, *c) == 0) {
-        return;
-    }
-    if let Some(effects) = effects {
-        let contact = self::covered(&task.tool.contact, task, sample.start, along);
-        let met: i64 = contact.iter().map(|c| length(&sample.material, *c)).sum();
-        let effect = effects.of(task.index);
-        effect.removed += covered.iter().map(|c| length(&sample.material, *c)).sum::<i64>();
-        if met > 0 {
-            if sample.met.0 != task.cut {
-                sample.met = (task.cut, 0);
-            }
-            sample.met.1 += met;
-            effect.deepest = effect.deepest.max(sample.met.1);
-            let t = task.poses.span.fraction(0.0);
-            if effect.first.is_none_or(|(old, _)| t < old) {
-                let top = contact.iter().map(|c| c.1.min(sample.material[sample.material.len() - 1].1)).max();
-                let mut point = sample.start;
-                point[along] = unfixed(top.unwrap_or(0));
-                effect.first = Some((t, point.to_array()));
+
+    /// Takes a span past the lines; tells what it does there if that is asked for.
+    fn pass(
+        &mut self,
+        (task, parts): (&SpanTask, &[SweptPart]),
+        shadow: &Shadow,
+        along: usize,
+        mut effects: Option<&mut Effects>,
+        room: &mut Room,
+    ) {
+        let (low, high) = (fixed(task.bounds.min[along]), fixed(task.bounds.max[along]));
+        if high <= self.hull.0 || self.hull.1 <= low {
+            return;
+        }
+        // A place at the material where the tool comes from.
+        let from_above = task.poses.poses[1].axis[along] > 0.0;
+        let mut anchor = DVec3::ZERO;
+        anchor[along] = unfixed(if from_above { self.hull.1 } else { self.hull.0 });
+        (anchor[(along + 1) % 3], anchor[(along + 2) % 3]) = (self.middle.x, self.middle.y);
+        room.planes.clear();
+        room.planes.extend(parts.iter().map(|part| part.beside(anchor, self.half)));
+        let mut changed = false;
+        for sample in &mut self.samples {
+            if sample.is_reached(&room.planes, anchor, along)
+                && shadow.is_near(plan(sample.start, along), 0.0)
+            {
+                changed |= sample.pass(task, along, effects.as_deref_mut(), room);
             }
         }
+        if changed {
+            self.look();
+        }
     }
-    for (lo, hi) in covered {
-        subtract(&mut sample.material, lo, hi);
+}
+
+impl Sample {
+    /// True unless planes about a place say that nothing of the material is reached.
+    fn is_reached(&self, planes: &[Beside], anchor: DVec3, along: usize) -> bool {
+        let (Some(first), Some(last)) = (self.material.first(), self.material.last()) else { return false };
+        let mut off = self.start - anchor;
+        off[along] = 0.0;
+        let [low, high] = [first.0, last.1].map(|at| unfixed(at) - anchor[along]);
+        planes.iter().any(|plane| {
+            let at_plane = plane.normal.dot(off) - plane.reach;
+            // What the plane leaves is convex along the line: nothing if neither end is in it.
+            [low, high].iter().any(|s| at_plane + plane.normal[along] * s <= plane.widens * s.abs())
+        })
+    }
+
+    /// Takes a span past the line; tells what it does there if that is asked for. True if that changed it.
+    fn pass(
+        &mut self,
+        task: &SpanTask,
+        along: usize,
+        effects: Option<&mut Effects>,
+        room: &mut Room,
+    ) -> bool {
+        let Room { chords, covered, contact, .. } = room;
+        cover(&task.tool.cutting, task, self.start, along, chords, covered);
+        let removed: i64 = covered.iter().map(|c| length(&self.material, *c)).sum();
+        if removed == 0 {
+            return false;
+        }
+        if let Some(effects) = effects {
+            cover(&task.tool.contact, task, self.start, along, chords, contact);
+            let met: i64 = contact.iter().map(|c| length(&self.material, *c)).sum();
+            let effect = effects.of(task.index);
+            effect.removed += removed * self.lines;
+            if met > 0 {
+                if self.met.0 != task.cut {
+                    self.met = (task.cut, 0);
+                }
+                self.met.1 += met;
+                effect.deepest = effect.deepest.max(self.met.1);
+                let t = task.poses.span.fraction(0.0);
+                if effect.first.is_none_or(|(old, _)| t < old) {
+                    let top = contact.iter().map(|c| c.1.min(self.material[self.material.len() - 1].1)).max();
+                    let mut point = self.start;
+                    point[along] = unfixed(top.unwrap_or(0));
+                    effect.first = Some((t, point.to_array()));
+                }
+            }
+        }
+        for (lo, hi) in covered {
+            subtract(&mut self.material, *lo, *hi);
+        }
+        true
     }
 }
 
 /// The stretches of a line that a body covers in a span, without those between; sorted, and apart from each other [fixed steps].
-fn covered(body: &RevolvedParts, task: &SpanTask, start: DVec3, along: usize) -> Vec<(i32, i32)> {
+fn cover(
+    body: &RevolvedParts,
+    task: &SpanTask,
+    start: DVec3,
+    along: usize,
+    chords: &mut Vec<(i32, i32)>,
+    covered: &mut Vec<(i32, i32)>,
+) {
     let wanted = 2.0 * LINES * task.poses.span.stray(body.radius) / body.radius + 1.0;
     let count = (wanted.ceil() as usize).clamp(3, MOST_POSES);
-    let mut list = Vec::new();
-    for part in &body.parts {
-        for i in 0..count {
-            let pose = match count {
-                3 => task.poses.poses[i],
-                _ => task.poses.span.at(i as f64 / (count - 1) as f64 - 0.5),
-            };
-            if let Some(chord) = LineFrom::new(start, along, &pose).chord(part) {
-                list.push((fixed(chord.lo), fixed(chord.hi)));
-            }
+    chords.clear();
+    for i in 0..count {
+        let pose = match count {
+            3 => task.poses.poses[i],
+            _ => task.poses.span.at(i as f64 / (count - 1) as f64 - 0.5),
+        };
+        let from = LineFrom::new(start, along, &pose);
+        let of = |part| from.chord(part).map(|chord| (fixed(chord.lo), fixed(chord.hi)));
+        chords.extend(body.parts.iter().filter_map(of));
+    }
+    chords.sort_unstable();
+    covered.clear();
+    for (lo, hi) in chords {
+        match covered.last_mut() {
+            Some(last) if *lo <= last.1 => last.1 = last.1.max(*hi),
+            _ => covered.push((*lo, *hi)),
         }
     }
-    list.sort_unstable();
-    let mut merged: Vec<(i32, i32)> = Vec::with_capacity(list.len());
-    for (lo, hi) in list {
-        match merged.last_mut() {
-            Some(last) if lo <= last.1 => last.1 = last.1.max(hi),
-            _ => merged.push((lo, hi)),
-        }
-    }
-    merged
 }
 
 /// Length of material between two coordinates.

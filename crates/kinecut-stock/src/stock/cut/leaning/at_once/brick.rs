@@ -7,6 +7,7 @@ use glam::DVec3;
 use super::super::swept::{MOST_STRETCHES, NO_STRETCH, StockLine};
 use super::super::task::Batch;
 use super::super::tiles::end_point;
+use super::bundle::Bundle;
 use super::cells::{BRICK, Cell, Cells};
 use super::near::{SweptPart, Tangent};
 use super::planes::Planes;
@@ -14,18 +15,23 @@ use crate::stock::tile::{TILE_EDGE, Tile};
 use crate::stock::tri_dexel::LINE_OFFSET;
 use crate::stock::{Axis, EndPoint, fixed, unfixed};
 
-/// Lines along an edge of the smallest cells.
-const LEAF: u32 = 4;
-
-/// Lines of a smallest cell.
-const LINES: usize = 3 * (LEAF * LEAF) as usize;
-
 /// Ends this near to the border of a cell lie on it [fixed steps]: both cells there shall agree.
 const SNAP: i32 = 2;
 
+/// Edges of the smallest cells to a radius of the tool: a ball is off its tangent plane by no more than 1/100 of its radius there.
+const LEAVES: f64 = 7.0;
+
+/// Lines along an edge of the smallest cells, for the thinnest part of a run: a power of two less than that of a brick.
+pub(super) fn leaf(thinnest: f64, step: f64) -> u32 {
+    let mut leaf = BRICK / 2;
+    while leaf > 1 && f64::from(leaf) * step * LEAVES > thinnest {
+        leaf /= 2;
+    }
+    leaf
+}
+
 /// A grid whose tiles are shared by the bricks along its lines.
 pub(super) struct Grids<'a> {
-    pub(super) axis: Axis,
     /// Number of tiles across.
     pub(super) across: [u32; 2],
     pub(super) tiles: Vec<Mutex<&'a mut Tile>>,
@@ -34,12 +40,19 @@ pub(super) struct Grids<'a> {
 /// A move that has left an end: its index in the batch, and the end's place [mm].
 pub(super) type Winner = (u32, [f64; 3]);
 
-/// The tiles of a brick.
-struct Work<'a, 'b, 'c> {
+/// The tiles of a brick's lines, of its own until it is done: no brick waits for another that shares a line.
+struct Work<'a> {
     cells: &'a Cells,
     swept: &'a [SweptPart<'a>],
-    tiles: [MutexGuard<'b, &'c mut Tile>; 3],
+    tiles: [Tile; 3],
+    /// By tile what was taken out of its lines: index of the line, and both ends.
+    taken: [Vec<(u16, [EndPoint; 2])>; 3],
     planes: Planes,
+    /// Lines along an edge of the smallest cells.
+    leaf: u32,
+    /// Room for bundles and a list that are not in use.
+    bundles: Vec<Bundle>,
+    some: Vec<u32>,
 }
 
 /// A line in a cell.
@@ -60,103 +73,151 @@ struct Line {
 }
 
 /// Cuts a brick by the swept parts near it.
-pub(super) fn cut(cells: &Cells, grids: &[Grids; 3], swept: &[SweptPart], brick: u32, near: &[u32]) {
+pub(super) fn cut(
+    cells: &Cells,
+    grids: &[Grids; 3],
+    swept: &[SweptPart],
+    brick: u32,
+    near: &[u32],
+    leaf: u32,
+) {
     let cell = cells.of_brick(brick);
-    Work::new(cells, grids, swept, &cell).halve(&cell, BRICK, near);
+    let tiles = Axis::ALL.map(|axis| Tile::clone(&tile(grids, axis, &cell)));
+    let taken = [const { Vec::new() }; 3];
+    let mut work =
+        Work { cells, swept, tiles, taken, planes: Planes::default(), leaf, bundles: vec![], some: vec![] };
+    work.halve(&cell, BRICK, near);
+    for (axis, taken) in Axis::ALL.into_iter().zip(work.taken).filter(|(_, taken)| !taken.is_empty()) {
+        let mut tile = tile(grids, axis, &cell);
+        for (line, [lo, hi]) in taken {
+            tile.subtract(line as usize, lo, hi);
+        }
+    }
 }
 
 /// Takes all material out of a brick.
 pub(super) fn empty(cells: &Cells, grids: &[Grids; 3], brick: u32) {
     let cell = cells.of_brick(brick);
-    Work::new(cells, grids, &[], &cell).empty(&cell);
+    for axis in Axis::ALL {
+        let mut tile = tile(grids, axis, &cell);
+        let [lo, hi] = window(&cell, axis.index()).map(border);
+        each_line(cells, &cell, axis, |line, _| {
+            tile.subtract(line, lo, hi);
+        });
+    }
+}
+
+/// The tile of a brick's lines along an axis, for as long as it is held.
+fn tile<'b, 'c>(grids: &'b [Grids<'c>; 3], axis: Axis, cell: &Cell) -> MutexGuard<'b, &'c mut Tile> {
+    let (a, b) = axis.others();
+    let grid = &grids[axis.index()];
+    let tile = cell.first[b.index()] / TILE_EDGE * grid.across[0] + cell.first[a.index()] / TILE_EDGE;
+    grid.tiles[tile as usize].lock().unwrap_or_else(PoisonError::into_inner)
 }
 
 /// The moves of a batch that have left an end in a brick.
 pub(super) fn winners(cells: &Cells, grids: &[Grids; 3], brick: u32, batch: &Batch) -> Vec<Winner> {
     let cell = cells.of_brick(brick);
-    Work::new(cells, grids, &[], &cell).winners(&cell, batch)
+    let mut winners: Vec<Winner> = Vec::new();
+    for axis in Axis::ALL {
+        let along = axis.index();
+        let [low, high] = window(&cell, along);
+        let tile = tile(grids, axis, &cell);
+        each_line(cells, &cell, axis, |line, start| {
+            let ends = tile.line(line).iter().flat_map(|i| [i.lo, i.hi]);
+            for end in ends.filter(|end| end.at >= low && end.at < high) {
+                let index = end.cut.wrapping_sub(batch.first);
+                if (index as usize) < batch.moves.len() && winners.last().is_none_or(|last| last.0 != index) {
+                    let mut point = start;
+                    point[along] = unfixed(end.at);
+                    winners.push((index, point.to_array()));
+                }
+            }
+        });
+    }
+    winners.sort_by_key(|(index, _)| *index);
+    winners.dedup_by_key(|(index, _)| *index);
+    winners
 }
 
-impl<'a, 'b, 'c> Work<'a, 'b, 'c> {
-    /// Holds the tiles of a brick's lines: always in the order of their grids, so that no two threads wait for each other.
-    fn new(
-        cells: &'a Cells,
-        grids: &'b [Grids<'c>; 3],
-        swept: &'a [SweptPart<'a>],
-        cell: &Cell,
-    ) -> Work<'a, 'b, 'c> {
-        let tiles = grids.each_ref().map(|grid| {
-            let (a, b) = grid.axis.others();
-            let tile = cell.first[b.index()] / TILE_EDGE * grid.across[0] + cell.first[a.index()] / TILE_EDGE;
-            grid.tiles[tile as usize].lock().unwrap_or_else(PoisonError::into_inner)
-        });
-        Work { cells, swept, tiles, planes: Planes::default() }
-    }
-
+impl Work<'_> {
     /// Divides a cell until it is swallowed, or small enough to be cut.
-    fn divide(&mut self, cell: &Cell, size: u32, near: &[u32]) {
-        let mut list: Vec<(u32, Tangent)> = Vec::with_capacity(near.len());
-        for i in near {
-            let one = &self.swept[*i as usize];
-            if let Some(tangent) = one.reaches(cell) {
-                // A pose that swallows it reaches beyond it on all sides.
-                if tangent.reach > cell.radius && one.swallows(cell) {
-                    return self.empty(cell);
-                }
-                list.push((*i, tangent));
+    fn divide(&mut self, cell: &Cell, size: u32, near: &mut Bundle) {
+        near.ask(self.swept, cell.centre, cell.radius);
+        let mut some = std::mem::take(&mut self.some);
+        some.clear();
+        for (i, reach) in near.list.iter().zip(&near.reaches) {
+            if *reach < -cell.radius {
+                continue;
             }
-        }
-        if list.is_empty() {
-            return;
-        }
-        if size <= LEAF {
-            for (i, tangent) in &mut list {
-                *tangent = self.swept[*i as usize].tangent_closely(cell);
+            // A pose that swallows it reaches beyond it on all sides.
+            if *reach > cell.radius && self.swept[*i as usize].swallows(cell) {
+                self.some = some;
+                return self.empty(cell);
             }
-            list.retain(|(_, tangent)| tangent.reach >= -cell.radius);
-            return self.cut(cell, &list);
+            some.push(*i);
         }
-        let some: Vec<u32> = list.iter().map(|(i, _)| *i).collect();
-        self.halve(cell, size, &some);
+        if size > self.leaf && !some.is_empty() {
+            self.halve(cell, size, &some);
+        } else if !some.is_empty() {
+            let tangents = some.iter().map(|i| (*i, self.swept[*i as usize].tangent_closely(cell)));
+            let list: Vec<(u32, Tangent)> = tangents.filter(|(_, t)| t.reach >= -cell.radius).collect();
+            self.cut(cell, &list);
+        }
+        self.some = some;
     }
 
     /// Divides a cell of a size into eight.
     fn halve(&mut self, cell: &Cell, size: u32, near: &[u32]) {
         let half = size / 2;
+        let mut bundle = self.bundles.pop().unwrap_or_default();
+        bundle.fill(self.swept, near);
         for k in (cell.first[2]..cell.end[2]).step_by(half as usize) {
             for j in (cell.first[1]..cell.end[1]).step_by(half as usize) {
                 for i in (cell.first[0]..cell.end[0]).step_by(half as usize) {
-                    self.divide(&self.cells.cell([i, j, k], half), half, near);
+                    self.divide(&self.cells.cell([i, j, k], half), half, &mut bundle);
                 }
             }
         }
+        self.bundles.push(bundle);
     }
 
-    /// Cuts a cell by the swept parts that may reach it: each line by the one that reaches deepest beyond its end, as long as one
-    /// does.
+    /// Cuts a cell by the swept parts that may reach it: each line first by the one that cut its neighbour last, then by the one that
+    /// reaches deepest beyond its end, as long as one does.
     fn cut(&mut self, cell: &Cell, list: &[(u32, Tangent)]) {
         let mut planes = std::mem::take(&mut self.planes);
         planes.set(list);
+        let mut last = None;
         for mut line in self.lines(cell) {
             planes.begin();
-            while let Some(n) = planes.deepest(&line.ends) {
+            let mut guess: Option<usize> = last.filter(|n| planes.reaches(*n, &line.ends));
+            while let Some(n) = guess.take().or_else(|| planes.deepest(&line.ends)) {
                 let one = &self.swept[list[n].0 as usize];
-                let ends = line.ends.map(|end| end + cell.centre);
-                if one.holds(ends) {
-                    self.tiles[line.along].subtract(line.line, border(line.hull[0]), border(line.hull[1]));
+                if planes.may_hold(n, &line.ends) && one.holds(line.ends.map(|end| end + cell.centre)) {
+                    self.take(line.along, line.line, line.hull.map(border));
                     break;
                 }
-                if self.cut_line(&line, one) && !self.look(&mut line, cell.centre) {
-                    break;
+                planes.close(n);
+                if self.cut_line(&line, one) {
+                    last = Some(n);
+                    if !self.look(&mut line, cell.centre) {
+                        break;
+                    }
                 }
             }
         }
         self.planes = planes;
     }
 
+    /// Takes a stretch out of a line; returns the length removed [fixed steps].
+    fn take(&mut self, along: usize, line: usize, ends: [EndPoint; 2]) -> i64 {
+        self.taken[along].push((line as u16, ends));
+        self.tiles[along].subtract(line, ends[0], ends[1])
+    }
+
     /// Cuts a line in a cell by a swept part; true when it was changed.
     fn cut_line(&mut self, line: &Line, swept: &SweptPart) -> bool {
-        let tile = &mut *self.tiles[line.along];
+        let tile = &self.tiles[line.along];
         let [low, high] = line.window;
         let mut stretches = [NO_STRETCH; MOST_STRETCHES];
         let parts = tile.line(line.line).iter().filter(|i| i.lo.at < high && low < i.hi.at);
@@ -173,7 +234,7 @@ impl<'a, 'b, 'c> Work<'a, 'b, 'c> {
             let to = if to >= high - SNAP { high } else { to };
             if from < high - SNAP && to > low + SNAP && from < to {
                 let ends = [(from, &lo), (to, &hi)].map(|(at, end)| end_point(task, swept.index, at, end));
-                changed |= tile.subtract(line.line, ends[0], ends[1]) > 0;
+                changed |= self.take(line.along, line.line, ends) > 0;
             }
         });
         changed
@@ -181,7 +242,7 @@ impl<'a, 'b, 'c> Work<'a, 'b, 'c> {
 
     /// The lines of a cell that have material in it.
     fn lines(&self, cell: &Cell) -> Vec<Line> {
-        let mut lines = Vec::with_capacity(LINES);
+        let mut lines = Vec::with_capacity(3 * (self.leaf * self.leaf) as usize);
         for axis in Axis::ALL {
             let along = axis.index();
             let window = window(cell, along);
@@ -219,37 +280,11 @@ impl<'a, 'b, 'c> Work<'a, 'b, 'c> {
     /// Takes all material out of a cell.
     fn empty(&mut self, cell: &Cell) {
         for axis in Axis::ALL {
-            let tile = &mut *self.tiles[axis.index()];
             let ends = window(cell, axis.index()).map(border);
             each_line(self.cells, cell, axis, |line, _| {
-                tile.subtract(line, ends[0], ends[1]);
+                self.take(axis.index(), line, ends);
             });
         }
-    }
-
-    /// The moves of a batch that have left an end in a cell.
-    fn winners(&self, cell: &Cell, batch: &Batch) -> Vec<Winner> {
-        let mut winners: Vec<Winner> = Vec::new();
-        for axis in Axis::ALL {
-            let along = axis.index();
-            let [low, high] = window(cell, along);
-            each_line(self.cells, cell, axis, |line, start| {
-                let ends = self.tiles[along].line(line).iter().flat_map(|i| [i.lo, i.hi]);
-                for end in ends.filter(|end| end.at >= low && end.at < high) {
-                    let index = end.cut.wrapping_sub(batch.first);
-                    if (index as usize) < batch.moves.len()
-                        && winners.last().is_none_or(|last| last.0 != index)
-                    {
-                        let mut point = start;
-                        point[along] = unfixed(end.at);
-                        winners.push((index, point.to_array()));
-                    }
-                }
-            });
-        }
-        winners.sort_by_key(|(index, _)| *index);
-        winners.dedup_by_key(|(index, _)| *index);
-        winners
     }
 }
 

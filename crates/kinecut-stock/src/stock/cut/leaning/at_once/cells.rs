@@ -197,11 +197,13 @@ impl Cells {
         }
     }
 
-    /// The swept parts near each brick, from one of them on as many as there is room for.
+    /// The swept parts near each brick, from one of them on as many as there is room for; bricks that one of them swallows are cleared,
+    /// and have none.
     pub(super) fn near(&self, swept: &[SweptPart], from: usize, progress: &dyn Progress) -> Near {
-        /// Swept parts that a thread takes at once, and that are taken before it is asked whether there is room for more.
+        /// Swept parts that a thread takes at once, and that are taken before bricks are cleared and it is asked whether there is room
+        /// for more.
         const CHUNK: usize = 64;
-        const WAVE: usize = 32 * CHUNK;
+        const WAVE: usize = 8 * CHUNK;
         /// Pairs of brick and part, eight bytes each.
         const MOST: usize = 8_000_000;
         let mut pairs: Vec<Vec<(u32, u32)>> = Vec::new();
@@ -209,18 +211,32 @@ impl Cells {
         while end < swept.len() && count < MOST {
             let some = &swept[end..swept.len().min(end + WAVE)];
             let chunk = |(n, some): (usize, &[SweptPart])| {
-                let mut pairs: Vec<(u32, u32)> = Vec::new();
+                let (mut pairs, mut swallowed): (Vec<(u32, u32)>, Vec<u32>) = Default::default();
                 if !progress.cancelled() {
                     for (i, one) in some.iter().enumerate() {
-                        self.each_near(one, |brick, _, _| pairs.push((brick, (end + n * CHUNK + i) as u32)));
+                        self.each_near(one, |brick, cell, tangent| {
+                            if tangent.reach > cell.radius && one.swallows(cell) {
+                                swallowed.push(brick);
+                            } else {
+                                pairs.push((brick, (end + n * CHUNK + i) as u32));
+                            }
+                        });
                     }
                 }
-                pairs
+                (pairs, swallowed)
             };
-            let first = pairs.len();
-            pairs.par_extend(some.par_chunks(CHUNK).enumerate().map(chunk));
-            count += pairs[first..].iter().map(Vec::len).sum::<usize>();
+            let found: Vec<(Vec<(u32, u32)>, Vec<u32>)> =
+                some.par_chunks(CHUNK).enumerate().map(chunk).collect();
+            for (some, swallowed) in found {
+                count += some.len();
+                pairs.push(some);
+                // After all of them were asked: what is found does not depend on who comes first.
+                swallowed.into_iter().for_each(|brick| self.clear(brick));
+            }
             end += some.len();
+        }
+        for some in &mut pairs {
+            some.retain(|(brick, _)| self.has_material(*brick));
         }
         let mut starts = vec![0; self.bricks.iter().product::<u32>() as usize + 1];
         for (brick, _) in pairs.iter().flatten() {

@@ -11,6 +11,7 @@
 
 mod account;
 mod brick;
+mod bundle;
 mod cells;
 mod near;
 mod planes;
@@ -68,12 +69,18 @@ pub(super) fn cut_at_once(
 ) {
     let tasks = batch.tasks_of(moves.clone());
     let mut seen = vec![false; moves.len()];
-    account(stock, tasks, progress, |effect| {
+    let swept: Vec<SweptPart> = tasks
+        .iter()
+        .flat_map(|task| {
+            task.tool.cutting.parts.iter().enumerate().map(|(i, part)| SweptPart::new(task, part, i))
+        })
+        .collect();
+    account(stock, tasks, &swept, progress, |effect| {
         let index = effect.index as usize;
         seen[index - moves.start] |= effect.first.is_some();
         sums[index].add(effect, 0);
     });
-    let winners = unite(stock, cells, batch, tasks, progress);
+    let winners = unite(stock, cells, batch, &swept, progress);
     for (index, point) in winners.into_iter().filter(|(index, _)| moves.contains(&(*index as usize))) {
         if !std::mem::replace(&mut seen[index as usize - moves.start], true) {
             // It has left an end, so it has taken something.
@@ -88,45 +95,32 @@ fn unite(
     stock: &mut TriDexel,
     cells: &Cells,
     batch: &Batch,
-    tasks: &[SpanTask],
+    swept: &[SweptPart],
     progress: &dyn Progress,
 ) -> Vec<Winner> {
-    let swept: Vec<SweptPart> = tasks
-        .iter()
-        .flat_map(|task| {
-            task.tool.cutting.parts.iter().enumerate().map(|(i, part)| SweptPart::new(task, part, i))
-        })
-        .collect();
-    let before = cells.bricks_with_material();
-    swept.par_iter().for_each(|one| {
-        if !progress.cancelled() {
-            cells.each_near(one, |brick, cell, _| {
-                if one.swallows(cell) {
-                    cells.clear(brick);
-                }
-            });
-        }
-    });
+    let thinnest = swept.iter().map(|one| one.part.r1).fold(f64::INFINITY, f64::min);
+    let leaf = brick::leaf(thinnest, cells.lattice().step);
+    let bricks = cells.bricks_with_material();
     let grids = stock.grids.each_mut().map(|grid| {
-        let (axis, across) = (grid.axis, grid.tiles_across());
-        Grids { axis, across, tiles: grid.tiles.iter_mut().map(Mutex::new).collect() }
+        let across = grid.tiles_across();
+        Grids { across, tiles: grid.tiles.iter_mut().map(Mutex::new).collect() }
     });
-    let (left, swallowed): (Vec<u32>, Vec<u32>) = before.into_iter().partition(|b| cells.has_material(*b));
-    swallowed.par_iter().for_each(|brick| brick::empty(cells, &grids, *brick));
     let mut from = 0;
-    let mut touched = vec![false; left.len()];
+    let mut touched = vec![false; bricks.len()];
     while from < swept.len() && !progress.cancelled() {
-        let near = cells.near(&swept, from, progress);
-        touched.par_iter_mut().zip(&left).for_each(|(touched, brick)| {
+        let near = cells.near(swept, from, progress);
+        touched.par_iter_mut().zip(&bricks).for_each(|(touched, brick)| {
             let list = near.of(*brick);
             if !list.is_empty() && !progress.cancelled() {
-                brick::cut(cells, &grids, &swept, *brick, list);
+                brick::cut(cells, &grids, swept, *brick, list, leaf);
                 *touched = true;
             }
         });
         from = near.end;
     }
-    let winners = |(_, brick): (&bool, &u32)| brick::winners(cells, &grids, *brick, batch);
-    let touched = touched.par_iter().zip(&left).filter(|(touched, _)| **touched);
-    touched.map(winners).collect::<Vec<_>>().concat()
+    let left = |brick: &u32| cells.has_material(*brick);
+    bricks.par_iter().filter(|brick| !left(brick)).for_each(|brick| brick::empty(cells, &grids, *brick));
+    let touched = touched.par_iter().zip(&bricks).filter(|(touched, brick)| **touched && left(brick));
+    let winners = touched.map(|(_, brick)| brick::winners(cells, &grids, *brick, batch));
+    winners.collect::<Vec<_>>().concat()
 }

@@ -41,6 +41,14 @@ pub(super) struct Tangent {
     pub(super) likely: f64,
 }
 
+/// A plane that a part stays behind, near a place: all it sweeps has `normal . (q - place) <= reach`, and `widens` more for each
+/// millimetre by which q is farther than it was made for.
+pub(super) struct Beside {
+    pub(super) normal: DVec3,
+    pub(super) reach: f64,
+    pub(super) widens: f64,
+}
+
 impl<'a> SweptPart<'a> {
     pub(super) fn new(task: &'a SpanTask<'a>, part: &'a ConvexPart, index: usize) -> SweptPart<'a> {
         let pose = &task.poses.poses[1];
@@ -58,22 +66,46 @@ impl<'a> SweptPart<'a> {
         }
     }
 
-    /// The tangent plane of the part about a cell.
-    fn tangent(&self, cell: &Cell) -> Tangent {
+    /// As a bundle holds them: place and axis in the middle, their rates, turn and bends.
+    pub(super) fn numbers(&self) -> [f64; 15] {
+        let Pose { tip, axis, tip_rate, axis_rate } = self.middle;
+        let [p, u, v, w] = [tip, axis, tip_rate, axis_rate];
+        let [tip, by_reach] = self.bends;
+        [p.x, p.y, p.z, u.x, u.y, u.z, v.x, v.y, v.z, w.x, w.y, w.z, self.turn, tip, by_reach]
+    }
+
+    /// Most that the part reaches beyond the centre of what is no farther from it than `radius` [mm].
+    pub(super) fn reach(&self, centre: DVec3, radius: f64) -> f64 {
+        self.tangent(centre, radius).reach
+    }
+
+    /// The tangent plane of the part about what is no farther from a place than `radius`.
+    fn tangent(&self, centre: DVec3, radius: f64) -> Tangent {
         let pose = &self.middle;
-        let gauge = gauge_at(self.part, pose, cell.centre);
-        let rate = gauge.normal.dot(pose.velocity(cell.centre - pose.tip)).abs();
-        let slack = 0.5 * (rate + cell.radius * self.turn) + 2.0 * self.bend(cell);
+        let gauge = gauge_at(self.part, pose, centre);
+        let rate = gauge.normal.dot(pose.velocity(centre - pose.tip)).abs();
+        let slack = 0.5 * (rate + radius * self.turn) + 2.0 * self.bend(centre, radius);
         Tangent { normal: gauge.normal, reach: slack - gauge.value, likely: -gauge.value }
+    }
+
+    /// The plane that keeps closest to the part, about a place.
+    pub(super) fn beside(&self, place: DVec3, radius: f64) -> Beside {
+        let Tangent { normal, reach, .. } = self.closely(place, radius);
+        Beside { normal, reach, widens: self.turn + 8.0 * self.bends[1] }
+    }
+
+    /// The tangent plane about a cell at the middle of the time, or one that keeps closer to the part.
+    pub(super) fn tangent_closely(&self, cell: &Cell) -> Tangent {
+        self.closely(cell.centre, cell.radius)
     }
 
     /// The tangent plane at the middle of the time, or one that keeps closer to the part: that and the one at the end of the time to
     /// which the part comes nearer, in shares with which what both say of the centre does not change in time.
-    pub(super) fn tangent_closely(&self, cell: &Cell) -> Tangent {
+    fn closely(&self, centre: DVec3, radius: f64) -> Tangent {
         let poses = &self.task.poses.poses;
         let at = |pose: &Pose| {
-            let gauge = gauge_at(self.part, pose, cell.centre);
-            (gauge, -gauge.normal.dot(pose.velocity(cell.centre - pose.tip)))
+            let gauge = gauge_at(self.part, pose, centre);
+            (gauge, -gauge.normal.dot(pose.velocity(centre - pose.tip)))
         };
         let (middle, rate) = at(&poses[1]);
         let (time, end) = if rate > 0.0 { (-0.5, &poses[0]) } else { (0.5, &poses[2]) };
@@ -84,9 +116,9 @@ impl<'a> SweptPart<'a> {
         let both = |a: f64, b: f64| share * a + (1.0 - share) * b;
         // At the end the rate lets the gauge rise from there; else both rates together come to nothing.
         let value = both(middle.value, if share > 0.0 { last.value - last_rate * time } else { last.value });
-        let (turn, bend) = (self.turn, self.bend(cell));
-        let slack = both(0.5, 1.0) * cell.radius * turn + 8.0 * bend * both(0.25, 1.0);
-        let wide = 0.5 * (rate.abs() + cell.radius * turn) + 2.0 * bend;
+        let (turn, bend) = (self.turn, self.bend(centre, radius));
+        let slack = both(0.5, 1.0) * radius * turn + 8.0 * bend * both(0.25, 1.0);
+        let wide = 0.5 * (rate.abs() + radius * turn) + 2.0 * bend;
         let likely = -value;
         if slack - value < wide - middle.value {
             let normal = middle.normal * share + last.normal * (1.0 - share);
@@ -96,16 +128,16 @@ impl<'a> SweptPart<'a> {
         }
     }
 
-    /// The bend of the way that a part takes past a cell, seen from the tool [mm].
-    fn bend(&self, cell: &Cell) -> f64 {
+    /// The bend of the way that a part takes past what is near a place, seen from the tool [mm].
+    fn bend(&self, centre: DVec3, radius: f64) -> f64 {
         let [tip, by_reach] = self.bends;
-        let reach = cell.centre.distance(self.middle.tip) + cell.radius + 2.0 * self.part.r1;
+        let reach = centre.distance(self.middle.tip) + radius + 2.0 * self.part.r1;
         tip + by_reach * reach
     }
 
     /// The tangent plane about a cell; `None` if the part stays away from the cell.
     pub(super) fn reaches(&self, cell: &Cell) -> Option<Tangent> {
-        let tangent = self.tangent(cell);
+        let tangent = self.tangent(cell.centre, cell.radius);
         (tangent.reach >= -cell.radius).then_some(tangent)
     }
 
@@ -124,8 +156,10 @@ impl<'a> SweptPart<'a> {
 
 #[cfg(test)]
 mod tests {
+    use super::super::super::super::body::Foot;
     use super::super::super::super::{CutList, CutMove, CutOptions, ToolBody};
     use super::super::super::task::Batch;
+    use super::super::bundle::Bundle;
     use super::super::cells::Cells;
     use super::*;
     use crate::geom::{Arc, Curve, Line, Profile};
@@ -157,7 +191,12 @@ mod tests {
                 // Those in the middle are where moves through the middle are nearest in the middle of their time.
                 let first = if n % 3 == 0 { [first[0], 32 - size / 2, first[2]] } else { first };
                 let cell = cells.cell(first, size);
-                let planes = [swept.tangent(&cell), swept.tangent_closely(&cell)];
+                let mut bundle = Bundle::default();
+                bundle.fill(std::slice::from_ref(&swept), &[0]);
+                bundle.ask(std::slice::from_ref(&swept), cell.centre, cell.radius);
+                let reach = swept.reach(cell.centre, cell.radius);
+                assert!((bundle.reaches[0] - reach).abs() < 1e-9 || matches!(part.foot, Foot::Flat));
+                let planes = [swept.tangent(cell.centre, cell.radius), swept.tangent_closely(&cell)];
                 for i in 0..400 {
                     let at = DVec3::from_array([0, 1, 2].map(|k| spread(i, k)));
                     let point = cell.low + (cell.high - cell.low) * at;
@@ -166,7 +205,7 @@ mod tests {
                         continue;
                     }
                     held += 1;
-                    assert!(swept.reaches(&cell).is_some());
+                    assert!(swept.reaches(&cell).is_some() && bundle.reaches[0] >= -cell.radius);
                     for plane in planes {
                         least = least.min(plane.reach - plane.normal.dot(point - cell.centre));
                     }
