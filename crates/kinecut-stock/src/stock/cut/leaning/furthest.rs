@@ -103,11 +103,11 @@ impl Look<'_> {
     ) -> Option<(f64, f64)> {
         let (upper, apart, middle) = (search.upper, to - from, 0.5 * (from + to));
         let turn = self.of.poses[1].axis_rate.length();
-        let slant = |met: &Met| met.slant[usize::from(upper)];
+        let slant = |met: &Met| (met.slant[usize::from(upper)], met.bends[usize::from(upper)]);
         // The way that may be missing some time from a look, at a rate of the end; without bound where the face may turn so far that
         // the line lies in it.
-        let missing = |rate: f64, slant: f64, apart: f64| {
-            let off = (4.0 * self.bend + turn * rate.abs()) * apart * apart - FINE;
+        let missing = |rate: f64, (slant, bend): (f64, f64), apart: f64| {
+            let off = (4.0 * bend + turn * rate.abs()) * apart * apart - FINE;
             let slant = slant - turn * apart;
             if !(off > 0.0) {
                 0.0
@@ -118,7 +118,7 @@ impl Look<'_> {
             }
         };
         // The least on the way from a look to the other end: what falls so is least at one of them.
-        let from_look = |(cost, rate): (f64, f64), slant: f64, way: f64| {
+        let from_look = |(cost, rate): (f64, f64), slant: (f64, f64), way: f64| {
             let other = cost + rate * way - missing(rate, slant, apart);
             // Not a number, or no end of it: look there.
             if other < cost || !other.is_finite() { other } else { cost }
@@ -140,7 +140,8 @@ impl Look<'_> {
                     _ => hermite([from, to], [ca, cb], [ga, gb]).unwrap_or(meet),
                 };
                 let rate = if -ga > gb { ga } else { gb };
-                let least = ca + ga * (meet - from) - missing(rate, slant(a).min(slant(b)), apart);
+                let (x, y) = (slant(a), slant(b));
+                let least = ca + ga * (meet - from) - missing(rate, (x.0.min(y.0), x.1.max(y.1)), apart);
                 Some((least, if next.is_finite() { next } else { middle }))
             }
             [Some(a), None] => Some((from_look(a.cost(upper), slant(a), apart), middle)),

@@ -20,6 +20,8 @@ pub(super) struct Met {
     pub(super) rates: [f64; 2],
     /// Sines of the angles of the line to the faces at both ends.
     pub(super) slant: [f64; 2],
+    /// Bends of the ways of both ends, see [`SpanPoses::bend_at`].
+    pub(super) bends: [f64; 2],
 }
 
 impl Met {
@@ -39,7 +41,7 @@ pub(super) struct Mets {
 impl Mets {
     pub(super) fn new() -> Mets {
         let none = Chord { lo: 0.0, hi: 0.0, lo_at: Touch::Disc, hi_at: Touch::Disc };
-        let met = Met { t: 0.0, chord: none, rates: [0.0; 2], slant: [0.0; 2] };
+        let met = Met { t: 0.0, chord: none, rates: [0.0; 2], slant: [0.0; 2], bends: [0.0; 2] };
         Mets { list: [met; MOST_METS], count: 0 }
     }
 
@@ -80,15 +82,16 @@ impl Look<'_> {
         let end = |s: f64, touch: Touch, beyond: bool| {
             // Beyond the material it is far enough, and nothing more is asked.
             if beyond {
-                return (0.0, 1.0);
+                return (0.0, 1.0, self.bend);
             }
             let n = from.outward(self.part, s, touch);
             let slant = n[self.line.along];
-            (n.dot(pose.velocity(from.point(s))) / slant, slant.abs())
+            let place = from.point(s);
+            (n.dot(pose.velocity(place)) / slant, slant.abs(), self.of.bend_at(self.part, place.length()))
         };
         let [low, high] = self.line.material;
         let lo = end(chord.lo, chord.lo_at, chord.lo <= low);
         let hi = end(chord.hi, chord.hi_at, chord.hi >= high);
-        Some(Met { t, chord, rates: [lo.0, hi.0], slant: [lo.1, hi.1] })
+        Some(Met { t, chord, rates: [lo.0, hi.0], slant: [lo.1, hi.1], bends: [lo.2, hi.2] })
     }
 }

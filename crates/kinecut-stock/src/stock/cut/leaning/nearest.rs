@@ -50,7 +50,9 @@ impl Look<'_> {
         if !(near.value > 0.0) {
             return false;
         }
-        if self.least(&near, pose, &from, 0.5) > 0.0 || self.least(&far, pose, &from, 0.5) > 0.0 {
+        let reach = self.line.material.iter().map(|s| from.point(*s).length()).fold(0.0, f64::max);
+        let bend = self.of.bend_at(self.part, reach);
+        if [&near, &far].iter().any(|plane| self.least(plane, pose, &from, 0.5, bend) > 0.0) {
             return true;
         }
         let rate = -near.normal.dot(pose.velocity(from.point(near.s)));
@@ -60,7 +62,7 @@ impl Look<'_> {
         let last_rate = -last.normal.dot(pose_then.velocity(then.point(near.s)));
         // The planes in shares with which what both say of that end does not change in time; else the last alone.
         let share = if (rate > 0.0) != (last_rate > 0.0) { last_rate / (last_rate - rate) } else { 0.0 };
-        let bend = 8.0 * self.bend * (0.25 * share + (1.0 - share));
+        let bend = 8.0 * bend * (0.25 * share + (1.0 - share));
         self.line.material.iter().all(|s| {
             let says = |plane: &Plane, from: &LineFrom, pose: &Pose| {
                 let rate = -plane.normal.dot(pose.velocity(from.point(*s)));
@@ -80,14 +82,14 @@ impl Look<'_> {
     ///
     /// The gauge is convex in the frame of the tool, so that it lies above its tangent plane there. Carried along, the plane is
     /// linear on the line at each time: its least is at an end of the material. How it changes in time is its rate, and the bend.
-    fn least(&self, plane: &Plane, pose: &Pose, from: &LineFrom, room: f64) -> f64 {
+    fn least(&self, plane: &Plane, pose: &Pose, from: &LineFrom, room: f64, bend: f64) -> f64 {
         let slope = plane.normal[self.line.along];
         let at = |s: f64| {
             let rate = plane.normal.dot(pose.velocity(from.point(s))).abs();
             plane.value + slope * (s - plane.s) - rate * room
         };
         let [a, b] = self.line.material.map(at);
-        (if a < b { a } else { b }) - 8.0 * self.bend * room * room
+        (if a < b { a } else { b }) - 8.0 * bend * room * room
     }
 
     /// A look at a time at which the line is met, where it is at none of the three: halves of the time, the one in which the gap
@@ -130,7 +132,7 @@ impl Look<'_> {
         // The gauge falls by no more than the distance from the line, and its rate by no more than the turn over that.
         let off = by * (1.0 + pose.axis_rate.length() * room);
         let told = |plane: Plane| {
-            if plane.value > by && self.least(&plane, pose, &from, room) > off {
+            if plane.value > by && self.least(&plane, pose, &from, room, self.bend) > off {
                 Gap::Clear
             } else {
                 Gap::Open(-plane.normal.dot(pose.velocity(from.point(plane.s))))

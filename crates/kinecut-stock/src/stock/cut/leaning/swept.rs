@@ -69,6 +69,8 @@ pub(super) struct CoverEnd {
 pub(super) struct SpanPoses {
     pub(super) span: PoseSpan,
     pub(super) poses: [Pose; 3],
+    /// Bend of the way of the tip, seen from the tool [mm], and what each millimetre from the tip adds.
+    bends: [f64; 2],
 }
 
 /// Times of the poses.
@@ -76,7 +78,10 @@ const TIMES: [f64; 3] = [-0.5, 0.0, 0.5];
 
 impl SpanPoses {
     pub(super) fn new(span: PoseSpan) -> SpanPoses {
-        SpanPoses { span, poses: TIMES.map(|t| span.at(t)) }
+        let bends = [span.bend(0.0), span.bend(1.0) - span.bend(0.0)];
+        let mut poses = SpanPoses { span, poses: TIMES.map(|t| span.at(t)), bends };
+        poses.bends[0] = poses.bend_seen(bends[0]);
+        poses
     }
 
     /// Calls for each stretch of a line that a part covers, with its ends; `bend` as [`PoseSpan::bend`]. What lies beyond the
@@ -150,6 +155,12 @@ impl SpanPoses {
     pub(super) fn bend_seen(&self, bend: f64) -> f64 {
         let pose = &self.poses[1];
         bend + 0.25 * pose.axis_rate.length() * pose.tip_rate.length()
+    }
+
+    /// The bend of the way of what is so far from the tip at some time, seen from the tool [mm]: in a span it goes no farther off than
+    /// the part is wide.
+    pub(super) fn bend_at(&self, part: &ConvexPart, far: f64) -> f64 {
+        self.bends[0] + self.bends[1] * (far + 2.0 * part.r1)
     }
 
     /// The line with its material that is no farther from the tip than the part and `by` reach.
