@@ -136,12 +136,6 @@ impl SpanPoses {
         turn > 0.0 && (flat && rise < turn || (1.0 - rise * rise).max(0.0).sqrt() < turn)
     }
 
-    /// True if a part is seen at once to stay away from the material of a line.
-    pub(super) fn surely_misses(&self, part: &ConvexPart, bend: f64, line: &StockLine) -> bool {
-        let bend = self.bend_seen(bend);
-        Look { of: self, part, line: &self.near(part, bend, line, 0.0), bend }.misses()
-    }
-
     /// True if all parts of a body stay away from the material of a line, and from all that is no farther than `by` from it [mm].
     pub(super) fn keep_off(&self, body: &RevolvedParts, bend: f64, line: &StockLine, by: f64) -> bool {
         let bend = self.bend_seen(bend);

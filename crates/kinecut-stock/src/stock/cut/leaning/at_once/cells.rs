@@ -50,6 +50,13 @@ pub(super) struct Near {
     list: Vec<u32>,
 }
 
+/// What some swept parts find: pairs of brick and part, and bricks that are swallowed.
+#[derive(Default)]
+struct Found {
+    pairs: Vec<(u32, u32)>,
+    swallowed: Vec<u32>,
+}
+
 impl Near {
     pub(super) fn of(&self, brick: u32) -> &[u32] {
         &self.list[self.starts[brick as usize]..self.starts[brick as usize + 1]]
@@ -211,23 +218,22 @@ impl Cells {
         while end < swept.len() && count < MOST {
             let some = &swept[end..swept.len().min(end + WAVE)];
             let chunk = |(n, some): (usize, &[SweptPart])| {
-                let (mut pairs, mut swallowed): (Vec<(u32, u32)>, Vec<u32>) = Default::default();
+                let mut found = Found::default();
                 if !progress.cancelled() {
                     for (i, one) in some.iter().enumerate() {
                         self.each_near(one, |brick, cell, tangent| {
                             if tangent.reach > cell.radius && one.swallows(cell) {
-                                swallowed.push(brick);
+                                found.swallowed.push(brick);
                             } else {
-                                pairs.push((brick, (end + n * CHUNK + i) as u32));
+                                found.pairs.push((brick, (end + n * CHUNK + i) as u32));
                             }
                         });
                     }
                 }
-                (pairs, swallowed)
+                found
             };
-            let found: Vec<(Vec<(u32, u32)>, Vec<u32>)> =
-                some.par_chunks(CHUNK).enumerate().map(chunk).collect();
-            for (some, swallowed) in found {
+            let found: Vec<Found> = some.par_chunks(CHUNK).enumerate().map(chunk).collect();
+            for Found { pairs: some, swallowed } in found {
                 count += some.len();
                 pairs.push(some);
                 // After all of them were asked: what is found does not depend on who comes first.
