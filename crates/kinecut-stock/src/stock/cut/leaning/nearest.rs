@@ -62,14 +62,18 @@ impl Look<'_> {
         let last_rate = -last.normal.dot(pose_then.velocity(then.point(near.s)));
         // The planes in shares with which what both say of that end does not change in time; else the last alone.
         let share = if (rate > 0.0) != (last_rate > 0.0) { last_rate / (last_rate - rate) } else { 0.0 };
-        let bend = 8.0 * bend * (0.25 * share + (1.0 - share));
         self.line.material.iter().all(|s| {
             let says = |plane: &Plane, from: &LineFrom, pose: &Pose| {
-                let rate = -plane.normal.dot(pose.velocity(from.point(*s)));
-                (plane.value + plane.normal[self.line.along] * (s - plane.s), rate)
+                let place = from.point(*s);
+                let rate = -plane.normal.dot(pose.velocity(place));
+                let nearer = self.of.nearer(pose, plane.normal, place, self.part);
+                (plane.value + plane.normal[self.line.along] * (s - plane.s), rate, nearer)
             };
-            let ((v, r), (w, q)) = (says(&near, &from, pose), says(&last, &then, pose_then));
-            [-0.5, 0.5].iter().all(|t| share * (v + r * t) + (1.0 - share) * (w + q * (t - time)) > bend)
+            let ((v, r, [nearer, _]), (w, q, [_, then_nearer])) =
+                (says(&near, &from, pose), says(&last, &then, pose_then));
+            let slack = share * nearer + (1.0 - share) * then_nearer;
+            let at = |t: f64| share * (v + r * t) + (1.0 - share) * (w + q * (t - time));
+            at(-0.5) > slack && at(0.5) > slack
         })
     }
 

@@ -117,6 +117,21 @@ impl PoseSpan {
         of(&self.tip) + reach * of(&self.axis)
     }
 
+    /// The part of a way that neither constant velocity nor a steady turn of the tool explains: that of the tip [mm], and what each
+    /// millimetre from the tip adds.
+    pub(super) fn unsteady(&self) -> [f64; 2] {
+        let [[_, _, c, d], [u, v, w, x]] = [self.tip, self.axis];
+        // The rate of the turn, u x u'', by powers of the parameter.
+        let rates = [
+            2.0 * u.cross(w).length(),
+            (6.0 * u.cross(x) + 2.0 * v.cross(w)).length(),
+            6.0 * v.cross(x).length(),
+            4.0 * w.cross(x).length(),
+        ];
+        let rate = rates[0] + 0.5 * (rates[1] + 0.5 * (rates[2] + 0.5 * rates[3]));
+        [0.25 * c.length() + 0.375 * d.length(), 0.125 * rate]
+    }
+
     /// Most that a point within `reach` of the tip moves away from its place at the middle [mm].
     pub(super) fn stray(&self, reach: f64) -> f64 {
         0.5 * (self.tip[1].length() + reach * self.axis[1].length()) + self.bend(reach)

@@ -71,6 +71,10 @@ pub(super) struct SpanPoses {
     pub(super) poses: [Pose; 3],
     /// Bend of the way of the tip, seen from the tool [mm], and what each millimetre from the tip adds.
     bends: [f64; 2],
+    /// See [`PoseSpan::unsteady`].
+    unsteady: [f64; 2],
+    /// Most that the tip moves, and the tool turns, by the parameter [mm, rad].
+    pub(super) rates: [f64; 2],
 }
 
 /// Times of the poses.
@@ -79,7 +83,10 @@ const TIMES: [f64; 3] = [-0.5, 0.0, 0.5];
 impl SpanPoses {
     pub(super) fn new(span: PoseSpan) -> SpanPoses {
         let bends = [span.bend(0.0), span.bend(1.0) - span.bend(0.0)];
-        let mut poses = SpanPoses { span, poses: TIMES.map(|t| span.at(t)), bends };
+        let poses = TIMES.map(|t| span.at(t));
+        let most = |rate: fn(&Pose) -> DVec3| poses.iter().map(|p| rate(p).length()).fold(0.0, f64::max);
+        let rates = [most(|p| p.tip_rate), most(|p| p.axis_rate)];
+        let mut poses = SpanPoses { span, poses, bends, unsteady: span.unsteady(), rates };
         poses.bends[0] = poses.bend_seen(bends[0]);
         poses
     }
@@ -155,6 +162,28 @@ impl SpanPoses {
     /// the part is wide.
     pub(super) fn bend_at(&self, part: &ConvexPart, far: f64) -> f64 {
         self.bends[0] + self.bends[1] * (far + 2.0 * part.r1)
+    }
+
+    /// Most by which a plane that is carried along comes nearer to a place than its rate says: half of the time before and after, and
+    /// all of it before or after [mm]. The tool turns steadily but for `unsteady`, so that the way of the place has a second
+    /// derivative that is known, and a third one that is small.
+    pub(super) fn nearer(&self, pose: &Pose, normal: DVec3, from_tip: DVec3, part: &ConvexPart) -> [f64; 2] {
+        let turn = pose.axis.cross(pose.axis_rate);
+        let turned = turn.cross(normal);
+        let second = turn.cross(turned).dot(from_tip) - 2.0 * turned.dot(pose.tip_rate);
+        let far = from_tip.length() + 2.0 * part.r1;
+        let [tip, by_reach] = self.unsteady;
+        let [way, turns] = self.rates;
+        let bend = tip + by_reach * far;
+        let third = turns * turns * (3.0 * way + turns * far) + 24.0 * by_reach * (way + turns * far);
+        let closes = if second < 0.0 { -second } else { 0.0 };
+        [0.125 * closes + 2.0 * bend + third / 48.0, 0.5 * closes + 8.0 * bend + third / 6.0]
+    }
+
+    /// What [`SpanPoses::nearer`] says grows by so much for each millimetre to another place.
+    pub(super) fn nearer_by_way(&self) -> f64 {
+        let ([_, by_reach], [_, turns]) = (self.unsteady, self.rates);
+        0.5 * turns * turns + 8.0 * by_reach + turns * (turns * turns + 24.0 * by_reach) / 6.0
     }
 
     /// The line with its material that is no farther from the tip than the part and `by` reach.

@@ -91,7 +91,7 @@ impl<'a> SweptPart<'a> {
     /// The plane that keeps closest to the part, about a place.
     pub(super) fn beside(&self, place: DVec3, radius: f64) -> Beside {
         let Tangent { normal, reach, .. } = self.closely(place, radius);
-        Beside { normal, reach, widens: self.turn + 8.0 * self.bends[1] }
+        Beside { normal, reach, widens: self.turn() + self.task.poses.nearer_by_way() }
     }
 
     /// The tangent plane about a cell at the middle of the time, or one that keeps closer to the part.
@@ -105,20 +105,23 @@ impl<'a> SweptPart<'a> {
         let poses = &self.task.poses.poses;
         let at = |pose: &Pose| {
             let gauge = gauge_at(self.part, pose, centre);
-            (gauge, -gauge.normal.dot(pose.velocity(centre - pose.tip)))
+            let place = centre - pose.tip;
+            let nearer = self.task.poses.nearer(pose, gauge.normal, place, self.part);
+            (gauge, -gauge.normal.dot(pose.velocity(place)), nearer)
         };
-        let (middle, rate) = at(&poses[1]);
+        let (middle, rate, [nearer, _]) = at(&poses[1]);
         let (time, end) = if rate > 0.0 { (-0.5, &poses[0]) } else { (0.5, &poses[2]) };
-        let (last, last_rate) = at(end);
+        let (last, last_rate, [_, last_nearer]) = at(end);
         // Share of the plane at the middle: none if the part comes nearer up to the end, all if it stands still in the middle.
         let turns_back = (rate > 0.0) != (last_rate > 0.0);
         let share = if turns_back { last_rate / (last_rate - rate) } else { 0.0 };
         let both = |a: f64, b: f64| share * a + (1.0 - share) * b;
         // At the end the rate lets the gauge rise from there; else both rates together come to nothing.
         let value = both(middle.value, if share > 0.0 { last.value - last_rate * time } else { last.value });
-        let (turn, bend) = (self.turn, self.bend(centre, radius));
-        let slack = both(0.5, 1.0) * radius * turn + 8.0 * bend * both(0.25, 1.0);
-        let wide = 0.5 * (rate.abs() + radius * turn) + 2.0 * bend;
+        // What is beside the centre may come nearer by so much more.
+        let beside = radius * self.task.poses.nearer_by_way();
+        let slack = both(0.5, 1.0) * radius * self.turn() + both(nearer, last_nearer) + beside;
+        let wide = 0.5 * (rate.abs() + radius * self.turn) + nearer + beside;
         let likely = -value;
         if slack - value < wide - middle.value {
             let normal = middle.normal * share + last.normal * (1.0 - share);
@@ -126,6 +129,11 @@ impl<'a> SweptPart<'a> {
         } else {
             Tangent { normal: middle.normal, reach: wide - middle.value, likely }
         }
+    }
+
+    /// How fast the tool turns at most [rad by the span's parameter].
+    fn turn(&self) -> f64 {
+        self.task.poses.rates[1]
     }
 
     /// The bend of the way that a part takes past what is near a place, seen from the tool [mm].
