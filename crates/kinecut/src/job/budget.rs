@@ -4,12 +4,16 @@ use super::check::Job;
 use crate::base::{Code, Finding, Result};
 use crate::geom::Aabb;
 use crate::stock::TriDexel;
+use crate::stock::cut::CutAxis;
 use crate::stock::surface::SurfaceOptions;
-use crate::trace::Trace;
+use crate::trace::{Segment, Trace};
 
 /// Memory of a move from its text to the verdict [bytes]: block, move, path, cut, what it met. A program of a million lines takes
-/// 1,740 for each.
-const MOVE: u64 = 1750;
+/// 540 for each.
+const MOVE: u64 = 620;
+
+/// The same of a move with a tool that leans or turns, which has a motion of its own [bytes].
+const LEANING_MOVE: u64 = 1750;
 
 /// Memory of an end of a line that is compared with the wanted part [bytes]: what wants it, how far it is off, with what tolerance.
 const COMPARED: u64 = 24;
@@ -37,10 +41,11 @@ pub struct Budget {
 impl Budget {
     /// Of a job whose programs make these moves.
     pub fn new(job: &Job, traces: &[&Trace]) -> Budget {
-        let count: u64 = traces.iter().map(|t| t.segments.len() as u64).sum();
+        let segments = || traces.iter().flat_map(|t| &t.segments);
+        let leans = |s: &Segment| s.turning.is_some() || CutAxis::of(s.axis).is_none();
         Budget {
-            move_count: count,
-            moves: count * MOVE,
+            move_count: segments().count() as u64,
+            moves: segments().map(|s| if leans(s) { LEANING_MOVE } else { MOVE }).sum(),
             ..Budget::of_stock(job, job.stock.bounds(), job.step)
         }
     }

@@ -62,8 +62,8 @@ pub(super) fn is_plain(task: &Task, highest: f64) -> bool {
         task.removes && task.tool.hollow.is_none() && task.tool.cutting.parts.iter().all(reaches)
     };
     let is_above = |bottom: f64| tip + bottom - lowered(task) >= highest + ROUNDING;
-    let asked = bodies(task).into_iter().filter(|(_, looked)| *looked != Looked::Cutting);
-    (task.free || !task.watch && cuts()) && asked.into_iter().all(|(body, _)| is_above(body.bottom))
+    let mut asked = bodies(task).filter(|(_, looked)| *looked != Looked::Cutting);
+    (task.free || !task.watch && cuts()) && asked.all(|(body, _)| is_above(body.bottom))
 }
 
 /// A task's part with its bounds on the blocks of a patch.

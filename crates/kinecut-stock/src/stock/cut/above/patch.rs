@@ -432,7 +432,7 @@ impl Patch {
 
     /// True if a task may meet, where it should not, something that this patch knows too little about.
     pub(super) fn is_unclear(&self, task: &Task) -> bool {
-        bodies(task).into_iter().any(|(body, _)| {
+        bodies(task).any(|(body, _)| {
             let bottom = task.tip_range().0 + body.bottom - lowered(task);
             let reach = body.radius + 2.0 * self.step;
             let is_near = |x: f64, y: f64, reach: f64| {
