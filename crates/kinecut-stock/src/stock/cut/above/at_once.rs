@@ -13,7 +13,7 @@ use super::super::effect::Looked;
 use super::super::task::Task;
 use super::Done;
 use super::field::Field;
-use super::patch::{BLOCKS, Patch, ROUNDING, bodies, lowered};
+use super::patch::{BLOCKS, Patch, Planes, ROUNDING, bodies, lowered};
 use super::sweep::Sweep;
 use crate::base::Progress;
 
@@ -88,7 +88,7 @@ pub(super) fn cut(patch: &mut Patch, group: &[u32], tasks: &[Task]) {
             }
         }
     }
-    // The one that may go lowest in each block, then all others in their order.
+    // First the one that may go lowest in each block.
     let mut lowest = [None::<(usize, f64)>; BLOCKS];
     for (i, one) in all.iter().enumerate() {
         for (lowest, bound) in lowest.iter_mut().zip(one.bounds) {
@@ -100,23 +100,34 @@ pub(super) fn cut(patch: &mut Patch, group: &[u32], tasks: &[Task]) {
     let mut first: Vec<usize> = lowest.iter().flatten().map(|(i, _)| *i).collect();
     first.sort_unstable();
     first.dedup();
-    let go = |patch: &mut Patch, one: &Bounded| {
+    let go = |patch: &mut Patch, one: &Bounded, planes: Option<&Planes>| {
         let index = f64::from(one.index);
         let mut open = patch.open_to(&one.bounds, index);
-        if !open.is_empty() {
-            open = patch.open_by_planes(&one.sweep, open, |block| patch.slack(block, index));
+        if let Some(planes) = planes.filter(|_| !open.is_empty()) {
+            open = patch.open_by_planes(planes, open, |block| patch.slack(block, index));
         }
         if !open.is_empty() {
             patch.sink(&one.sweep, open, index);
             patch.lower(open);
         }
     };
-    first.iter().for_each(|i| go(patch, &all[*i]));
+    first.iter().for_each(|i| go(patch, &all[*i], None));
+    // Then those that may go deepest below what is there, as far as they still may.
     patch.keep_covers(false);
+    let mut rest: Vec<(f64, &Bounded, Planes)> = Vec::new();
     let mut done = first.iter().peekable();
     for (i, one) in all.iter().enumerate() {
-        if done.next_if_eq(&&i).is_none() {
-            go(patch, one);
+        let index = f64::from(one.index);
+        let open = patch.open_to(&one.bounds, index);
+        if done.next_if_eq(&&i).is_some() || open.is_empty() {
+            continue;
+        }
+        let planes = patch.planes(&one.sweep);
+        let open = patch.open_by_planes(&planes, open, |block| patch.slack(block, index));
+        if !open.is_empty() {
+            rest.push((patch.depth(&planes, open), one, planes));
         }
     }
+    rest.sort_by(|a, b| b.0.total_cmp(&a.0));
+    rest.iter().for_each(|(_, one, planes)| go(patch, one, Some(planes)));
 }

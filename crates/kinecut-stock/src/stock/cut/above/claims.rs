@@ -39,7 +39,7 @@ impl Patch {
             let sweep = Sweep::new(task, part);
             let mut blocks = self.active(&sweep, 4.0 * ROUNDING);
             if !blocks.is_empty() {
-                blocks = self.open_by_planes(&sweep, blocks, |_| 4.0 * ROUNDING);
+                blocks = self.open_by_planes(&self.planes(&sweep), blocks, |_| 4.0 * ROUNDING);
             }
             if blocks.is_empty() {
                 continue;

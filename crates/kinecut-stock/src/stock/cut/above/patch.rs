@@ -97,6 +97,9 @@ fn corner(block: usize) -> (usize, usize) {
     (block % ACROSS * BLOCK, block / ACROSS * BLOCK)
 }
 
+/// By block, the height of a plane over the middle [mm], and its slopes along x and y.
+pub(super) type Planes = [[f64; BLOCKS]; 3];
+
 /// A plane above the tops and ceilings of a block: its height over the middle [mm], and its slopes along x and y.
 #[derive(Clone, Copy, Debug, Default)]
 struct Cover {
@@ -292,15 +295,19 @@ impl Patch {
         if index < self.latest[block] { FIXED_STEP } else { NEAR }
     }
 
+    /// By block a plane that a part stays above, see [`Sweep::planes`].
+    pub(super) fn planes(&self, sweep: &Sweep) -> Planes {
+        self.arch.dispatch(Tangents { patch: self, sweep })
+    }
+
     /// Those of some blocks whose covers a part may come down to, with some slack, by planes that it stays above.
     pub(super) fn open_by_planes(
         &self,
-        sweep: &Sweep,
+        [heights, along_x, along_y]: &Planes,
         blocks: Blocks,
         slack: impl Fn(usize) -> f64,
     ) -> Blocks {
         let Some(covers) = &self.covers else { return blocks };
-        let [heights, along_x, along_y] = self.arch.dispatch(Tangents { patch: self, sweep });
         // From the middle to the farthest line with a way to the block.
         let half = (0.5 * (BLOCK - 1) as f64 + 1.0) * self.step;
         let mut mask = 0;
@@ -310,6 +317,13 @@ impl Patch {
             mask |= u32::from(heights[b] < height + half * apart + slack(b)) << b;
         }
         Blocks(blocks.0 & mask)
+    }
+
+    /// How far a part may come down below the cover of some block, about [mm].
+    pub(super) fn depth(&self, [heights, ..]: &Planes, blocks: Blocks) -> f64 {
+        let Some(covers) = &self.covers else { return 0.0 };
+        let below = |b: usize| covers[b].height - heights[b];
+        (0..BLOCKS).filter(|b| blocks.0 >> b & 1 == 1).map(below).fold(f64::NEG_INFINITY, most)
     }
 
     /// Begins to keep the covers of the blocks; `whole`: above the ceilings on all of their ways, not at one end of each.
@@ -702,7 +716,7 @@ struct Tangents<'a, 'b> {
 }
 
 impl NullaryFnOnce for Tangents<'_, '_> {
-    type Output = [[f64; BLOCKS]; 3];
+    type Output = Planes;
 
     #[inline(always)]
     fn call(self) -> [[f64; BLOCKS]; 3] {
