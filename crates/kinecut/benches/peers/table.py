@@ -81,13 +81,13 @@ def plot(bench, path, coarse):
             for step in steps:
                 found = bench.ours(case, step * coarse, None)
                 over[kind].append((step * coarse if kind == "step" else len(case.moves) - 1, found["wall"], found["cpu"]))
-    out, left = ['<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 740 370" font-family="sans-serif" font-size="12">',
-                 '<rect width="740" height="370" fill="#fff"/><g stroke="#000" fill="none">'], 0
+    out, left = ['<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 820 370" font-family="sans-serif" font-size="12">',
+                 '<rect width="820" height="370" fill="#fff"/><g stroke="#000" fill="none">'], 0
     for kind, points in over.items():
         wall, cpu = (exponent([(p[0], p[n]) for p in points]) for n in (1, 2))
-        title = f"time over {kind}: wall exponent {wall:.2f}, CPU (dashed) {cpu:.2f}"
+        title = f"time over {kind}, exponent: wall {wall:.2f}, CPU (dashed) {cpu:.2f}"
         print(title)
         for n, part in enumerate(panel(left, title, "step [mm]" if kind == "step" else "moves", points)):
             out.append(part.replace("<text", '<text stroke="none" fill="#000"'))
-        left += 370
+        left += 410
     path.write_text("\n".join(out) + "\n</g></svg>\n")
