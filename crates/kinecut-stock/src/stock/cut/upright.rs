@@ -237,7 +237,7 @@ pub(super) fn cut_upright(
             whole.resize(next - moves.start + end, false);
             size = (size / 2).max(2 * singly);
         } else {
-            size = (2 * size).min(MOST);
+            size = (4 * size).min(MOST);
             singly = 1;
         }
         still_wanted(progress)?;
