@@ -135,11 +135,12 @@ pub(super) fn cut_from_above(
         each(done);
     }
     // The moves of the tasks are owed next.
-    let first = above.late.count() as u32;
+    let (first, pieces) = (above.late.count() as u32, tops::pieces(tasks));
     for ((ceilings, tops), outcome) in above.ceilings.iter_mut().zip(&mut above.tops).zip(outcomes) {
         if let Some(outcome) = outcome {
             *ceilings = Some(outcome.ceilings);
-            outcome.tops.add_to(tops, |task| first + tasks[task as usize].index);
+            let of = |task: u32| (first + tasks[task as usize].index, pieces[task as usize]);
+            outcome.tops.add_to(tops, of);
             above.behind = true;
         }
     }

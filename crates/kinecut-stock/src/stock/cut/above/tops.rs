@@ -16,6 +16,7 @@ use super::field::OWN;
 use super::late::Late;
 use super::patch::NONE;
 use crate::base::Progress;
+use crate::geom::CurveKind;
 use crate::stock::Lattice;
 use crate::stock::tile::TILE_EDGE;
 use crate::stock::tri_dexel::Grid;
@@ -30,31 +31,43 @@ pub(in crate::stock) struct Tops {
     pub(super) at: [i32; OWN_LINES],
     /// Numbers of the moves that went down to them, among those that are owed; [`NONE`] where the line is as it is in the grid.
     pub(super) by: [u32; OWN_LINES],
+    /// The pieces of these moves; [`MANY`] where that is not kept.
+    pub(super) piece: [u16; OWN_LINES],
 }
+
+/// A piece of a move that has more than are counted.
+const MANY: u16 = u16::MAX;
 
 impl Tops {
     /// All lines are as they are in the grid.
-    pub(super) const UNCUT: Tops = Tops { at: [i32::MAX; OWN_LINES], by: [NONE; OWN_LINES] };
+    pub(super) const UNCUT: Tops =
+        Tops { at: [i32::MAX; OWN_LINES], by: [NONE; OWN_LINES], piece: [MANY; OWN_LINES] };
 
     /// The height above which nothing is left on an own line; `None` where it is as it is in the grid.
     pub(super) fn top(&self, line: usize) -> Option<i32> {
         (self.by[line] != NONE).then_some(self.at[line])
     }
 
-    /// Adds lines that tasks have cut since to those that are kept; `number` is that of a task's move.
-    pub(super) fn add_to(mut self: Box<Tops>, kept: &mut Option<Box<Tops>>, number: impl Fn(u32) -> u32) {
-        for by in self.by.iter_mut().filter(|by| **by != NONE) {
-            *by = number(*by);
-        }
-        match kept {
-            None => *kept = Some(self),
-            Some(kept) => {
-                for line in (0..OWN_LINES).filter(|line| self.by[*line] != NONE) {
-                    (kept.at[line], kept.by[line]) = (self.at[line], self.by[line]);
-                }
+    /// Adds lines that tasks have cut since to those that are kept; `of` is the number of a task's move, and its piece.
+    pub(super) fn add_to(mut self: Box<Tops>, kept: &mut Option<Box<Tops>>, of: impl Fn(u32) -> (u32, u16)) {
+        for line in 0..OWN_LINES {
+            if self.by[line] == NONE {
+                continue;
+            }
+            (self.by[line], self.piece[line]) = of(self.by[line]);
+            if let Some(kept) = kept {
+                kept.at[line] = self.at[line];
+                (kept.by[line], kept.piece[line]) = (self.by[line], self.piece[line]);
             }
         }
+        kept.get_or_insert(self);
     }
+}
+
+/// By task, the number of the piece that it is of its move.
+pub(super) fn pieces(tasks: &[Task]) -> Vec<u16> {
+    let of_moves = tasks.chunk_by(|a, b| a.index == b.index);
+    of_moves.flat_map(|some| (0..some.len()).map(|i| u16::try_from(i).unwrap_or(MANY))).collect()
 }
 
 /// The heights of the lines of a field, by patch.
@@ -97,6 +110,16 @@ pub(super) fn settle(
             }
         }
     }
+    // Moves of many pieces are taken apart once, the others where they are met.
+    let mut curved: Vec<u32> = Vec::new();
+    for (_, tops) in tops.iter().enumerate().filter(|(p, _)| inside(*p)) {
+        let by = tops.iter().flat_map(|tops| tops.by).filter(|by| *by != NONE);
+        curved.extend(by.filter(|by| late.is_curved(*by)));
+        curved.sort_unstable();
+        curved.dedup();
+    }
+    let curved: BTreeMap<u32, Vec<Task>> =
+        curved.into_par_iter().map(|by| (by, late.tasks_of_move(by, frame))).collect();
     let stopped = AtomicBool::new(false);
     let (empty, kept) = (grid.without_lines(), &*tops);
     let work = grid.tiles.par_iter_mut().enumerate().filter(|(t, _)| reached[*t]);
@@ -114,11 +137,19 @@ pub(super) fn settle(
                 let a = first[0] as usize + i;
                 let p = b / own * across + a / own;
                 let Some(tops) = kept[p].as_ref().filter(|_| inside(p)) else { continue };
-                let by = tops.by[b % own * own + a % own];
+                let line = b % own * own + a % own;
+                let (by, piece) = (tops.by[line], tops.piece[line]);
                 if by == NONE {
                     continue;
                 }
-                let tasks = moves.entry(by).or_insert_with(|| late.tasks_of_move(by, frame));
+                let tasks = match curved.get(&by) {
+                    Some(tasks) => tasks,
+                    None => moves.entry(by).or_insert_with(|| late.tasks_of_move(by, frame)),
+                };
+                let tasks = match usize::from(piece) {
+                    piece if piece < tasks.len() => &tasks[piece..=piece],
+                    _ => &tasks[..],
+                };
                 let (p, q) = (places.at[0][i], places.at[1][j]);
                 let over = if frame.sign < 0.0 { DVec2::new(q, p) } else { DVec2::new(p, q) };
                 cut_above(tile, j * edge + i, over, tasks);
@@ -133,6 +164,12 @@ pub(super) fn settle(
 }
 
 impl Late {
+    /// Whether a move, by its number, is none along a straight line.
+    fn is_curved(&self, number: u32) -> bool {
+        let owed = self.owed(number as usize);
+        owed.is_some_and(|(list, at)| !matches!(list.moves[at].curve.kind(), CurveKind::Line(_)))
+    }
+
     /// The tasks of a move by its number.
     fn tasks_of_move(&self, number: u32, frame: &ToolFrame) -> Vec<Task<'_>> {
         let mut tasks = Vec::new();
