@@ -477,25 +477,33 @@ impl Patch {
             return None;
         }
         // What is watched and clear meets nothing.
-        if !task.watch && !self.cut(field, task, &mut done) {
-            return None;
+        if !task.watch {
+            if !self.is_taken_whole(task) {
+                return None;
+            }
+            self.cut(field, task, &mut done);
         }
         (rising || !self.is_unclear(task)).then_some(done)
     }
 
-    /// Lets the parts of a task go through the patch, and notes what they take; false, with nothing noted, where it does not take all
-    /// above its underside.
-    pub(super) fn cut(&mut self, field: &Field, task: &Task, done: &mut Done) -> bool {
+    /// Whether a task takes all above its underside, as far as it goes lower than what is there.
+    fn is_taken_whole(&self, task: &Task) -> bool {
+        let whole = task.removes && task.tool.hollow.is_none();
+        task.tool.cutting.parts.iter().all(|part| {
+            let active = self.active(&Sweep::new(task, part), 0.0);
+            let top = task.tip_range().0 + part.top;
+            let is_below = |b: usize| active.0 >> b & 1 == 0 || self.hull[b] <= top;
+            active.is_empty() || whole && (0..BLOCKS).all(is_below)
+        })
+    }
+
+    /// Lets the parts of a task, which takes all above its underside, go through the patch, and notes what they take.
+    pub(super) fn cut(&mut self, field: &Field, task: &Task, done: &mut Done) {
         for part in &task.tool.cutting.parts {
             let sweep = Sweep::new(task, part);
             let active = self.active(&sweep, 0.0);
             if active.is_empty() {
                 continue;
-            }
-            let top = task.tip_range().0 + part.top;
-            let whole = task.removes && task.tool.hollow.is_none();
-            if !whole || (0..BLOCKS).any(|b| active.0 >> b & 1 == 1 && self.hull[b] > top) {
-                return false;
             }
             let sunk = self.sink(&sweep, active, f64::from(done.task));
             for (corner, sunk) in active.corners().zip(&sunk) {
@@ -503,7 +511,6 @@ impl Patch {
             }
             self.lower(active);
         }
-        true
     }
 
     /// Lets a part go through blocks; its heights stay until they are forgotten.
