@@ -68,7 +68,9 @@ pub(super) fn touches<G: DexelGrid + ?Sized>(
 ) -> bool {
     parts.iter().any(|(profile, at)| {
         let foot = tip + axis.vector() * *at;
-        on_floor(stock, profile, foot, axis, margin) || at_wall(stock, profile, foot, axis, margin)
+        on_floor(stock, profile, foot, axis, margin)
+            || is_beside_lines(stock, profile, foot, axis, margin)
+                && at_wall(stock, profile, foot, axis, margin)
     })
 }
 
@@ -87,6 +89,25 @@ fn on_floor<G: DexelGrid + ?Sized>(
         touched |= line.iter().map(|i| heights(i, axis)).any(|[lo, hi]| lo < to && hi > from);
     });
     touched
+}
+
+/// Whether a line along the axis next to a part, or in it, has material at its heights: where there is a wall, one has, but for walls
+/// thinner than the lines are apart. The lines across the axis are many, and may have to be cut before they are read.
+fn is_beside_lines<G: DexelGrid + ?Sized>(
+    stock: &G,
+    profile: &Profile,
+    foot: DVec3,
+    axis: CutAxis,
+    margin: f64,
+) -> bool {
+    /// From a wall to the line behind it: more than the diagonal of a square of lines [steps].
+    const BEHIND: f64 = 1.5;
+    let [from, to] = [profile.bottom(), profile.top()].map(|z| foot.dot(axis.vector()) + z);
+    let mut beside = false;
+    columns(stock, foot, axis, profile.max_radius() + margin + BEHIND * stock.lattice().step, |_, line| {
+        beside |= line.iter().map(|i| heights(i, axis)).any(|[lo, hi]| lo < to && hi > from);
+    });
+    beside
 }
 
 /// The lowest height at which a profile is as wide as `r` [mm].

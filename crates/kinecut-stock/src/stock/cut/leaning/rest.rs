@@ -25,9 +25,17 @@ pub(in crate::stock) fn meets_at_rest<G: DexelGrid + ?Sized>(
     let lattice = stock.lattice();
     let pose = Pose { tip, axis, tip_rate: DVec3::ZERO, axis_rate: DVec3::ZERO };
     let beside = SQRT_2 * lattice.step;
+    // Nearly all ends are farther from the part than those that count.
+    let far = beside + 2.0 * margin;
+    let is_beside = |point: DVec3, part: &ConvexPart| {
+        let from = point - tip;
+        let height = from.dot(axis);
+        let aside = from.length_squared() - height * height;
+        (part.z0 - far..=part.top + far).contains(&height) && aside <= (part.r1 + far).powi(2)
+    };
     let on_lines = |part: &ConvexPart, along: Axis| {
         let ends = [part.z0, part.top].map(|z| tip + axis * z);
-        let bounds = Aabb::of_points(ends).grown(part.r1 + beside);
+        let bounds = Aabb::of_points(ends).grown(part.r1 + far);
         let (a, b) = along.others();
         let range = |axis: Axis| {
             let k = axis.index();
@@ -37,15 +45,21 @@ pub(in crate::stock) fn meets_at_rest<G: DexelGrid + ?Sized>(
             let end = (index(bounds.max[k]).floor() + 1.0).clamp(first, count);
             first as u32..end as u32
         };
+        // Across the lines and the axis, which they pass at no more than the radius.
+        let across = DVec3::AXES[along.index()].cross(axis).normalize_or_zero();
+        let [from, to] = [bounds.min, bounds.max].map(|p| p[along.index()]);
         range(b).any(|j| {
             range(a).any(|i| {
-                let line = stock.line(along, i, j);
-                if line.is_empty() {
-                    return false;
-                }
                 let mut start = DVec3::ZERO;
                 start[a.index()] = lattice.coordinate(a, i) + LINE_OFFSET;
                 start[b.index()] = lattice.coordinate(b, j) + LINE_OFFSET;
+                if (start - tip).dot(across).abs() > part.r1 + far {
+                    return false;
+                }
+                let line = stock.line(along, i, j);
+                if !line.iter().any(|i| unfixed(i.lo.at) <= to && unfixed(i.hi.at) >= from) {
+                    return false;
+                }
                 let chord = LineFrom::new(start, along.index(), &pose).chord(part);
                 if chord.is_some_and(|c| met(line, fixed(c.lo), fixed(c.hi)).0 > 0) {
                     return true;
@@ -53,6 +67,9 @@ pub(in crate::stock) fn meets_at_rest<G: DexelGrid + ?Sized>(
                 let grazes = |end: &EndPoint| {
                     let mut point = start;
                     point[along.index()] = unfixed(end.at);
+                    if !is_beside(point, part) {
+                        return false;
+                    }
                     let normal = end.normal.normal();
                     let off = point - deepest(part, &pose, -normal, point);
                     let depth = off.dot(normal);

@@ -5,9 +5,12 @@
 //! nothing, and a single way that is far longer than any of these. A tool that rubs along a wall or floor that stays (a
 //! spring pass) is not in air.
 
+mod ways;
+
 use glam::DVec3;
 use rayon::prelude::*;
 
+use self::ways::{AirMove, Ways};
 use super::work::{Work, highest, passes};
 use super::{Done, Simulated};
 use crate::base::{Code, Finding};
@@ -45,73 +48,34 @@ fn one(simulated: &Simulated<'_>, work: &Work<'_>) -> Vec<Finding> {
     };
     let feeds: Vec<&Done<'_>> = work.feeds().collect();
     let (stock, radius) = (simulated.job.stock.bounds(), work.radius());
-    let suspect = |ways: &[(&Done<'_>, AirMove)]| {
-        let (depth, air) = ways.iter().fold((0.0, 0.0), |(all, air), (_, w)| (all + w.depth, air + w.air));
-        let nearly_all = air >= NEARLY_ALL * depth && air > most(SHORT);
-        let hole = idle_hole(simulated, work, ways);
-        let long = Some(longest(ways)).filter(|(way, _)| *way > most(LONG));
-        (nearly_all.then_some(air), hole, long)
-    };
     // Material nearby counts only if a path that meets nothing could be reported.
-    let ways: Vec<_> = feeds.par_iter().map(|d| (*d, way(d, stock, radius, |_, _| false))).collect();
-    if suspect(&ways) == (None, None, None) {
-        return Vec::new();
-    }
+    let bounds: Vec<_> = feeds.par_iter().map(|d| (*d, way(d, stock, radius, |_, _| false))).collect();
     let lines = &simulated.simulation.stock;
     let near = |tip, axis| touches(lines, &[(&cutting, 0.0)], tip, axis, TOUCH);
-    let ways: Vec<_> = feeds.iter().map(|d| (*d, way(d, stock, radius, near))).collect();
-    let (nearly_all, hole, long) = suspect(&ways);
+    let mut ways = Ways::new(bounds, |done| way(done, stock, radius, near));
     let finding = |message: String, way: f64| {
         Finding::warning(Code::FEED_IN_AIR, message)
             .value((way * 10.0).round() / 10.0, "mm")
             .help("look at its place, its depth and the stock")
     };
-    if let Some(air) = nearly_all
-        && let Some((first, _)) = ways.iter().find(|(_, w)| w.air > 0.0)
+    if let Some(air) = ways.nearly_all(NEARLY_ALL, most(SHORT))
+        && let Some((first, _)) = ways.moves().find(|(_, w)| w.air > 0.0)
     {
         let message =
             format!("{} feeds through air nearly all the way that it is inside the stock", work.name);
         return vec![simulated.at(work.setup, first.segment.item, finding(message, air))];
     }
     let mut found = Vec::new();
-    if let Some(item) = hole {
+    if let Some(item) = idle_hole(simulated, work, &mut ways) {
         let message = format!("a drilling cycle of {} meets no material", work.tool.number);
         let whole = Finding { value: None, ..finding(message, 0.0) };
         found.push(simulated.at(work.setup, item, whole));
     }
-    if let Some((way, item)) = long {
+    if let Some((way, item)) = ways.longest(most(LONG)) {
         let message = format!("{} feeds through air inside the stock for long", work.tool.number);
         found.push(simulated.at(work.setup, item, finding(message, way)));
     }
     found
-}
-
-/// The longest way through air without a break, and the item at which it begins.
-fn longest(ways: &[(&Done<'_>, AirMove)]) -> (f64, u32) {
-    let (mut run, mut longest): ((f64, u32), (f64, u32)) = ((0.0, 0), (0.0, 0));
-    let mut next = 0;
-    for (done, way) in ways {
-        // A rapid between two feed moves ends the way.
-        if std::mem::replace(&mut next, done.index + 1) != done.index {
-            run = (0.0, 0);
-        }
-        if way.air <= 0.0 || way.air < 0.99 * way.depth {
-            run = (0.0, 0);
-            continue;
-        }
-        run = if run.0 > 0.0 { (run.0 + way.air, run.1) } else { (way.air, done.segment.item) };
-        if run.0 > longest.0 {
-            longest = run;
-        }
-    }
-    longest
-}
-
-/// A way at depth, and what of it is in air [mm].
-#[derive(Clone, Copy)]
-struct AirMove {
-    depth: f64,
-    air: f64,
 }
 
 /// `near`: whether material is near a place of the tool, which is not in air there.
@@ -136,19 +100,32 @@ fn way(done: &Done<'_>, stock: Aabb, radius: f64, near: impl Fn(DVec3, DVec3) ->
 }
 
 /// The first drilling cycle whose drill is in air all the way.
-fn idle_hole(simulated: &Simulated<'_>, work: &Work<'_>, ways: &[(&Done<'_>, AirMove)]) -> Option<u32> {
+fn idle_hole(
+    simulated: &Simulated<'_>,
+    work: &Work<'_>,
+    ways: &mut Ways<'_, impl Fn(&Done<'_>) -> AirMove + Sync>,
+) -> Option<u32> {
     /// Least depth in air [mm].
     const DEEP: f64 = 2.0;
     if !matches!(work.tool.cutter, Cutter::Drill { .. }) {
         return None;
     }
     let program = &simulated.setups[work.setup].program;
-    ways.chunk_by(|a, b| a.0.segment.item == b.0.segment.item)
-        .filter(|hole| matches!(program.items.get(hole[0].0.segment.item as usize), Item::Cycle(..)))
-        .find(|hole| {
-            let depth: f64 = hole.iter().map(|(_, w)| w.depth).sum();
-            let air: f64 = hole.iter().map(|(_, w)| w.air).sum();
-            air > DEEP + work.tool.cutter.tip_height() && air >= 0.99 * depth
-        })
-        .map(|hole| hole[0].0.segment.item)
+    let items: Vec<u32> = ways.moves().map(|(done, _)| done.segment.item).collect();
+    let mut end = 0;
+    for hole in items.chunk_by(|a, b| a == b) {
+        let moves = end..end + hole.len();
+        end = moves.end;
+        if !matches!(program.items.get(hole[0] as usize), Item::Cycle(..)) {
+            continue;
+        }
+        let is_idle = |w: AirMove| w.air > DEEP + work.tool.cutter.tip_height() && w.air >= 0.99 * w.depth;
+        if is_idle(ways.sums(moves.clone())) {
+            ways.ask(&moves.clone().collect::<Vec<_>>());
+            if is_idle(ways.sums(moves)) {
+                return Some(hole[0]);
+            }
+        }
+    }
+    None
 }
