@@ -17,6 +17,7 @@ mod lattice;
 pub mod near;
 mod raw;
 mod raw_mesh;
+mod sieve;
 mod skimmed;
 pub mod surface;
 mod tile;

@@ -16,6 +16,7 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 use super::cut::FromAbove;
+use super::sieve::Sieve;
 use super::skimmed::Skimmed;
 use super::tile::{TILE_EDGE, Tile};
 use super::{Axis, DexelGrid, EndPoint, FIXED_STEP, Interval, Lattice};
@@ -72,6 +73,22 @@ impl Grid {
     pub(crate) fn line(&self, a: u32, b: u32) -> &[Interval] {
         let (tile, line) = place(self.tiles_across()[0], a, b);
         self.tiles[tile].line(line)
+    }
+
+    /// Takes the lines over that a sieve leaves of a grid.
+    fn copy_some(&mut self, from: &Grid, sieve: &Sieve) {
+        let (a, b) = self.axis.others();
+        let shape = self.without_lines();
+        self.tiles.par_iter_mut().enumerate().for_each(|(t, tile)| {
+            let (first, size) = shape.tile_lines(t);
+            for j in 0..size[1] {
+                for i in 0..size[0] {
+                    let at = |axis: Axis, index: u32| sieve.whole_index(axis, index);
+                    let line = from.line(at(a, first[0] + i), at(b, first[1] + j));
+                    tile.set((j * TILE_EDGE + i) as usize, line);
+                }
+            }
+        });
     }
 
     /// Length of all lines [fixed steps].
@@ -237,6 +254,51 @@ impl TriDexel {
             }
             _ => (self.grid(axis), None),
         }
+    }
+
+    /// Some of its lines, those of a coarser lattice: every so manieth along each axis, with all moves cut. The lines that are left out
+    /// are cut no further for that.
+    ///
+    /// ```
+    /// # use kinecut_stock as kinecut;
+    /// use kinecut::base::Silent;
+    /// use kinecut::geom::Aabb;
+    /// use kinecut::stock::{Axis, DexelGrid, TriDexel};
+    /// let plate = Aabb { min: [0.0, 0.0, -10.0].into(), max: [40.0, 20.0, 0.0].into() };
+    /// let stock = TriDexel::from_box(plate, 0.5).unwrap();
+    /// let some = stock.sieved(4, &Silent);
+    /// assert_eq!(some.lattice().counts, [20, 10, 5]);
+    /// // Its first line along Z is the third one of the stock along X and Y.
+    /// assert_eq!(some.lattice().origin, stock.lattice().point(2, 2, 2));
+    /// assert_eq!(some.line(Axis::Z, 0, 0), stock.line(Axis::Z, 2, 2));
+    /// ```
+    pub fn sieved(&self, every: u32, progress: &dyn Progress) -> TriDexel {
+        let sieve = Sieve::new(&self.lattice, every);
+        let lattice = sieve.lattice();
+        let above = self.above.as_ref();
+        // Which grids are behind, and have not been cut apart.
+        let owed = Axis::ALL.map(|axis| {
+            let cut_apart = |above: &FromAbove| match above.is_across(axis) {
+                true => self.whole.get().is_some(),
+                false => self.whole_along.get().is_some(),
+            };
+            above.is_some_and(|above| above.owes(axis) && !cut_apart(above))
+        });
+        let mut grids = Axis::ALL.map(|axis| {
+            let from = if owed[axis.index()] { &self.grids[axis.index()] } else { self.grid(axis) };
+            let mut grid = Grid::new(axis, &lattice, None);
+            grid.copy_some(from, &sieve);
+            grid
+        });
+        if let Some(above) = above {
+            let tool = above.along();
+            let (along, across) = (owed[tool.index()], owed[tool.others().0.index()]);
+            let stock = (&sieve, &self.grids[tool.index()].without_lines(), self.bounds);
+            above.cut_sieved(&mut grids, stock, along, across, progress);
+        }
+        let (whole, whole_along) = (OnceLock::new(), OnceLock::new());
+        let (bounds, skimmed) = (self.bounds, Skimmed::UNKNOWN);
+        TriDexel { lattice, bounds, grids, above: None, whole, whole_along, skimmed }
     }
 
     /// The grid along the tool axis, cut by the moves that have still to do so.

@@ -9,6 +9,8 @@ use super::super::task::Task;
 use super::layers::Layers;
 use super::patch::{BLOCKS, Blocks, HEIGHTS, Patch, ROUNDING, SIDE, height_at, put_row, row_at};
 use super::sweep::{BLOCK, Sweep, least, most};
+use crate::stock::Axis;
+use crate::stock::sieve::Sieve;
 
 /// Layers of a row in which a task is to be cut.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -32,9 +34,51 @@ fn push(claims: &mut Vec<Claim>, new: Claim) {
     claims.push(new);
 }
 
+/// The lines that may be claimed: their layers, and their rows.
+pub(super) struct Lines<'a> {
+    pub(super) layers: Layers,
+    pub(super) sieve: &'a Sieve,
+    /// By direction of the lines: the axis along which their rows are numbered.
+    pub(super) row_axes: [Axis; 2],
+}
+
+impl Lines<'_> {
+    /// Number of a row of lines along a direction.
+    fn row(&self, k: usize, whole: i64) -> Option<u32> {
+        self.sieve.index(self.row_axes[k], u32::try_from(whole).ok()?)
+    }
+
+    /// By direction of the lines: a bit for each row of a patch with lines.
+    fn rows(&self, patch: &Patch) -> [u32; 2] {
+        let of = |k: usize| {
+            let is_row = |i: &usize| self.row(k, patch.first[1 - k] + *i as i64).is_some();
+            (0..SIDE).filter(is_row).fold(0, |rows, i| rows | 1 << i)
+        };
+        [of(0), of(1)]
+    }
+}
+
 impl Patch {
-    /// Adds the claims of a task in the patch, on lines along the two directions across its axis.
-    pub(super) fn claim(&mut self, layers: &Layers, index: u32, task: &Task, claims: &mut [Vec<Claim>; 2]) {
+    /// Adds the claims of tasks in the patch, on lines along the two directions across their axis.
+    pub(super) fn claim<'t>(
+        &mut self,
+        lines: &Lines,
+        tasks: impl Iterator<Item = (u32, &'t Task<'t>)>,
+        claims: &mut [Vec<Claim>; 2],
+    ) {
+        let rows = lines.rows(self);
+        for (index, task) in tasks {
+            self.claim_one((lines, rows), index, task, claims);
+        }
+    }
+
+    fn claim_one(
+        &mut self,
+        (lines, [along, across]): (&Lines, [u32; 2]),
+        index: u32,
+        task: &Task,
+        claims: &mut [Vec<Claim>; 2],
+    ) {
         for part in &task.tool.cutting.parts {
             let sweep = Sweep::new(task, part);
             let mut blocks = self.active(&sweep, 4.0 * ROUNDING);
@@ -45,7 +89,11 @@ impl Patch {
                 continue;
             }
             let claimed = self.arch.dispatch(Bound { patch: self, sweep: &sweep, blocks });
-            for ((c0, r0), claimed) in blocks.corners().zip(claimed) {
+            for ((c0, r0), mut claimed) in blocks.corners().zip(claimed) {
+                for i in 0..BLOCK {
+                    claimed[0][i] *= u8::from(along >> (r0 + i) & 1 == 1);
+                    claimed[1][i] &= (across >> c0) as u8;
+                }
                 for (k, rows) in claimed.into_iter().enumerate() {
                     // One way after the other along a row.
                     let ways = (0..BLOCK * BLOCK).filter(|i| match k {
@@ -57,7 +105,7 @@ impl Patch {
                     }
                     for i in ways {
                         let (r, c) = if k == 0 { (i / BLOCK, i % BLOCK) } else { (i % BLOCK, i / BLOCK) };
-                        self.claim_way(layers, (r0 + r, c0 + c, k), (index, &sweep), &mut claims[k]);
+                        self.claim_way(lines, (r0 + r, c0 + c, k), (index, &sweep), &mut claims[k]);
                     }
                 }
             }
@@ -96,7 +144,7 @@ impl Patch {
     #[inline(always)]
     fn claim_way(
         &self,
-        layers: &Layers,
+        lines: &Lines,
         (r, c, k): (usize, usize, usize),
         (index, sweep): (u32, &Sweep),
         claims: &mut Vec<Claim>,
@@ -113,10 +161,12 @@ impl Patch {
             low
         };
         if low < f64::INFINITY {
-            let layers = layers.between(low, ceiling);
-            if layers.0 < layers.1 {
-                let row = if k == 0 { self.first[1] + r as i64 } else { self.first[0] + c as i64 };
-                push(claims, Claim { task: index, row: row as u32, layers });
+            let layers = lines.layers.between(low, ceiling);
+            let row = if k == 0 { self.first[1] + r as i64 } else { self.first[0] + c as i64 };
+            if layers.0 < layers.1
+                && let Some(row) = lines.row(k, row)
+            {
+                push(claims, Claim { task: index, row, layers });
             }
         }
     }

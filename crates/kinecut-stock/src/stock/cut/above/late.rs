@@ -15,15 +15,16 @@ use super::super::list::CutList;
 use super::super::task::Task;
 use super::super::upright::tasks_of;
 use super::FromAbove;
-use super::claims::Claim;
+use super::claims::{Claim, Lines};
 use super::field::Field;
 use super::layers::Layers;
 use super::patch::{Known, Patch};
-use super::sides::{clear, cut_claims, direction};
+use super::sides::{clear, cut_claims, direction, row_axis};
 use super::sweep::Sweep;
 use super::tops::{self, Kept};
 use crate::base::Progress;
 use crate::geom::Aabb;
+use crate::stock::sieve::Sieve;
 use crate::stock::tri_dexel::Grid;
 use crate::stock::{Axis, DexelGrid, Lattice, TriDexel};
 
@@ -177,6 +178,29 @@ impl FromAbove {
         self.behind &= progress.cancelled();
     }
 
+    /// Cuts lines of a sieve by the moves that have still to do so: those along the axes named. `grids` have them as they are in the
+    /// stock; `shape` is its grid along the tool axis.
+    pub(in crate::stock) fn cut_sieved(
+        &self,
+        grids: &mut [Grid; 3],
+        (sieve, shape, bounds): (&Sieve, &Grid, Aabb),
+        along: bool,
+        across: bool,
+        progress: &dyn Progress,
+    ) {
+        let frame = ToolFrame::new(self.axis);
+        if along {
+            let grid = &mut grids[frame.axes[2].index()];
+            tops::cut_behind(grid, (sieve, &frame), self.kept(), &|_| true, &self.late, progress);
+        }
+        if across {
+            let field = Field::new(shape, sieve.whole(), &frame, bounds, None);
+            let patches = field.patches();
+            let open = Open { patches, rectangle: patches.map(|n| 0..n), paid: self.late.paid.clone() };
+            self.cut_across(grids, (sieve, &field), &open, progress);
+        }
+    }
+
     /// Cuts the lines of a rectangle of patches, as far as these reach.
     fn pay(
         &mut self,
@@ -191,33 +215,52 @@ impl FromAbove {
         let field = Field::new(&shape, lattice, &frame, bounds, None);
         let open =
             Open { patches: field.patches(), rectangle: rectangle(&field), paid: self.late.paid.clone() };
-        // Material above ceilings first, on whole lines: the rest of them is then short.
-        for grid in grids.iter_mut().filter(|grid| grid.axis != along) {
-            let k = direction(grid.axis, &frame);
-            let whole = open.whole_lines(k);
-            clear(grid, (lattice, &frame), (&self.ceilings, &self.late.cleared[k]), &whole, progress);
-            if !progress.cancelled() {
-                for patch in whole.inside() {
-                    self.late.cleared[k][patch].clone_from(&self.ceilings[patch]);
-                }
-            }
-        }
-        let mut next = open.inside().map(|patch| open.paid[patch]).min().unwrap_or(usize::MAX);
-        while next < self.late.count && !progress.cancelled() {
-            let (tasks, end) = self.late.tasks(next, &frame, &field, &open);
-            next = end;
-            let mut claims = self.claims(&field, &open, &tasks, &Layers::new(lattice, &frame), progress);
-            for grid in grids.iter_mut().filter(|grid| grid.axis != along) {
-                let claims = std::mem::take(&mut claims[direction(grid.axis, &frame)]);
-                cut_claims(grid, (lattice, &frame), (&tasks, claims), progress);
-            }
-        }
+        self.cut_across(grids, (&Sieve::all(lattice), &field), &open, progress);
         if progress.cancelled() {
             // Cutting it once more does no harm.
             return;
         }
+        for k in 0..2 {
+            for patch in open.whole_lines(k).inside() {
+                self.late.cleared[k][patch].clone_from(&self.ceilings[patch]);
+            }
+        }
         for patch in open.inside() {
             self.late.paid[patch] = self.late.count;
+        }
+    }
+
+    /// Cuts lines across the tool axis through patches of a field, those of a sieve, by the moves that these owe.
+    pub(super) fn cut_across(
+        &self,
+        grids: &mut [Grid; 3],
+        (sieve, field): (&Sieve, &Field),
+        open: &Open,
+        progress: &dyn Progress,
+    ) {
+        let frame = ToolFrame::new(self.axis);
+        let along = frame.axes[2];
+        // Material above ceilings first, on whole lines: the rest of them is then short.
+        for grid in grids.iter_mut().filter(|grid| grid.axis != along) {
+            let k = direction(grid.axis, &frame);
+            let whole = open.whole_lines(k);
+            clear(grid, (sieve, &frame), (&self.ceilings, &self.late.cleared[k]), &whole, progress);
+        }
+        let lattice = sieve.lattice();
+        let lines = Lines {
+            layers: Layers::new(&lattice, &frame),
+            sieve,
+            row_axes: [0, 1].map(|k| row_axis(k, &frame)),
+        };
+        let mut next = open.inside().map(|patch| open.paid[patch]).min().unwrap_or(usize::MAX);
+        while next < self.late.count && !progress.cancelled() {
+            let (tasks, end) = self.late.tasks(next, &frame, field, open);
+            next = end;
+            let mut claims = self.claims(field, open, &tasks, &lines, progress);
+            for grid in grids.iter_mut().filter(|grid| grid.axis != along) {
+                let claims = std::mem::take(&mut claims[direction(grid.axis, &frame)]);
+                cut_claims(grid, (&lattice, &frame), (&tasks, claims), progress);
+            }
         }
     }
 
@@ -227,7 +270,7 @@ impl FromAbove {
         field: &Field,
         open: &Open,
         tasks: &[Task],
-        layers: &Layers,
+        lines: &Lines,
         progress: &dyn Progress,
     ) -> [Vec<Claim>; 2] {
         let mut bins: Vec<Vec<u32>> = vec![Vec::new(); self.ceilings.len()];
@@ -242,16 +285,9 @@ impl FromAbove {
                 let mut claims = [Vec::new(), Vec::new()];
                 let mut patch = Patch::new(field, p, self.ceilings[p].as_deref());
                 patch.keep_covers(true);
-                for i in bin {
-                    if progress.cancelled() {
-                        break;
-                    }
-                    // A watched task was clear, and has met nothing.
-                    let task = &tasks[*i as usize];
-                    if !task.watch {
-                        patch.claim(layers, *i, task, &mut claims);
-                    }
-                }
+                // A watched task was clear, and has met nothing.
+                let some = bin.iter().map(|i| (*i, &tasks[*i as usize])).filter(|(_, task)| !task.watch);
+                patch.claim(lines, some.take_while(|_| !progress.cancelled()), &mut claims);
                 claims
             })
             .collect();

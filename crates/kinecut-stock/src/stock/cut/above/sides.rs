@@ -15,6 +15,7 @@ use super::late::Open;
 use super::layers::Layers;
 use super::patch::{Known, SIDE};
 use crate::base::Progress;
+use crate::stock::sieve::Sieve;
 use crate::stock::tile::TILE_EDGE;
 use crate::stock::tri_dexel::{Grid, LINE_OFFSET};
 use crate::stock::{Axis, EndPoint, Lattice, fixed};
@@ -51,14 +52,15 @@ pub(super) fn cut_claims(
 /// time.
 pub(super) fn clear(
     grid: &mut Grid,
-    (lattice, frame): (&Lattice, &ToolFrame),
+    (sieve, frame): (&Sieve, &ToolFrame),
     (now, before): (&[Known], &[Known]),
     open: &Open,
     progress: &dyn Progress,
 ) {
     let axis = grid.axis;
     let k = direction(axis, frame);
-    let layers = Layers::new(lattice, frame);
+    let (lattice, lines) = (sieve.whole(), sieve.lattice());
+    let layers = Layers::new(&lines, frame);
     let mut ends: Vec<i32> = (-1..=i64::from(lattice.counts[axis.index()]))
         .map(|i| fixed(lattice.origin[axis.index()] + i as f64 * lattice.step + LINE_OFFSET))
         .collect();
@@ -68,18 +70,22 @@ pub(super) fn clear(
     }
     let bands = &open.rectangle[1 - k];
     let ceilings = Ceilings::new((now, before), open, k);
-    let (rows, heights) = strip_lines(grid, lattice, frame);
+    let (rows, heights) = strip_lines(grid, &lines, frame);
     let (own, edge) = (OWN as usize, TILE_EDGE as usize);
-    let end = (bands.end * own).min(rows.len()).div_ceil(edge);
-    let some = (bands.start * own / edge).min(end)..end;
+    let side = row_axis(k, frame);
+    let band_of = |row: usize| sieve.whole_index(side, row as u32) as usize / own;
+    let inside = (0..rows.len()).filter(|row| bands.contains(&band_of(*row)));
+    let (first, last) = (inside.clone().min().unwrap_or(0), inside.max().unwrap_or(0));
+    let some = first / edge..(last + 1).div_ceil(edge);
     let work = strips(grid, frame, (&rows, &heights), some.clone()).into_par_iter().zip(some);
     work.for_each(|(mut strip, s)| {
         let mut clear = Clear { layers: &layers, ends: &ends, starts: vec![0; layers.count()], open: 0..0 };
         let mut ways = Vec::new();
         for row in 0..strip.rows.len() {
             let index = s * edge + row;
-            if bands.contains(&(index / own)) && !progress.cancelled() {
-                ceilings.of_row(index, &layers, &mut ways);
+            if bands.contains(&band_of(index)) && !progress.cancelled() {
+                let whole = sieve.whole_index(side, index as u32) as usize;
+                ceilings.of_row(whole, &layers, &mut ways);
                 clear.cut(&mut strip, row, &ways);
             }
         }
@@ -89,6 +95,12 @@ pub(super) fn clear(
 /// Direction of lines across the tool axis: along the first direction across it, or the second.
 pub(super) fn direction(axis: Axis, frame: &ToolFrame) -> usize {
     usize::from(axis != frame.axes[2].others().0)
+}
+
+/// The axis along which the rows of lines are numbered that run along a direction across the tool axis.
+pub(super) fn row_axis(k: usize, frame: &ToolFrame) -> Axis {
+    let (first, second) = frame.axes[2].others();
+    if k == 0 { second } else { first }
 }
 
 /// Cuts the tasks in the rows and layers that they claim.

@@ -18,6 +18,7 @@ use super::patch::NONE;
 use crate::base::Progress;
 use crate::geom::CurveKind;
 use crate::stock::Lattice;
+use crate::stock::sieve::Sieve;
 use crate::stock::tile::TILE_EDGE;
 use crate::stock::tri_dexel::Grid;
 
@@ -98,18 +99,37 @@ pub(super) fn settle(
 ) {
     let [columns, rows] = rectangle;
     let inside = |p: usize| columns.contains(&(p % across)) && rows.contains(&(p / across));
-    let (own, edge) = (OWN as usize, TILE_EDGE as usize);
-    let tiles_across = grid.tiles_across().map(|n| n as usize);
-    // A tile has lines of up to two patches along both directions.
-    let mut reached = vec![false; grid.tiles.len()];
-    for (p, _) in tops.iter().enumerate().filter(|(p, tops)| tops.is_some() && inside(*p)) {
-        let tiles = |at: usize, across: usize| at * own / edge..((at * own + own - 1) / edge + 1).min(across);
-        for row in tiles(p / across, tiles_across[1]) {
-            for column in tiles(p % across, tiles_across[0]) {
-                reached[row * tiles_across[0] + column] = true;
-            }
+    let kept = Kept { tops, across };
+    if cut_behind(grid, (&Sieve::all(lattice), frame), kept, &inside, late, progress) {
+        for (_, tops) in tops.iter_mut().enumerate().filter(|(p, _)| inside(*p)) {
+            *tops = None;
         }
     }
+}
+
+/// Cuts lines of a sieve in patches that are behind, and are inside; true if it was not cancelled.
+pub(super) fn cut_behind(
+    grid: &mut Grid,
+    (sieve, frame): (&Sieve, &ToolFrame),
+    Kept { tops, across }: Kept<'_>,
+    inside: &(dyn Fn(usize) -> bool + Sync),
+    late: &Late,
+    progress: &dyn Progress,
+) -> bool {
+    let (own, edge) = (OWN as usize, TILE_EDGE as usize);
+    let (empty, lattice) = (grid.without_lines(), sieve.lattice());
+    let (first_axis, second_axis) = grid.axis.others();
+    let axes = [first_axis, second_axis];
+    // A tile has lines of several patches along both directions.
+    let is_reached = |t: usize| {
+        let (first, size) = empty.tile_lines(t);
+        let [columns, rows] = [0, 1].map(|k| {
+            let patch = |i: u32| sieve.whole_index(axes[k], first[k] + i) as usize / own;
+            patch(0)..patch(size[k] - 1) + 1
+        });
+        let mut patches = rows.flat_map(|row| columns.clone().map(move |column| row * across + column));
+        patches.any(|p| tops[p].is_some() && inside(p))
+    };
     // Moves of many pieces are taken apart once, the others where they are met.
     let mut curved: Vec<u32> = Vec::new();
     for (_, tops) in tops.iter().enumerate().filter(|(p, _)| inside(*p)) {
@@ -121,22 +141,21 @@ pub(super) fn settle(
     let curved: BTreeMap<u32, Vec<Task>> =
         curved.into_par_iter().map(|by| (by, late.tasks_of_move(by, frame))).collect();
     let stopped = AtomicBool::new(false);
-    let (empty, kept) = (grid.without_lines(), &*tops);
-    let work = grid.tiles.par_iter_mut().enumerate().filter(|(t, _)| reached[*t]);
+    let work = grid.tiles.par_iter_mut().enumerate().filter(|(t, _)| is_reached(*t));
     work.for_each(|(t, tile)| {
         if progress.cancelled() {
             stopped.store(true, Relaxed);
             return;
         }
-        let places = TileLines::new(&empty, lattice, t);
+        let places = TileLines::new(&empty, &lattice, t);
         let (first, size) = empty.tile_lines(t);
         let mut moves: BTreeMap<u32, Vec<Task>> = BTreeMap::new();
         for j in 0..size[1] as usize {
-            let b = first[1] as usize + j;
+            let b = sieve.whole_index(second_axis, first[1] + j as u32) as usize;
             for i in 0..size[0] as usize {
-                let a = first[0] as usize + i;
+                let a = sieve.whole_index(first_axis, first[0] + i as u32) as usize;
                 let p = b / own * across + a / own;
-                let Some(tops) = kept[p].as_ref().filter(|_| inside(p)) else { continue };
+                let Some(tops) = tops[p].as_ref().filter(|_| inside(p)) else { continue };
                 let line = b % own * own + a % own;
                 let (by, piece) = (tops.by[line], tops.piece[line]);
                 if by == NONE {
@@ -156,11 +175,7 @@ pub(super) fn settle(
             }
         }
     });
-    if !stopped.load(Relaxed) {
-        for (_, tops) in tops.iter_mut().enumerate().filter(|(p, _)| inside(*p)) {
-            *tops = None;
-        }
-    }
+    !stopped.load(Relaxed)
 }
 
 impl Late {

@@ -16,12 +16,12 @@ fn compare(stock: &TriDexel, bodies: &[ToolBody], moves: &[CutMove], what: &str)
 }
 
 /// A block that moves of any axis cut in.
-fn block() -> Aabb {
+pub(super) fn block() -> Aabb {
     Aabb { min: DVec3::new(-9.0, -8.0, -7.0), max: DVec3::new(9.3, 8.1, 6.2) }
 }
 
 /// A chain of moves of a tool along `axis` that stays near the top of the block: lines, plunges, arcs and helices.
-fn chain(random: &mut Random, axis: CutAxis, count: usize, body: u32) -> Vec<CutMove> {
+pub(super) fn chain(random: &mut Random, axis: CutAxis, count: usize, body: u32) -> Vec<CutMove> {
     let up = axis.vector();
     let side = DVec3::new(up.z, up.x, up.y);
     let other = up.cross(side);

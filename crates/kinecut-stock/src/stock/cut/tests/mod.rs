@@ -10,3 +10,4 @@ mod in_two_ways;
 mod late;
 mod leaning;
 pub(super) mod reference;
+mod sieved;
