@@ -1,6 +1,7 @@
 //! Memory of a run, told before the stages that take it.
 
 use super::check::Job;
+use super::part_surface::{PartSurface, every};
 use crate::base::{Code, Finding, Result};
 use crate::geom::Aabb;
 use crate::stock::TriDexel;
@@ -58,7 +59,13 @@ impl Budget {
         Budget {
             line_count: lines,
             stock: TriDexel::memory(bounds, step),
-            surface: if job.no_surface { 0 } else { TriDexel::surface_memory(bounds, step) },
+            surface: match job.part_surface {
+                PartSurface::None => 0,
+                PartSurface::Picture if !compared => {
+                    TriDexel::surface_memory(bounds, step * f64::from(every(lines)))
+                }
+                PartSurface::Picture | PartSurface::Full => TriDexel::surface_memory(bounds, step),
+            },
             comparison: if compared { lines.saturating_mul(4 * COMPARED) } else { 0 },
             ..Budget::default()
         }

@@ -23,10 +23,12 @@ pub struct Outcome {
     pub simulation: Simulation,
     /// The operations in their order, with what was measured for each.
     pub measured: Vec<Measured>,
-    /// Surface of the cut part; empty where none was wanted, see [`StockWants::no_surface`](super::StockWants::no_surface).
+    /// Surface of the cut part; empty where none was wanted, see [`StockWants::surface`](super::StockWants::surface).
     pub part: Mesh,
     /// For each triangle of it the cut that made it, 0 for the raw stock; see [`Simulation::first_cut`].
     pub part_cuts: Vec<CutId>,
+    /// Distance of the lines that the surface is made of, where these are not all of the stock model [mm]: then it is for pictures only.
+    pub drawn_step: Option<f64>,
     /// Material removed from the stock, loose cores included.
     pub removed: Volume,
     /// The cut part against the wanted one.

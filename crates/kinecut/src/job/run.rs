@@ -15,6 +15,7 @@ use super::external::{GivenJob, external_setup};
 use super::following::{line_place, trace_options};
 use super::measure::{self, Measured, loose_cores, tallies};
 use super::outcome::Outcome;
+use super::part_surface::part_surface;
 use super::plan::{SetupPlan, plan};
 use super::prove;
 use super::read_back::{ReadBack, compare};
@@ -103,16 +104,11 @@ pub(crate) fn run_checked(
         simulate(&job, &traces, &loose, &wanted.points, &wanted.walls, progress).map_err(locate)?;
     let measured = measure::judged(&job, &mut setups, wanted, &simulation);
     still_wanted(progress)?;
-    let surface = match job.no_surface {
-        true => None,
-        false => {
-            simulation.stock.settle(progress);
-            let stock = (&simulation.budget, &simulation.stock);
-            Some(simulate::surface(&job, stock, progress).map_err(locate)?)
-        }
-    };
-    let removed = simulation.raw.less(left(&job, &simulation.stock, surface.as_ref()));
-    let CutSurface { mesh: part, cuts: part_cuts } = surface.unwrap_or_default();
+    let made = part_surface(&job, &setups, &mut simulation, progress).map_err(locate)?;
+    let full = made.as_ref().filter(|made| made.drawn_step.is_none()).map(|made| &made.surface);
+    let removed = simulation.raw.less(left(&job, &simulation.stock, full));
+    let drawn_step = made.as_ref().and_then(|made| made.drawn_step);
+    let CutSurface { mesh: part, cuts: part_cuts } = made.map(|made| made.surface).unwrap_or_default();
     still_wanted(progress)?;
     progress.stage("compare", 1);
     let deviation = deviation(&job, &setups, &simulation, &part)?;
@@ -149,6 +145,7 @@ pub(crate) fn run_checked(
         measured,
         part,
         part_cuts,
+        drawn_step,
         removed,
         deviation,
         verdict,

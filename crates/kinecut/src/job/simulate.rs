@@ -7,6 +7,7 @@ use super::check::Job;
 use super::closer::{Story, look_closer};
 use super::look::{Look, Looks, looks};
 use super::missed::Missed;
+use super::part_surface::PartSurface;
 use super::raw::{drill, off_axis, take_out};
 use crate::base::{Code, Finding, Progress, Result, Severity};
 use crate::geom::Solid;
@@ -79,9 +80,9 @@ pub fn simulate(
     let raw = if job.drilled.is_empty() {
         Volume::of_solid(&job.stock)
     } else {
-        let surface = match job.no_surface {
-            true => None,
-            false => Some(surface(job, (&budget, &stock), &crate::base::Silent)?),
+        let surface = match job.part_surface {
+            PartSurface::Full => Some(surface(job, (&budget, &stock), &crate::base::Silent)?),
+            PartSurface::Picture | PartSurface::None => None,
         };
         left(job, &stock, surface.as_ref())
     };

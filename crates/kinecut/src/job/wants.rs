@@ -1,6 +1,7 @@
 //! Settings of the simulation that are given beside the job.
 
 use super::check::{Job, step};
+use super::part_surface::PartSurface;
 use crate::base::Result;
 use crate::base::bounded::{MAX_LENGTH, length, positive};
 
@@ -15,9 +16,8 @@ pub struct StockWants {
     pub memory: Option<f64>,
     /// Whether the cut stock is proven against the moves; if not, the job may still say so.
     pub certified: bool,
-    /// Whether no surface of the cut part is wanted, for meshes, sections and the picture of the report: its volume is then known by its
-    /// lines alone.
-    pub no_surface: bool,
+    /// Surface of the cut part that is wanted.
+    pub surface: PartSurface,
 }
 
 impl StockWants {
@@ -38,7 +38,7 @@ impl StockWants {
             None => step::surface("simulate.mesh_tolerance", job.surface.tolerance, job.step)?,
         };
         job.certified |= self.certified;
-        job.no_surface |= self.no_surface;
+        job.part_surface = self.surface;
         Ok(())
     }
 }

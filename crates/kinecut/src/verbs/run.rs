@@ -10,7 +10,8 @@ use super::Answer;
 use crate::base::{Code, DiskLoader, FilesRead, Finding, Loader as _, Location, Progress, Result};
 use crate::geom::{Mesh, write_3mf, write_glb, write_ply, write_stl};
 use crate::job::{
-    self, InspectWants, Inspection, Outcome, Outputs, RunWants, StockWants, Verdict, still_wanted,
+    self, InspectWants, Inspection, Outcome, Outputs, PartSurface, RunWants, StockWants, Verdict,
+    still_wanted,
 };
 use crate::page::Section;
 
@@ -61,14 +62,15 @@ impl Default for ResultFiles {
 }
 
 impl ResultFiles {
-    /// Whether one of them shows the surface of the cut part.
-    fn show_surface(&self) -> bool {
-        self.report || !self.meshes.is_empty() || !self.inspect.is_empty()
-    }
-
-    /// The settings of a simulation for these files.
+    /// The settings of a simulation for these files: no surface is made that none of them shows.
     fn settings(&self, wants: &StockWants) -> StockWants {
-        StockWants { no_surface: wants.no_surface || !self.show_surface(), ..*wants }
+        let surface = match wants.surface {
+            PartSurface::Full if !self.meshes.is_empty() || !self.inspect.is_empty() => PartSurface::Full,
+            PartSurface::Full if self.report => PartSurface::Picture,
+            PartSurface::Full => PartSurface::None,
+            given => given,
+        };
+        StockWants { surface, ..*wants }
     }
 }
 

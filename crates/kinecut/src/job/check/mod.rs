@@ -20,6 +20,7 @@ use super::file::{DrilledTable, JobFile, MachineEntry, StockTable};
 use crate::base::bounded::{MAX_LENGTH, length, positive, text};
 use crate::base::{Code, Error, Finding, Loader, Result};
 use crate::geom::{Aabb, Mesh, Solid, load_mesh};
+use crate::job::part_surface::PartSurface;
 use crate::machine::Machine;
 use crate::nc::{Control, PostSettings};
 use crate::operations::{Clamping, Drilled, Operation, OrientationName};
@@ -56,7 +57,7 @@ pub struct Job {
     /// Whether the cut stock is proven against the moves.
     pub certified: bool,
     /// Whether no surface of the cut part is wanted.
-    pub no_surface: bool,
+    pub part_surface: PartSurface,
     /// Clampings, in order.
     pub setups: Vec<JobSetup>,
     /// Whether other ways than the one asked for are planned too, each with its price.
@@ -169,7 +170,7 @@ pub fn check(file: &JobFile, name: &str, loader: &dyn Loader) -> Result<Job> {
         memory: (memory * 1e6) as u64,
         surface: step::surface("simulate.mesh_tolerance", file.simulate.mesh_tolerance, step)?,
         certified: file.simulate.certified,
-        no_surface: false,
+        part_surface: PartSurface::Full,
         setups,
         compare: false,
     })

@@ -12,7 +12,7 @@ mod svg;
 use glam::DVec3;
 use serde::Serialize;
 
-use super::{Outcome, json_text};
+use super::{Outcome, PartSurface, json_text};
 use crate::base::{Code, Finding, Result};
 use crate::page::Section;
 
@@ -69,12 +69,12 @@ impl Inspection {
         if wants.is_empty() {
             return Ok(None);
         }
-        if outcome.job.no_surface {
+        if outcome.job.part_surface == PartSurface::None || outcome.drawn_step.is_some() {
             return Err(Finding::error(
                 Code::GEOMETRY,
                 "sections, points and distances need the surface of the part",
             )
-            .help("run the job without `no_surface`")
+            .help("run the job with the full surface")
             .into());
         }
         let mut planes: Vec<SectionPlane> = Vec::new();

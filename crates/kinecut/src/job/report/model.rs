@@ -24,6 +24,9 @@ pub struct Report {
     pub time: Option<f64>,
     /// The cut part.
     pub part: Option<PartView>,
+    /// Distance of the lines that it is drawn from [mm], where these are not all lines of the stock model.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub drawn_step: Option<f64>,
     /// The path of the tool in order.
     pub path: Vec<PathPiece>,
     /// The program text that was proven.
@@ -46,6 +49,7 @@ impl Report {
             verdict,
             time: None,
             part: None,
+            drawn_step: None,
             path: Vec::new(),
             program: None,
             tools: Vec::new(),

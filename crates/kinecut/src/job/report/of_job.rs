@@ -4,7 +4,7 @@ use super::model::{PartView, ProgramPart, ProgramView, Report, ReportVerdict, To
 use super::{PathPiece, PathRole};
 use crate::base::at_most;
 use crate::geom::ProfileElement;
-use crate::job::{Outcome, SetupOutcome};
+use crate::job::{Outcome, PartSurface, SetupOutcome};
 use crate::operations::OperationPlan;
 use crate::page;
 use crate::page::{Block, Fact, Section};
@@ -32,7 +32,8 @@ fn with(outcome: &Outcome, page: bool) -> Report {
     let mut part =
         PartView::new(&outcome.part, outcome.deviation.at_vertices.clone(), outcome.deviation.tolerance);
     part.relative = outcome.deviation.relative;
-    report.part = (!outcome.job.no_surface).then_some(part);
+    report.part = (outcome.job.part_surface != PartSurface::None).then_some(part);
+    report.drawn_step = outcome.drawn_step;
     report.tools = tools(outcome);
     let mut controls: Vec<&str> = outcome.setups.iter().map(|s| s.control(&outcome.job).name()).collect();
     controls.dedup();

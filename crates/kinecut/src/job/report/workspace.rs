@@ -7,7 +7,7 @@ use super::encode::Scene;
 use super::facts::is_outside;
 use super::path::seen_from_above;
 use super::{PartView, ProgramView, Report, bands};
-use crate::page::{area_share, duration, fixed, length, plan, visible};
+use crate::page::{area_share, duration, fixed, length, plan, trimmed, visible};
 
 /// Longest program that is printed [lines]; some ten pages in two columns.
 const PRINTED_LINES: usize = 1500;
@@ -68,6 +68,9 @@ fn view(report: &Report, scene: &Scene) -> Markup {
                 }
                 div #kc-readout.readout.script aria-live="off" {}
                 @if let Some(part) = &report.part { (legend(part, scene)) }
+            }
+            @if let Some(step) = report.drawn_step {
+                p.bar.quiet { "Part drawn from lines " (trimmed(step, 3)) " mm apart, numbers are of all lines." }
             }
             @if !report.path.is_empty() { (player()) }
         }

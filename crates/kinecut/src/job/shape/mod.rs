@@ -83,6 +83,12 @@ impl Compared {
     }
 }
 
+/// Whether there is anything that the cut stock is compared with.
+pub(super) fn compares(job: &Job, setups: &[SetupOutcome]) -> bool {
+    let any_plane = || setups.iter().flat_map(|s| &s.planned.operations).any(|o| o.plan.plane().is_some());
+    job.design.is_some() || !wanted(job, setups).is_empty() || any_plane()
+}
+
 /// Compares the cut stock with what the operations want and with the design, and gives the vertices of its surface what the
 /// ends of lines around them have.
 ///
@@ -96,8 +102,7 @@ pub fn deviation(
 ) -> Result<Deviation> {
     let mut answer = Deviation::default();
     let wanted = wanted(job, setups);
-    let any_plane = setups.iter().flat_map(|s| &s.planned.operations).any(|o| o.plan.plane().is_some());
-    if wanted.is_empty() && !any_plane && job.design.is_none() {
+    if !compares(job, setups) {
         return Ok(answer);
     }
     let stock = &simulation.stock;

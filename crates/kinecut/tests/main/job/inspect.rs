@@ -5,8 +5,8 @@ use glam::{DVec2, DVec3};
 use kinecut::base::{Code, Silent};
 use kinecut::job::inspect::{CutBy, Place};
 use kinecut::job::{
-    GivenFile, GivenJob, InspectWants, Inspection, Outcome, ProgramWants, StockWants, given_alone, report,
-    simulate_given,
+    GivenFile, GivenJob, InspectWants, Inspection, Outcome, PartSurface, ProgramWants, StockWants,
+    given_alone, report, simulate_given,
 };
 
 /// A slot 8 mm wide and 3 mm deep along X at Y 15, and a drilled hole through the block at X 30, Y 5.
@@ -235,7 +235,7 @@ fn without_a_surface_the_verdict_is_the_same_and_what_needs_one_says_so() {
     for (program, meets) in [(PROGRAM, false), (&into_wall, true)] {
         let whole = cut(program, TOOLS, Some(0.2));
         let mut alone = given(program, TOOLS, Some(0.2));
-        alone.simulated(&StockWants { no_surface: true, ..StockWants::default() }).unwrap();
+        alone.simulated(&StockWants { surface: PartSurface::None, ..StockWants::default() }).unwrap();
         let lines = simulate_given(alone, &Silent).unwrap();
         assert!(lines.part.triangles.is_empty() && !whole.part.triangles.is_empty());
         assert!(lines.verdict.to_json() == whole.verdict.to_json());

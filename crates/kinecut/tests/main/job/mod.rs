@@ -7,6 +7,7 @@ mod external;
 mod five_axis;
 mod inspect;
 mod kept;
+mod picture;
 mod prove_motion;
 mod prove_rules;
 mod shape;
