@@ -3,7 +3,7 @@
 use glam::DVec3;
 use serde::Serialize;
 
-use super::Interval;
+use super::{Interval, unfixed};
 
 /// A coordinate axis.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize)]
@@ -80,4 +80,9 @@ pub trait DexelGrid: Sync {
     /// The sorted, disjoint intervals of the line along `axis` through the lattice indices `a`, `b` along
     /// `axis.others()`.
     fn line(&self, axis: Axis, a: u32, b: u32) -> &[Interval];
+
+    /// Whether a line has material between two coordinates along it [mm].
+    fn has_material(&self, axis: Axis, [a, b]: [u32; 2], [low, high]: [f64; 2]) -> bool {
+        self.line(axis, a, b).iter().any(|i| unfixed(i.lo.at) < high && unfixed(i.hi.at) > low)
+    }
 }

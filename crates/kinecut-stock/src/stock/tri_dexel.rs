@@ -19,7 +19,7 @@ use super::cut::FromAbove;
 use super::sieve::Sieve;
 use super::skimmed::Skimmed;
 use super::tile::{TILE_EDGE, Tile};
-use super::{Axis, DexelGrid, EndPoint, FIXED_STEP, Interval, Lattice};
+use super::{Axis, DexelGrid, EndPoint, FIXED_STEP, Interval, Lattice, unfixed};
 use crate::base::{Code, Finding, Progress, Result, Silent};
 use crate::geom::Aabb;
 
@@ -405,6 +405,14 @@ impl DexelGrid for TriDexel {
 
     fn line(&self, axis: Axis, a: u32, b: u32) -> &[Interval] {
         self.grid(axis).line(a, b)
+    }
+
+    /// As for any grid; lines along the tool axis need not be cut for it.
+    fn has_material(&self, axis: Axis, [a, b]: [u32; 2], [low, high]: [f64; 2]) -> bool {
+        let (grid, above) = self.grid_within(axis);
+        let [from, to] = above.map_or([i32::MIN, i32::MAX], |above| above.limits(a, b)).map(unfixed);
+        let (low, high) = (low.max(from), high.min(to));
+        grid.line(a, b).iter().any(|i| unfixed(i.lo.at).max(low) < unfixed(i.hi.at).min(high))
     }
 }
 

@@ -34,8 +34,9 @@ pub(super) fn highest<G: DexelGrid + ?Sized>(stock: &G, axis: CutAxis) -> Option
 pub(super) fn above<G: DexelGrid + ?Sized>(stock: &G, tip: DVec3, axis: CutAxis, radius: f64) -> f64 {
     let floor = tip.dot(axis.vector());
     let mut longest: f64 = 0.0;
-    columns(stock, tip, axis, radius, |_, line| {
-        let length: f64 = line
+    columns(stock, tip, axis, radius, |_, a, b| {
+        let length: f64 = stock
+            .line(axis.along(), a, b)
             .iter()
             .map(|i| heights(i, axis))
             .map(|[lo, hi]| (hi - if lo > floor { lo } else { floor }).max(0.0))
@@ -48,7 +49,8 @@ pub(super) fn above<G: DexelGrid + ?Sized>(stock: &G, tip: DVec3, axis: CutAxis,
 /// Heights at which material ends upwards on the lines along the axis whose distance from `at` is between two radii.
 pub(super) fn tops<G: DexelGrid + ?Sized>(stock: &G, at: DVec3, axis: CutAxis, radii: [f64; 2]) -> Vec<f64> {
     let mut found = Vec::new();
-    columns(stock, at, axis, radii[1], |r, line| {
+    columns(stock, at, axis, radii[1], |r, a, b| {
+        let line = stock.line(axis.along(), a, b);
         let end = if axis.sign() > 0.0 { line.last() } else { line.first() };
         if r >= radii[0] {
             found.extend(end.map(|i| heights(i, axis)[1]));
@@ -83,10 +85,11 @@ fn on_floor<G: DexelGrid + ?Sized>(
 ) -> bool {
     let base = foot.dot(axis.vector());
     let mut touched = false;
-    columns(stock, foot, axis, profile.max_radius() + margin, |r, line| {
-        let from = base + lowest(profile, r - margin) - margin;
-        let to = base + profile.top();
-        touched |= line.iter().map(|i| heights(i, axis)).any(|[lo, hi]| lo < to && hi > from);
+    columns(stock, foot, axis, profile.max_radius() + margin, |r, a, b| {
+        touched = touched || {
+            let from = base + lowest(profile, r - margin) - margin;
+            stock.has_material(axis.along(), [a, b], between(axis, from, base + profile.top()))
+        };
     });
     touched
 }
@@ -104,8 +107,9 @@ fn is_beside_lines<G: DexelGrid + ?Sized>(
     const BEHIND: f64 = 1.5;
     let [from, to] = [profile.bottom(), profile.top()].map(|z| foot.dot(axis.vector()) + z);
     let mut beside = false;
-    columns(stock, foot, axis, profile.max_radius() + margin + BEHIND * stock.lattice().step, |_, line| {
-        beside |= line.iter().map(|i| heights(i, axis)).any(|[lo, hi]| lo < to && hi > from);
+    let radius = profile.max_radius() + margin + BEHIND * stock.lattice().step;
+    columns(stock, foot, axis, radius, |_, a, b| {
+        beside = beside || stock.has_material(axis.along(), [a, b], between(axis, from, to));
     });
     beside
 }
@@ -199,13 +203,13 @@ fn at_wall<G: DexelGrid + ?Sized>(
     false
 }
 
-/// Calls for each line along the axis that is at most `radius` from a point, with its distance.
+/// Calls for each line along the axis that is at most `radius` from a point, with its distance and its indices.
 fn columns<G: DexelGrid + ?Sized>(
     stock: &G,
     at: DVec3,
     axis: CutAxis,
     radius: f64,
-    mut each: impl FnMut(f64, &[Interval]),
+    mut each: impl FnMut(f64, u32, u32),
 ) {
     let lattice = stock.lattice();
     // Half the diagonal of a cell, and a little: a circle of that has a line in it.
@@ -218,7 +222,7 @@ fn columns<G: DexelGrid + ?Sized>(
             let y = lattice.coordinate(b, j) + LINE_OFFSET - centre[1];
             let r = x.hypot(y);
             if r <= radius {
-                each(r, stock.line(axis.along(), i, j));
+                each(r, i, j);
             }
         }
     }
@@ -231,6 +235,11 @@ fn indices(lattice: &Lattice, axis: Axis, from: f64, to: f64) -> std::ops::Range
     let first = index(from).ceil().clamp(0.0, count);
     let end = (index(to).floor() + 1.0).clamp(first, count);
     first as u32..end as u32
+}
+
+/// The coordinates between two heights along the tool axis.
+fn between(axis: CutAxis, from: f64, to: f64) -> [f64; 2] {
+    if axis.sign() > 0.0 { [from, to] } else { [-to, -from] }
 }
 
 /// Lower and upper end of an interval, heights along the tool axis.

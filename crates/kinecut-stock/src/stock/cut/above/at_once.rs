@@ -114,7 +114,7 @@ pub(super) fn cut(patch: &mut Patch, group: &[u32], tasks: &[Task]) {
     first.iter().for_each(|i| go(patch, &all[*i], None));
     // Then those that may go deepest below what is there, as far as they still may.
     patch.keep_covers(false);
-    let mut rest: Vec<(f64, &Bounded, Planes)> = Vec::new();
+    let (mut rest, mut below): (Vec<(f64, u32)>, Vec<(&Bounded, Planes)>) = (Vec::new(), Vec::new());
     let mut done = first.iter().peekable();
     for (i, one) in all.iter().enumerate() {
         let index = f64::from(one.index);
@@ -125,9 +125,14 @@ pub(super) fn cut(patch: &mut Patch, group: &[u32], tasks: &[Task]) {
         let planes = patch.planes(&one.sweep);
         let open = patch.open_by_planes(&planes, open, |block| patch.slack(block, index));
         if !open.is_empty() {
-            rest.push((patch.depth(&planes, open), one, planes));
+            rest.push((patch.depth(&planes, open), below.len() as u32));
+            below.push((one, planes));
         }
     }
-    rest.sort_by(|a, b| b.0.total_cmp(&a.0));
-    rest.iter().for_each(|(_, one, planes)| go(patch, one, Some(planes)));
+    // Of equal ones the first.
+    rest.sort_unstable_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
+    for (_, next) in rest {
+        let (one, planes) = &below[next as usize];
+        go(patch, one, Some(planes));
+    }
 }

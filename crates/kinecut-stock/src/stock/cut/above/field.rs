@@ -25,6 +25,7 @@ pub(super) type Line = (usize, usize);
 /// out of the stock on either side. Or some of these lines, a stride apart, without the ways between them.
 pub(super) struct Field<'a> {
     grid: &'a Grid,
+    tiles_across: usize,
     sign: f64,
     counts: [i64; 2],
     origin: [f64; 2],
@@ -55,6 +56,7 @@ impl<'a> Field<'a> {
         let highest = if frame.sign > 0.0 { bounds.max[along] } else { -bounds.min[along] };
         Field {
             grid,
+            tiles_across: grid.tiles_across()[0] as usize,
             sign: frame.sign,
             counts: grid.counts.map(i64::from),
             origin: axes.map(|axis| lattice.origin[axis.index()]),
@@ -97,22 +99,24 @@ impl<'a> Field<'a> {
     }
 
     /// A line by its indices, when it is one.
+    #[inline]
     pub(super) fn line(&self, a: i64, b: i64) -> Option<Line> {
         let [a, b] = self.in_grid(a, b)?;
         let edge = TILE_EDGE as usize;
-        let across = self.grid.tiles_across()[0] as usize;
-        Some((b / edge * across + a / edge, b % edge * edge + a % edge))
+        Some((b / edge * self.tiles_across + a / edge, b % edge * edge + a % edge))
     }
 
     /// Indices of a line in the grid, when it is one.
+    #[inline]
     fn in_grid(&self, a: i64, b: i64) -> Option<[usize; 2]> {
-        let inside = |n: i64, count: i64| (0..count).contains(&n);
-        let is_line = inside(a, self.counts[0]) && inside(b, self.counts[1]);
-        is_line
-            .then(|| [self.first[0] + a * self.stride, self.first[1] + b * self.stride].map(|n| n as usize))
+        if a < 0 || b < 0 || a >= self.counts[0] || b >= self.counts[1] {
+            return None;
+        }
+        Some([(self.first[0] + a * self.stride) as usize, (self.first[1] + b * self.stride) as usize])
     }
 
     /// True if a way leads along the direction `k` to a line from the one before it, or to or from the outside.
+    #[inline]
     pub(super) fn has_way(&self, k: usize, a: i64, b: i64) -> bool {
         let (along, across) = if k == 0 { (a, b) } else { (b, a) };
         (0..=self.counts[k]).contains(&along) && (0..self.counts[1 - k]).contains(&across)
