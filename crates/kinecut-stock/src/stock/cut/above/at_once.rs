@@ -107,7 +107,7 @@ pub(super) fn cut(patch: &mut Patch, group: &[u32], tasks: &[Task]) {
             open = patch.open_by_planes(planes, open, |block| patch.slack(block, index));
         }
         if !open.is_empty() {
-            patch.sink(&one.sweep, open, index);
+            patch.sink(&one.sweep, open, index, false);
             patch.lower(open);
         }
     };

@@ -505,7 +505,7 @@ impl Patch {
             if active.is_empty() {
                 continue;
             }
-            let sunk = self.sink(&sweep, active, f64::from(done.task));
+            let sunk = self.sink(&sweep, active, f64::from(done.task), true);
             for (corner, sunk) in active.corners().zip(&sunk) {
                 self.note(field, corner, task, sunk, done);
             }
@@ -513,21 +513,22 @@ impl Patch {
         }
     }
 
-    /// Lets a part go through blocks; its heights stay until they are forgotten.
-    pub(super) fn sink(&mut self, sweep: &Sweep, blocks: Blocks, index: f64) -> [Sunk; BLOCKS] {
+    /// Lets a part go through blocks, and tells what it takes, if that is asked for; its heights stay until they are forgotten.
+    pub(super) fn sink(&mut self, sweep: &Sweep, blocks: Blocks, index: f64, tell: bool) -> [Sunk; BLOCKS] {
         if !sweep.is_convex() {
             self.raise_one_by_one(sweep, blocks);
             if self.between {
                 self.sink_ceilings_one_by_one(sweep, blocks);
             }
         }
-        self.arch.dispatch(Sink { patch: self, sweep, blocks, index })
+        self.arch.dispatch(Sink { patch: self, sweep, blocks, index, tell })
     }
 
     /// Lowers the tops of a block to the heights of a part.
     #[inline(always)]
     fn sink_tops(&mut self, (c0, r0): (usize, usize), index: f64) -> Sunk {
         let (mut greatest, mut sum) = ([0.0; BLOCK], [0.0; BLOCK]);
+        let mut lowest = [false; BLOCK];
         for r in r0..r0 + BLOCK {
             let start = r * SIDE + c0;
             let heights = row_at(&self.heights[..], height_at(r, c0));
@@ -538,7 +539,9 @@ impl Patch {
                 let at = most(rounded(heights[c]), bottom[c]);
                 // Heights are whole numbers: of tasks that go equally low the first.
                 let limit = top[c] + if index < task[c] { 0.5 } else { 0.0 };
-                task[c] = if at < limit { index } else { task[c] };
+                let goes_lowest = at < limit;
+                task[c] = if goes_lowest { index } else { task[c] };
+                lowest[c] |= goes_lowest;
                 overlap[c] = most(top[c] - at, 0.0);
                 top[c] = least(top[c], at);
                 sum[c] += overlap[c];
@@ -548,12 +551,13 @@ impl Patch {
             put_row(&mut self.task[..], start, task);
             put_row(&mut self.overlap[..], start, overlap);
         }
-        Sunk { greatest: greatest.into_iter().fold(0.0, most), sum: sum.into_iter().sum::<f64>() }
+        let is_new = lowest.into_iter().fold(false, |any, one| any | one);
+        Sunk { greatest: greatest.into_iter().fold(0.0, most), sum: sum.into_iter().sum::<f64>(), is_new }
     }
 
     /// Notes what a part has met in a block.
     fn note(&self, field: &Field, (c0, r0): (usize, usize), task: &Task, sunk: &Sunk, done: &mut Done) {
-        let Sunk { greatest, sum } = *sunk;
+        let Sunk { greatest, sum, .. } = *sunk;
         if self.simple {
             done.removed += sum as i64;
         }
@@ -597,9 +601,33 @@ impl Patch {
         self.overlap[r * SIDE + c]
     }
 
-    /// Lowers the ceilings of a block to where a part has taken both ends of a way, and all between.
+    /// The same without telling what was taken.
     #[inline(always)]
-    fn sink_ceilings(&mut self, (c0, r0): (usize, usize)) {
+    fn sink_tops_only(&mut self, (c0, r0): (usize, usize), index: f64) -> Sunk {
+        let mut lowest = [false; BLOCK];
+        for r in r0..r0 + BLOCK {
+            let start = r * SIDE + c0;
+            let heights = row_at(&self.heights[..], height_at(r, c0));
+            let (mut top, mut task) = (row_at(&self.top[..], start), row_at(&self.task[..], start));
+            let bottom = row_at(&self.bottom[..], start);
+            for c in 0..BLOCK {
+                let at = most(rounded(heights[c]), bottom[c]);
+                let limit = top[c] + if index < task[c] { 0.5 } else { 0.0 };
+                let goes_lowest = at < limit;
+                task[c] = if goes_lowest { index } else { task[c] };
+                top[c] = least(top[c], at);
+                lowest[c] |= goes_lowest;
+            }
+            put_row(&mut self.top[..], start, top);
+            put_row(&mut self.task[..], start, task);
+        }
+        Sunk { is_new: lowest.into_iter().fold(false, |any, one| any | one), ..Sunk::default() }
+    }
+
+    /// Lowers the ceilings of a block to where a part has taken both ends of a way, and all between; true if one has become lower.
+    #[inline(always)]
+    fn sink_ceilings(&mut self, (c0, r0): (usize, usize)) -> bool {
+        let mut lower = [false; BLOCK];
         let heights = &self.heights[..];
         let [along, up] = &mut self.ceilings;
         for r in r0..r0 + BLOCK {
@@ -609,12 +637,15 @@ impl Patch {
                 (row_at(heights, at), row_at(heights, at - 1), row_at(heights, at - HEIGHTS));
             let (mut a, mut u) = (row_at(&along[..], start), row_at(&up[..], start));
             for c in 0..BLOCK {
-                a[c] = least(a[c], most(here[c], left[c]));
-                u[c] = least(u[c], most(here[c], below[c]));
+                let (beside, behind) = (most(here[c], left[c]), most(here[c], below[c]));
+                lower[c] |= beside < a[c] || behind < u[c];
+                a[c] = least(a[c], beside);
+                u[c] = least(u[c], behind);
             }
             put_row(&mut along[..], start, a);
             put_row(&mut up[..], start, u);
         }
+        lower.into_iter().fold(false, |any, one| any | one)
     }
 
     /// The same for what is swept along an arc, way by way.
@@ -690,6 +721,8 @@ impl Patch {
 pub(super) struct Sunk {
     greatest: f64,
     sum: f64,
+    /// Whether it went lowest on a line, or in a way.
+    is_new: bool,
 }
 
 // Work in the widest instructions of the machine: all that these call has to become part of them.
@@ -770,6 +803,8 @@ struct Sink<'a, 'b> {
     sweep: &'a Sweep<'b>,
     blocks: Blocks,
     index: f64,
+    /// Whether what is taken is told.
+    tell: bool,
 }
 
 impl NullaryFnOnce for Sink<'_, '_> {
@@ -777,28 +812,30 @@ impl NullaryFnOnce for Sink<'_, '_> {
 
     #[inline(always)]
     fn call(self) -> [Sunk; BLOCKS] {
-        let Sink { patch, sweep, blocks, index } = self;
+        let Sink { patch, sweep, blocks, index, tell } = self;
         let convex = sweep.is_convex();
         if convex {
             patch.raise(sweep, blocks);
         }
         let mut sunk = [Sunk::default(); BLOCKS];
         for (corner, sunk) in blocks.corners().zip(&mut sunk) {
-            *sunk = patch.sink_tops(corner, index);
-            if convex && patch.between {
-                patch.sink_ceilings(corner);
+            *sunk = if tell { patch.sink_tops(corner, index) } else { patch.sink_tops_only(corner, index) };
+            if patch.between {
+                // Ceilings along an arc were lowered before.
+                sunk.is_new |= !convex || patch.sink_ceilings(corner);
             }
         }
-        for b in (0..BLOCKS).filter(|b| blocks.0 >> b & 1 == 1) {
+        let mut covers = patch.covers;
+        for (b, _) in
+            (0..BLOCKS).filter(|b| blocks.0 >> b & 1 == 1).zip(&sunk).filter(|(_, sunk)| sunk.is_new)
+        {
             patch.hull[b] = patch.hull_of(b);
             patch.latest[b] = patch.latest_of(b);
-        }
-        if let Some(mut covers) = patch.covers {
-            for b in (0..BLOCKS).filter(|b| blocks.0 >> b & 1 == 1) {
+            if let Some(covers) = &mut covers {
                 covers[b] = patch.cover_of(b);
             }
-            patch.covers = Some(covers);
         }
+        patch.covers = covers;
         sunk
     }
 }
