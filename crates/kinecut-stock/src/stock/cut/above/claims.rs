@@ -140,6 +140,30 @@ impl Patch {
         rows
     }
 
+    /// The same by discs about the ways.
+    #[inline(always)]
+    fn bound_discs(&mut self, (c0, r0): (usize, usize), k: usize, sweep: &Sweep) -> [u8; BLOCK] {
+        let half = 0.5 * self.step;
+        let (dx, dy) = if k == 0 { (half, 0.0) } else { (0.0, half) };
+        let mut x = row_at(&self.x, c0);
+        for x in &mut x {
+            *x -= dx;
+        }
+        let mut rows = [0; BLOCK];
+        for r in r0..r0 + BLOCK {
+            let start = r * SIDE + c0;
+            let ceilings = row_at(&self.ceilings[k][..], start);
+            let lows = sweep.bounds(&x, &[self.y[r] - dy; BLOCK], half);
+            let mut below = 0;
+            for c in 0..BLOCK {
+                below |= u8::from(lows[c] - ROUNDING < ceilings[c] + 2.0 * ROUNDING) << c;
+            }
+            rows[r - r0] = below;
+            put_row(&mut self.lows[k][..], start, lows);
+        }
+        rows
+    }
+
     /// The claim on the way to a line from the one before it, given a bound from below.
     #[inline(always)]
     fn claim_way(
@@ -186,13 +210,16 @@ impl NullaryFnOnce for Bound<'_, '_> {
     #[inline(always)]
     fn call(self) -> Self::Output {
         let Bound { patch, sweep, blocks } = self;
+        let mut claimed = [[[0; BLOCK]; 2]; BLOCKS];
         if sweep.is_convex() {
             patch.raise(sweep, blocks);
-        }
-        // Without heights nothing is known.
-        let mut claimed = [[[0; BLOCK]; 2]; BLOCKS];
-        for (corner, claimed) in blocks.corners().zip(&mut claimed) {
-            *claimed = [patch.bound_ways(corner, 0), patch.bound_ways(corner, 1)];
+            for (corner, claimed) in blocks.corners().zip(&mut claimed) {
+                *claimed = [patch.bound_ways(corner, 0), patch.bound_ways(corner, 1)];
+            }
+        } else {
+            for (corner, claimed) in blocks.corners().zip(&mut claimed) {
+                *claimed = [patch.bound_discs(corner, 0, sweep), patch.bound_discs(corner, 1, sweep)];
+            }
         }
         claimed
     }

@@ -35,7 +35,10 @@ impl Layers {
 
     /// Number of layers below a height.
     fn below(&self, height: f64) -> usize {
-        ((height - self.lowest) / self.step).ceil().clamp(0.0, self.count as f64) as usize
+        let layers = ((height - self.lowest) / self.step).clamp(0.0, self.count as f64);
+        // Upwards by a cast: `ceil` is a call of the C library.
+        let whole = layers as usize;
+        whole + usize::from(layers > whole as f64)
     }
 
     /// The layers that lie between a height that a part may come down to and a ceiling; in the order of the stock.

@@ -20,6 +20,7 @@ mod field;
 mod late;
 mod layers;
 mod patch;
+mod round;
 mod sides;
 mod sweep;
 mod tops;

@@ -17,6 +17,7 @@ use super::super::task::Task;
 use super::Done;
 use super::column::{Column, heights};
 use super::field::{Field, OWN, rounded};
+use super::round::Round;
 use super::sweep::{BLOCK, BlockOf, Sweep, least, most};
 use super::tops::Tops;
 use crate::stock::{FIXED_STEP, Interval};
@@ -412,7 +413,7 @@ impl Patch {
         }
     }
 
-    /// Computes the heights of a part along a straight path over blocks.
+    /// Computes the heights of a part over blocks, several at once.
     #[inline(always)]
     pub(super) fn raise(&mut self, sweep: &Sweep, blocks: Blocks) {
         let mut out: BlockOf<f64> = [[0.0; BLOCK]; BLOCK];
@@ -515,7 +516,7 @@ impl Patch {
 
     /// Lets a part go through blocks, and tells what it takes, if that is asked for; its heights stay until they are forgotten.
     pub(super) fn sink(&mut self, sweep: &Sweep, blocks: Blocks, index: f64, tell: bool) -> [Sunk; BLOCKS] {
-        if !sweep.is_convex() {
+        if sweep.is_one_by_one() {
             self.raise_one_by_one(sweep, blocks);
             if self.between {
                 self.sink_ceilings_one_by_one(sweep, blocks);
@@ -648,7 +649,42 @@ impl Patch {
         lower.into_iter().fold(false, |any, one| any | one)
     }
 
-    /// The same for what is swept along an arc, way by way.
+    /// The same for what is swept along an arc at one height.
+    #[inline(always)]
+    fn sink_ceilings_round(&mut self, (c0, r0): (usize, usize), sweep: &Sweep, round: &Round) -> bool {
+        let mut lower = [false; BLOCK];
+        let (x, mut left) = (row_at(&self.x, c0), row_at(&self.x, c0));
+        for x in &mut left {
+            *x -= self.step;
+        }
+        for r in r0..r0 + BLOCK {
+            let (start, at) = (r * SIDE + c0, height_at(r, c0));
+            let (y, below) = ([self.y[r]; BLOCK], [self.y[r] - self.step; BLOCK]);
+            let here = row_at(&self.heights[..], at);
+            for (k, (from, before)) in
+                [([&left, &y], at - 1), ([&x, &below], at - HEIGHTS)].into_iter().enumerate()
+            {
+                let before = row_at(&self.heights[..], before);
+                let mut ceilings = row_at(&self.ceilings[k][..], start);
+                let mut any = false;
+                for c in 0..BLOCK {
+                    any |= most(here[c], before[c]) < ceilings[c];
+                }
+                if !any {
+                    continue;
+                }
+                let between = sweep.between_round(round, [from, [&x, &y]], [&before, &here]);
+                for c in 0..BLOCK {
+                    lower[c] |= between[c] < ceilings[c];
+                    ceilings[c] = least(ceilings[c], between[c]);
+                }
+                put_row(&mut self.ceilings[k][..], start, ceilings);
+            }
+        }
+        lower.into_iter().fold(false, |any, one| any | one)
+    }
+
+    /// The same for what is swept along a rising arc, way by way.
     fn sink_ceilings_one_by_one(&mut self, sweep: &Sweep, blocks: Blocks) {
         for (c0, r0) in blocks.corners() {
             for (k, (dr, dc)) in [(0, (0, 1)), (1, (1, 0))] {
@@ -813,16 +849,20 @@ impl NullaryFnOnce for Sink<'_, '_> {
     #[inline(always)]
     fn call(self) -> [Sunk; BLOCKS] {
         let Sink { patch, sweep, blocks, index, tell } = self;
-        let convex = sweep.is_convex();
-        if convex {
+        let one_by_one = sweep.is_one_by_one();
+        if !one_by_one {
             patch.raise(sweep, blocks);
         }
         let mut sunk = [Sunk::default(); BLOCKS];
         for (corner, sunk) in blocks.corners().zip(&mut sunk) {
             *sunk = if tell { patch.sink_tops(corner, index) } else { patch.sink_tops_only(corner, index) };
             if patch.between {
-                // Ceilings along an arc were lowered before.
-                sunk.is_new |= !convex || patch.sink_ceilings(corner);
+                sunk.is_new |= match sweep.round() {
+                    // They were lowered before.
+                    Some(_) if one_by_one => true,
+                    Some(round) => patch.sink_ceilings_round(corner, sweep, round),
+                    None => patch.sink_ceilings(corner),
+                };
             }
         }
         let mut covers = patch.covers;

@@ -1,7 +1,7 @@
 //! A convex part on its way along a piece: the lowest height at which it passes over many lines at once.
 //!
-//! The closed forms are those of `axial.rs`. On a straight path they are written without branches, so that the compiler takes
-//! several lines in one instruction; over an arc each line is asked by itself. A height from a torus on a slope is that of a
+//! The closed forms are those of `axial.rs`. On a straight path, and over an arc at one height, they are written without branches, so
+//! that the compiler takes several lines in one instruction; over a rising arc each line is asked by itself. A height from a torus on a slope is that of a
 //! place on its way near to the lowest one: it is never too low, and too high by less than rounding (`Torus`).
 
 use glam::{DVec2, Vec2Swizzles};
@@ -11,6 +11,7 @@ use super::super::body::{ConvexPart, Foot};
 use super::super::piece::MovePiece;
 use super::super::plan::Plan;
 use super::super::task::Task;
+use super::round::Round;
 
 /// Lines along an edge of a block.
 pub(super) const BLOCK: usize = 8;
@@ -25,6 +26,7 @@ pub(super) struct Sweep<'a> {
     /// Least height of the tip [mm].
     low: f64,
     straight: Option<Straight>,
+    round: Option<Round>,
 }
 
 /// A straight path, or a standing tool as one of no length.
@@ -93,7 +95,12 @@ impl<'a> Sweep<'a> {
         let swapped = task.frame.sign < 0.0;
         let plan = if swapped { task.piece.plan.mirrored() } else { task.piece.plan };
         let piece = MovePiece { plan, ..task.piece };
-        Sweep { part, piece, low: task.tip_range().0, straight: Straight::of(&piece) }
+        let low = task.tip_range().0;
+        let round = match &piece.plan {
+            Plan::Arc(arc) => Some(Round::new(arc, (piece.rise() == 0.0).then_some(low))),
+            Plan::Dot(_) | Plan::Line(_) => None,
+        };
+        Sweep { part, piece, low, straight: Straight::of(&piece), round }
     }
 
     /// True if what is swept is convex: then so is its underside, along any line.
@@ -101,38 +108,73 @@ impl<'a> Sweep<'a> {
         self.straight.is_some()
     }
 
+    /// The arc of a path along one.
+    #[inline(always)]
+    pub(super) fn round(&self) -> Option<&Round> {
+        self.round.as_ref()
+    }
+
+    /// True if the heights over the lines of a block are found one by one.
+    pub(super) fn is_one_by_one(&self) -> bool {
+        self.round.is_some_and(|round| round.level.is_none())
+    }
+
     /// Bounds from below for discs about middles: no line within `radius` of one is passed lower. Infinite where none is
     /// reached.
     #[inline(always)]
     pub(super) fn bounds<const N: usize>(&self, x: &[f64; N], y: &[f64; N], radius: f64) -> [f64; N] {
         let part = self.part;
-        let Some(path) = &self.straight else {
-            let mut bounds = [f64::INFINITY; N];
-            for i in 0..N {
-                let d = self.piece.plan.distance_squared(DVec2::new(x[i], y[i])).sqrt() - radius;
-                if d <= part.r1 {
-                    bounds[i] = self.low + part.height(d.clamp(0.0, part.r1));
-                }
-            }
-            return bounds;
-        };
         let (z0, r0) = (part.z0, part.r0);
         // Not in the loop: a choice there is made for one after the other.
         match part.foot {
-            Foot::Flat => self.bounds_along(path, [x, y], radius, |_| z0),
-            Foot::Cone { rise } => self.bounds_along(path, [x, y], radius, |d| z0 + rise * most(d - r0, 0.0)),
+            Foot::Flat => self.bounds_by([x, y], radius, |_| z0),
+            Foot::Cone { rise } => self.bounds_by([x, y], radius, |d| z0 + rise * most(d - r0, 0.0)),
             Foot::Torus { centre_radius, centre_z, radius: r } => {
                 let foot = |d: f64| {
                     let off = d - centre_radius;
                     let h = centre_z - root((r - off) * (r + off));
                     if d <= r0 { z0 } else { h }
                 };
-                self.bounds_along(path, [x, y], radius, foot)
+                self.bounds_by([x, y], radius, foot)
             }
         }
     }
 
-    /// Bounds along a straight path, by the height of the foot at a distance from the axis.
+    /// Bounds by the height of the foot at a distance from the axis.
+    #[inline(always)]
+    fn bounds_by<const N: usize>(
+        &self,
+        places: [&[f64; N]; 2],
+        radius: f64,
+        foot: impl Fn(f64) -> f64,
+    ) -> [f64; N] {
+        match (&self.straight, &self.round) {
+            (Some(path), _) => self.bounds_along(path, places, radius, foot),
+            (_, Some(round)) => self.bounds_round(round, places, radius, foot),
+            (None, None) => [f64::NEG_INFINITY; N],
+        }
+    }
+
+    /// The same along an arc, on which the tip is nowhere lower than its least height.
+    #[inline(always)]
+    fn bounds_round<const N: usize>(
+        &self,
+        round: &Round,
+        [x, y]: [&[f64; N]; 2],
+        radius: f64,
+        foot: impl Fn(f64) -> f64,
+    ) -> [f64; N] {
+        let (r1, low) = (self.part.r1, self.low);
+        let mut bounds = [0.0; N];
+        for i in 0..N {
+            let d = most(round.distance(x[i], y[i]) - radius, 0.0);
+            let bound = low + foot(least(d, r1));
+            bounds[i] = if d > r1 { f64::INFINITY } else { bound };
+        }
+        bounds
+    }
+
+    /// The same along a straight path.
     #[inline(always)]
     fn bounds_along<const N: usize>(
         &self,
@@ -241,10 +283,15 @@ impl<'a> Sweep<'a> {
         }
     }
 
-    /// The same along a straight path, for several lines in one instruction.
+    /// The same along a straight path, or an arc at one height, for several lines in one instruction.
     #[inline(always)]
     pub(super) fn heights(&self, x: &[f64; BLOCK], y: &[f64; BLOCK], out: &mut BlockOf<f64>) {
-        let Some(path) = &self.straight else { return };
+        let Some(path) = &self.straight else {
+            for (row, y) in out.iter_mut().zip(y) {
+                *row = self.bounds(x, &[*y; BLOCK], 0.0);
+            }
+            return;
+        };
         let part = self.part;
         let (z0, rr0) = (part.z0, part.r0 * part.r0);
         match part.foot {
@@ -351,6 +398,55 @@ impl<'a> Sweep<'a> {
         });
         if lowest.1.is_nan() {
             lowest.1 = self.piece.plan.nearest(q);
+        }
+        lowest
+    }
+
+    /// The same for ways to places from others, given the heights over both, for several in one instruction; along an arc at one height.
+    #[inline(always)]
+    pub(super) fn between_round(
+        &self,
+        round: &Round,
+        [from, to]: [[&[f64; BLOCK]; 2]; 2],
+        [over_from, over_to]: [&[f64; BLOCK]; 2],
+    ) -> [f64; BLOCK] {
+        let part = self.part;
+        let (z0, r0) = (part.z0, part.r0);
+        let ends = ([from, to], [over_from, over_to]);
+        match part.foot {
+            Foot::Flat => self.posed(round, ends, |_| z0),
+            Foot::Cone { rise } => self.posed(round, ends, |d| z0 + rise * most(d - r0, 0.0)),
+            Foot::Torus { centre_radius, centre_z, radius: r } => {
+                let foot = |d: f64| {
+                    let off = d - centre_radius;
+                    let h = centre_z - root((r - off) * (r + off));
+                    if d <= r0 { z0 } else { h }
+                };
+                self.posed(round, ends, foot)
+            }
+        }
+    }
+
+    /// Heights from which on up the part has both ends of ways in it at one time: where it is nearest to one of them.
+    #[inline(always)]
+    fn posed(
+        &self,
+        round: &Round,
+        ([from, to], [over_from, over_to]): ([[&[f64; BLOCK]; 2]; 2], [&[f64; BLOCK]; 2]),
+        foot: impl Fn(f64) -> f64,
+    ) -> [f64; BLOCK] {
+        let (r1, low) = (self.part.r1, self.low);
+        let at = |p: [f64; 2], over: f64, q: [f64; 2]| {
+            let (x, y) = round.nearest(p[0], p[1]);
+            let (dx, dy) = (q[0] - x, q[1] - y);
+            let rho = (dx * dx + dy * dy).sqrt();
+            let height = most(over, low + foot(least(rho, r1)));
+            if rho > r1 { f64::INFINITY } else { height }
+        };
+        let mut lowest = [0.0; BLOCK];
+        for i in 0..BLOCK {
+            let (p, q) = ([from[0][i], from[1][i]], [to[0][i], to[1][i]]);
+            lowest[i] = least(at(p, over_from[i], q), at(q, over_to[i], p));
         }
         lowest
     }

@@ -177,7 +177,7 @@ impl Random {
         from + (to - from) * self.unit()
     }
 
-    pub(super) fn plane(&mut self, reach: f64) -> DVec2 {
+    pub(in crate::stock::cut) fn plane(&mut self, reach: f64) -> DVec2 {
         DVec2::new(self.within(-reach, reach), self.within(-reach, reach))
     }
 }
