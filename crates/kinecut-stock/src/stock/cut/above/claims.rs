@@ -88,24 +88,24 @@ impl Patch {
             if blocks.is_empty() {
                 continue;
             }
-            let claimed = self.arch.dispatch(Bound { patch: self, sweep: &sweep, blocks });
+            let claimed =
+                self.arch.dispatch(Bound { patch: self, sweep: &sweep, blocks, layers: lines.layers });
             for ((c0, r0), mut claimed) in blocks.corners().zip(claimed) {
                 for i in 0..BLOCK {
                     claimed[0][i] *= u8::from(along >> (r0 + i) & 1 == 1);
                     claimed[1][i] &= (across >> c0) as u8;
                 }
-                for (k, rows) in claimed.into_iter().enumerate() {
-                    // One way after the other along a row.
-                    let ways = (0..BLOCK * BLOCK).filter(|i| match k {
-                        0 => rows[i / BLOCK] >> (i % BLOCK) & 1 == 1,
-                        _ => rows[i % BLOCK] >> (i / BLOCK) & 1 == 1,
-                    });
-                    if rows == [0; BLOCK] {
-                        continue;
+                let [along, across] = claimed;
+                // One way after the other along a row.
+                for (r, columns) in along.into_iter().enumerate() {
+                    for c in bits(columns) {
+                        self.claim_way(lines, (r0 + r, c0 + c, 0), (index, &sweep), &mut claims[0]);
                     }
-                    for i in ways {
-                        let (r, c) = if k == 0 { (i / BLOCK, i % BLOCK) } else { (i % BLOCK, i / BLOCK) };
-                        self.claim_way(lines, (r0 + r, c0 + c, k), (index, &sweep), &mut claims[k]);
+                }
+                let columns = across.into_iter().fold(0, |all, columns| all | columns);
+                for c in bits(columns) {
+                    for r in (0..BLOCK).filter(|r| across[*r] >> c & 1 == 1) {
+                        self.claim_way(lines, (r0 + r, c0 + c, 1), (index, &sweep), &mut claims[1]);
                     }
                 }
             }
@@ -116,7 +116,7 @@ impl Patch {
     /// Bounds on the ways along a direction to the lines of a block, from the heights of a part; by row a bit for each that is below
     /// its ceiling.
     #[inline(always)]
-    fn bound_ways(&mut self, (c0, r0): (usize, usize), k: usize) -> [u8; BLOCK] {
+    fn bound_ways(&mut self, (c0, r0): (usize, usize), k: usize, layers: &Layers) -> [u8; BLOCK] {
         let back = if k == 0 { 1 } else { HEIGHTS };
         let mut rows = [0; BLOCK];
         for r in r0..r0 + BLOCK {
@@ -130,11 +130,7 @@ impl Patch {
                 let low = most(convex(before[c], from[c]), convex(behind[c], to[c]));
                 lows[c] = low;
             }
-            let mut below = 0;
-            for c in 0..BLOCK {
-                below |= u8::from(lows[c] - ROUNDING < ceilings[c] + 2.0 * ROUNDING) << c;
-            }
-            rows[r - r0] = below;
+            rows[r - r0] = claimed(&lows, &ceilings, layers);
             put_row(&mut self.lows[k][..], start, lows);
         }
         rows
@@ -142,7 +138,13 @@ impl Patch {
 
     /// The same by discs about the ways.
     #[inline(always)]
-    fn bound_discs(&mut self, (c0, r0): (usize, usize), k: usize, sweep: &Sweep) -> [u8; BLOCK] {
+    fn bound_discs(
+        &mut self,
+        (c0, r0): (usize, usize),
+        k: usize,
+        sweep: &Sweep,
+        layers: &Layers,
+    ) -> [u8; BLOCK] {
         let half = 0.5 * self.step;
         let (dx, dy) = if k == 0 { (half, 0.0) } else { (0.0, half) };
         let mut x = row_at(&self.x, c0);
@@ -154,11 +156,7 @@ impl Patch {
             let start = r * SIDE + c0;
             let ceilings = row_at(&self.ceilings[k][..], start);
             let lows = sweep.bounds(&x, &[self.y[r] - dy; BLOCK], half);
-            let mut below = 0;
-            for c in 0..BLOCK {
-                below |= u8::from(lows[c] - ROUNDING < ceilings[c] + 2.0 * ROUNDING) << c;
-            }
-            rows[r - r0] = below;
+            rows[r - r0] = claimed(&lows, &ceilings, layers);
             put_row(&mut self.lows[k][..], start, lows);
         }
         rows
@@ -196,12 +194,22 @@ impl Patch {
     }
 }
 
+/// The bits that are set, from the lowest.
+fn bits(mut mask: u8) -> impl Iterator<Item = usize> {
+    std::iter::from_fn(move || {
+        let next = (mask != 0).then(|| mask.trailing_zeros() as usize)?;
+        mask &= mask - 1;
+        Some(next)
+    })
+}
+
 /// Bounds on the ways of blocks, in the widest instructions of the machine; for each block and direction, by row, a bit for each that
 /// is below its ceiling.
 struct Bound<'a, 'b> {
     patch: &'a mut Patch,
     sweep: &'a Sweep<'b>,
     blocks: Blocks,
+    layers: Layers,
 }
 
 impl NullaryFnOnce for Bound<'_, '_> {
@@ -209,20 +217,34 @@ impl NullaryFnOnce for Bound<'_, '_> {
 
     #[inline(always)]
     fn call(self) -> Self::Output {
-        let Bound { patch, sweep, blocks } = self;
+        let Bound { patch, sweep, blocks, layers } = self;
         let mut claimed = [[[0; BLOCK]; 2]; BLOCKS];
         if sweep.is_convex() {
             patch.raise(sweep, blocks);
             for (corner, claimed) in blocks.corners().zip(&mut claimed) {
-                *claimed = [patch.bound_ways(corner, 0), patch.bound_ways(corner, 1)];
+                *claimed = [patch.bound_ways(corner, 0, &layers), patch.bound_ways(corner, 1, &layers)];
             }
         } else {
             for (corner, claimed) in blocks.corners().zip(&mut claimed) {
-                *claimed = [patch.bound_discs(corner, 0, sweep), patch.bound_discs(corner, 1, sweep)];
+                *claimed = [
+                    patch.bound_discs(corner, 0, sweep, &layers),
+                    patch.bound_discs(corner, 1, sweep, &layers),
+                ];
             }
         }
         claimed
     }
+}
+
+/// A bit for each way with a bound below its ceiling, and a layer between them.
+#[inline(always)]
+fn claimed(lows: &[f64; BLOCK], ceilings: &[f64; BLOCK], layers: &Layers) -> u8 {
+    let mut claimed = 0;
+    for c in 0..BLOCK {
+        let (low, ceiling) = (lows[c] - ROUNDING, ceilings[c] + 2.0 * ROUNDING);
+        claimed |= u8::from((low < ceiling) & layers.may_be_between(low, ceiling)) << c;
+    }
+    claimed
 }
 
 /// Bound from below of a convex function on the way behind two of its values at equal distances; low without end where the

@@ -11,6 +11,8 @@ pub(super) struct Layers {
     /// Height of the lowest in the tool frame [mm].
     lowest: f64,
     step: f64,
+    /// Layers for each mm.
+    dense: f64,
     count: usize,
     reversed: bool,
 }
@@ -24,6 +26,7 @@ impl Layers {
         Layers {
             lowest: frame.sign * (lattice.coordinate(axis, lowest) + LINE_OFFSET),
             step: lattice.step,
+            dense: 1.0 / lattice.step,
             count: count as usize,
             reversed,
         }
@@ -39,6 +42,21 @@ impl Layers {
         // Upwards by a cast: `ceil` is a call of the C library.
         let whole = layers as usize;
         whole + usize::from(layers > whole as f64)
+    }
+
+    /// False only if no layer lies between two heights; without branches.
+    #[inline(always)]
+    pub(super) fn may_be_between(&self, low: f64, high: f64) -> bool {
+        /// Added and taken off again it leaves a whole number.
+        const WHOLE: f64 = 6_755_399_441_055_744.0;
+        /// Rounding of the quotients, far more than there is.
+        const NEAR: f64 = 1e-6;
+        let below = |height: f64, near: f64| {
+            let layers = (height - self.lowest) * self.dense + near;
+            let whole = (layers + WHOLE) - WHOLE;
+            whole + if whole < layers { 1.0 } else { 0.0 }
+        };
+        below(low, -NEAR) < below(high, NEAR)
     }
 
     /// The layers that lie between a height that a part may come down to and a ceiling; in the order of the stock.
