@@ -7,7 +7,7 @@ use glam::{DMat3, DVec3};
 use super::chain::Chain;
 use super::comp::{Programmed, compensate, refused};
 use super::rapids;
-use super::segment::StartAxes;
+use super::straight::filled;
 use super::turning::AxisTurning;
 use super::{CompStart, RegisterState, Segment, SegmentPace, Stand, StandKind, Trace, Untraced};
 use crate::base::{Code, Finding, Result};
@@ -126,7 +126,7 @@ pub(super) struct Follow<'a> {
     assumed_retract: bool,
     pub(super) assumed_home: bool,
     /// First item whose move is not part of a compensated run that was followed already.
-    compensated_to: usize,
+    pub(super) compensated_to: usize,
     /// True while a path is followed that the machine may, but need not, take.
     pub(super) on_leg: bool,
 }
@@ -241,21 +241,6 @@ impl<'a> Follow<'a> {
             }
             Target::Tip { axis, point } => self.turning_move(index, motion, point, axis, state),
         }
-    }
-
-    /// A straight move of the tip, the tool along the Z of the frame, without compensation: what [`Follow::motion`] does of it.
-    fn straight(&mut self, index: usize, point: DVec3, state: &State) -> Result<()> {
-        if index < self.compensated_to {
-            return Ok(());
-        }
-        let frame = self.frame_of_moves(index, state)?;
-        let end = self.resolve(&frame, point);
-        let known = end.iter().all(Option::is_some);
-        let path = self.start_in(&frame).filter(|_| known).map(|start| {
-            let end = frame.point(filled(point, start));
-            Curve::from(Line { start: frame.point(start), end })
-        });
-        self.run(index, path, end, state)
     }
 
     /// The exact path of a move in a frame [table frame], when its start and end are known.
@@ -533,32 +518,6 @@ impl<'a> Follow<'a> {
         Ok(())
     }
 
-    /// Axes at the start of a segment: those of the segment before where they are the same.
-    fn start_axes(&self, index: usize, state: &State) -> Result<Arc<StartAxes>> {
-        let last = self.trace.segments.last();
-        let tool = self.tool.map(|t| t.number);
-        if let Some(last) = last.filter(|s| s.setup == state.setup && s.tool == tool)
-            && self.chain.is_none()
-            && last.start_axes.rotary == self.rotary
-        {
-            return Ok(Arc::clone(&last.start_axes));
-        }
-        let (matrix, shift) = match &self.chain {
-            Some(chain) => chain.to_linear(self.rotary).ok_or_else(|| self.not_independent(index))?,
-            None => {
-                let length = self.tool.and_then(|t| t.gauge_length).unwrap_or(0.0);
-                (DMat3::IDENTITY, DVec3::Z * length)
-            }
-        };
-        let placed = self.setup_of(state).part_on_table;
-        let to_linear = (matrix * placed.rotation, matrix * placed.translation + shift);
-        let axes = StartAxes { rotary: self.rotary, to_linear };
-        Ok(match last {
-            Some(last) if *last.start_axes == axes => Arc::clone(&last.start_axes),
-            _ => Arc::new(axes),
-        })
-    }
-
     /// The ways of a rapid axis by axis [table frame]: the axes do not run along the table's when that is turned.
     fn dog_leg(&self, start: DVec3, end: DVec3) -> Vec<Line> {
         let speeds = self.rapid_speeds();
@@ -611,12 +570,6 @@ fn in_item(mut error: crate::base::Error, index: usize) -> crate::base::Error {
         error.0.item.get_or_insert(index as u32);
     }
     error
-}
-
-/// The end of a move from its start: a coordinate that it does not name stays.
-fn filled(end: DVec3, start: DVec3) -> DVec3 {
-    let fill = |to: f64, from: f64| if to.is_nan() { from } else { to };
-    DVec3::new(fill(end.x, start.x), fill(end.y, start.y), fill(end.z, start.z))
 }
 
 /// True if a move leaves the rotary axes where they are, and counts its coordinates as a move along Z does.
