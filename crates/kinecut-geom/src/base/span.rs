@@ -99,6 +99,26 @@ impl Sources {
         source.line_starts.partition_point(|&s| s <= span.start) as u32
     }
 
+    /// The 1-based line in which each of some spans begins: as [`Sources::line`], and quick where they ascend.
+    pub fn lines(&self, spans: impl IntoIterator<Item = Option<Span>>) -> Vec<Option<u32>> {
+        let mut last = 0u32;
+        let mut line = |span: Span| {
+            let starts = &self.files[span.file.0 as usize].line_starts;
+            let begins = |line: u32| starts.get(line as usize).copied();
+            let holds = |line: u32| {
+                begins(line).is_some_and(|s| s <= span.start)
+                    && begins(line + 1).is_none_or(|s| span.start < s)
+            };
+            // Mostly the same line as the one before, or the next.
+            last = match [last, last + 1].into_iter().find(|line| holds(*line)) {
+                Some(line) => line,
+                None => self.line(span) - 1,
+            };
+            last + 1
+        };
+        spans.into_iter().map(|span| span.map(&mut line)).collect()
+    }
+
     /// The span as a person reads it. Byte offsets beyond the text point at its end.
     pub fn locate(&self, span: Span) -> Location {
         let source = &self.files[span.file.0 as usize];
@@ -118,5 +138,24 @@ impl Sources {
             end: span.end.max(start as u32),
             text,
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_lines_of_many_spans_are_those_of_each() {
+        let mut sources = Sources::default();
+        let first = sources.add("a", "one\n\nthree\nfour");
+        let second = sources.add("b", "\nx\n");
+        let at = |file, start| Some(Span { file, start, end: start + 1 });
+        let rising = (0..18).map(|i| at(first, i));
+        let others = [at(second, 0), None, at(second, 2), at(first, 16), at(first, 0), at(second, 99)];
+        let spans: Vec<_> = rising.chain(others).collect();
+        let lines: Vec<_> = spans.iter().map(|s| s.map(|s| sources.line(s))).collect();
+        assert_eq!(sources.lines(spans), lines);
+        assert_eq!(lines[3..6], [Some(1), Some(2), Some(3)]);
     }
 }

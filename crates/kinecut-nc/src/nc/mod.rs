@@ -30,6 +30,6 @@ mod turn;
 mod write;
 
 pub use control::Control;
-pub use read::{Reading, read};
+pub use read::{Reading, read, read_source};
 pub use settings::{PostNotes, PostSettings, Posted};
 pub use write::write;

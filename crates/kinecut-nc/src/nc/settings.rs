@@ -1,5 +1,7 @@
 //! Settings of a writer, and its result.
 
+use std::sync::Arc;
+
 use super::Control;
 
 /// Settings for writing a program.
@@ -82,7 +84,7 @@ impl PostSettings {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Posted {
     /// The text.
-    pub text: String,
+    pub text: Arc<str>,
     /// For each line of the text (0-based) the item of the program that it was written for.
     pub lines: Vec<Option<u32>>,
     /// Changes that the number format made to the program.

@@ -232,6 +232,25 @@ impl Items {
         }
     }
 
+    /// The end of a straight move of the tip along the tool axis of its frame, which nearly all items of a long program
+    /// are; `None` for all others.
+    pub(crate) fn straight(&self, index: usize) -> Option<DVec3> {
+        match self.slots[index] {
+            Slot::Straight(i) => Some(self.straights[i as usize]),
+            _ => None,
+        }
+    }
+
+    /// Gives back the memory that was taken for items to come.
+    pub(crate) fn shrink_to_fit(&mut self) {
+        self.slots.shrink_to_fit();
+        self.states.shrink_to_fit();
+        self.origins.shrink_to_fit();
+        self.spans.shrink_to_fit();
+        self.straights.shrink_to_fit();
+        self.moves.shrink_to_fit();
+    }
+
     /// The state of the item at an index.
     pub fn state(&self, index: usize) -> StateId {
         self.states[index]

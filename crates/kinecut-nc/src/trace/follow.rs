@@ -7,7 +7,7 @@ use glam::{DMat3, DVec3};
 use super::chain::Chain;
 use super::comp::{Programmed, compensate, refused};
 use super::rapids;
-use super::segment::StartAxes;
+use super::straight::filled;
 use super::turning::AxisTurning;
 use super::{CompStart, RegisterState, Segment, SegmentPace, Stand, StandKind, Trace, Untraced};
 use crate::base::{Code, Finding, Result};
@@ -71,6 +71,8 @@ pub fn trace(program: &Program, options: &TraceOptions<'_>) -> Result<Trace> {
         follow.tool_call(number, None)?;
         follow.lift = 0.0;
     }
+    // Nearly every item of a long program is a move.
+    follow.trace.segments.reserve_exact(program.items.len());
     for index in 0..program.items.len() {
         follow.item(index)?;
     }
@@ -124,7 +126,7 @@ pub(super) struct Follow<'a> {
     assumed_retract: bool,
     pub(super) assumed_home: bool,
     /// First item whose move is not part of a compensated run that was followed already.
-    compensated_to: usize,
+    pub(super) compensated_to: usize,
     /// True while a path is followed that the machine may, but need not, take.
     pub(super) on_leg: bool,
 }
@@ -132,29 +134,34 @@ pub(super) struct Follow<'a> {
 impl<'a> Follow<'a> {
     fn item(&mut self, index: usize) -> Result<()> {
         let program = self.program;
-        let state = *program.state(index);
+        let state = program.state(index);
         if self.setup != Some(state.setup) {
             // Another clamping: nothing of the old position is valid.
             self.setup = Some(state.setup);
             self.tip = [None; 3];
             (self.rotary, self.rotary_said, self.axis) = ([0.0; 3], [false; 3], DVec3::Z);
         }
+        if let Some(point) = program.items.straight(index)
+            && state.comp == Comp::Off
+        {
+            return self.straight(index, point, state);
+        }
         match program.items.get(index) {
-            Item::Move(motion) => self.motion(index, &motion, &state),
-            Item::Cycle(_, steps) => self.cycle(index, steps, &state),
+            Item::Move(motion) => self.motion(index, &motion, state),
+            Item::Cycle(_, steps) => self.cycle(index, steps, state),
             Item::Tool { id, length, .. } => {
                 if self.tool.is_some_and(|t| t.number != id) {
-                    self.stands(index, StandKind::Change(id), &state);
+                    self.stands(index, StandKind::Change(id), state);
                 }
                 self.tool_call(id, length).map_err(|e| in_item(e, index))
             }
             Item::Dwell(seconds) => {
                 self.trace.dwells.push((index as u32, seconds));
-                self.stands(index, StandKind::Dwell(seconds), &state);
+                self.stands(index, StandKind::Dwell(seconds), state);
                 Ok(())
             }
             Item::Stop(kind) => {
-                self.stands(index, StandKind::Stop(kind), &state);
+                self.stands(index, StandKind::Stop(kind), state);
                 Ok(())
             }
             _ => Ok(()),
@@ -245,9 +252,7 @@ impl<'a> Follow<'a> {
         end: [Option<f64>; 3],
     ) -> Option<Curve> {
         let start = self.start_in(frame)?;
-        // A coordinate that the move does not name stays.
-        let fill = |to: f64, from: f64| if to.is_nan() { from } else { to };
-        let point = DVec3::new(fill(point.x, start.x), fill(point.y, start.y), fill(point.z, start.z));
+        let point = filled(point, start);
         let whole = Move { end: Target::Tip { point, axis: ToolAxis::Fixed }, path: motion.path };
         let known = end.iter().all(Option::is_some);
         known.then(|| whole.curve(start)).flatten().map(|c| c.moved(frame))
@@ -486,14 +491,6 @@ impl<'a> Follow<'a> {
                 Finding::error(Code::NC_STATE, "a feed move has no feed").value(feed * 60.0, "mm/min"),
             ));
         }
-        let (matrix, shift) = match &self.chain {
-            Some(chain) => chain.to_linear(self.rotary).ok_or_else(|| self.not_independent(index))?,
-            None => {
-                let length = self.tool.and_then(|t| t.gauge_length).unwrap_or(0.0);
-                (DMat3::IDENTITY, DVec3::Z * length)
-            }
-        };
-        let placed = setup.part_on_table;
         let segment = Segment {
             curve: path.moved(&to_part),
             axis: to_part.vector(self.axis),
@@ -505,10 +502,7 @@ impl<'a> Follow<'a> {
             setup: state.setup,
             duration: seconds,
             alternative: false,
-            start_axes: self.shared(StartAxes {
-                rotary: self.rotary,
-                to_linear: (matrix * placed.rotation, matrix * placed.translation + shift),
-            }),
+            start_axes: self.start_axes(index, state)?,
         };
         let dog_leg = match segment.turning.is_none() && self.runs_apart(state) {
             true => self.dog_leg(path.start(), path.end()),
@@ -522,14 +516,6 @@ impl<'a> Follow<'a> {
         self.trace.segments.push(segment);
         self.trace.segments.extend(legs);
         Ok(())
-    }
-
-    /// Axes at the start of a segment: those of the segment before where they are the same.
-    fn shared(&self, axes: StartAxes) -> Arc<StartAxes> {
-        match self.trace.segments.last() {
-            Some(last) if *last.start_axes == axes => Arc::clone(&last.start_axes),
-            _ => Arc::new(axes),
-        }
     }
 
     /// The ways of a rapid axis by axis [table frame]: the axes do not run along the table's when that is turned.

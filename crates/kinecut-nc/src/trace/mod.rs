@@ -12,6 +12,7 @@ mod register_state;
 mod rotary;
 mod segment;
 mod stand;
+mod straight;
 mod travel;
 mod turning;
 

@@ -1,5 +1,7 @@
 //! Memory of a run, told before the stages that take it.
 
+use glam::DVec3;
+
 use super::check::Job;
 use super::part_surface::{PartSurface, every};
 use crate::base::{Code, Finding, Result};
@@ -43,7 +45,14 @@ impl Budget {
     /// Of a job whose programs make these moves.
     pub fn new(job: &Job, traces: &[&Trace]) -> Budget {
         let segments = || traces.iter().flat_map(|t| &t.segments);
-        let leans = |s: &Segment| s.turning.is_some() || CutAxis::of(s.axis).is_none();
+        // Neighbours mostly have one axis.
+        let mut last = (DVec3::NAN, false);
+        let mut leans = |s: &Segment| {
+            if s.axis != last.0 {
+                last = (s.axis, CutAxis::of(s.axis).is_none());
+            }
+            s.turning.is_some() || last.1
+        };
         Budget {
             move_count: segments().count() as u64,
             moves: segments().map(|s| if leans(s) { LEANING_MOVE } else { MOVE }).sum(),

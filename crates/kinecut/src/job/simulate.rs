@@ -1,6 +1,10 @@
 //! Cutting the stock along the traces, what is measured in it between two cuts, and what goes wrong on the way.
 
+use std::collections::HashMap;
+use std::collections::hash_map::Entry;
 use std::sync::Arc;
+
+use glam::DVec3;
 
 use super::budget::Budget;
 use super::check::Job;
@@ -251,12 +255,20 @@ fn body(tool: &Tool) -> Result<ToolBody> {
 
 /// The moves of the segments of a setup, in their order.
 fn moves(job: &Job, trace: &Trace) -> Result<Vec<CutMove>> {
-    let one = |s: &Segment| -> Result<CutMove> {
+    // Neighbours mostly have one axis.
+    let mut last = (DVec3::NAN, None);
+    let mut along = |axis: DVec3| {
+        if axis != last.0 {
+            last = (axis, CutAxis::of(axis));
+        }
+        last.1
+    };
+    let mut one = |s: &Segment| -> Result<CutMove> {
         let body = s.tool.and_then(|t| job.tools.iter().position(|x| x.number == t)).ok_or_else(|| {
             Finding::error(Code::NC_STATE, "the program moves before a tool is called")
                 .help("call a tool first")
         })?;
-        let stance = match CutAxis::of(s.axis).filter(|_| s.turning.is_none()) {
+        let stance = match along(s.axis).filter(|_| s.turning.is_none()) {
             Some(axis) => Stance::Along(axis),
             None => Stance::Leaning(Arc::new(ToolMotion::of_segment(s)?)),
         };
@@ -286,13 +298,18 @@ pub(super) fn findings(
     place: impl Fn(u32) -> Option<crate::base::Location>,
 ) -> Vec<Finding> {
     let mut found: Vec<(u32, f64, Finding)> = Vec::new();
-    let mut add = |item: u32, weight: f64, finding: Finding| match found
-        .iter_mut()
-        .find(|(i, _, f)| *i == item && f.code == finding.code)
-    {
-        Some(entry) if weight > entry.1 => *entry = (item, weight, finding),
-        Some(_) => {}
-        None => found.push((item, weight, finding)),
+    let mut known: HashMap<(u32, Code), usize> = HashMap::new();
+    let mut add = |item: u32, weight: f64, finding: Finding| match known.entry((item, finding.code)) {
+        Entry::Vacant(new) => {
+            new.insert(found.len());
+            found.push((item, weight, finding));
+        }
+        Entry::Occupied(old) => {
+            let entry = &mut found[*old.get()];
+            if weight > entry.1 {
+                *entry = (item, weight, finding);
+            }
+        }
     };
     for (segment, effect) in trace.segments.iter().zip(effects) {
         let item = segment.item;

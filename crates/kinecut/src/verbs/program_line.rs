@@ -83,7 +83,7 @@ pub(crate) fn program_line(
             let mut post = job.post.clone();
             post.header = vec![job.title.clone()];
             let name = format!("{}.{}", post.program_name, post.control.extension());
-            (name, nc::write(&planned.program, &job.tools, &post)?.text)
+            (name, nc::write(&planned.program, &job.tools, &post)?.text.to_string())
         }
     };
     let mut sources = Sources::default();

@@ -280,6 +280,36 @@ fn a_long_report_stays_below_its_limit() {
     assert!(page.contains("numbers are of the full mesh"));
 }
 
+/// Text, path, times and lengths of a long program are columns of numbers that change little from line to line.
+#[test]
+fn a_long_program_takes_few_bytes_a_line() {
+    const MOVES: u32 = 50_000;
+    let mut report = Report::new("Rows", ReportVerdict::new(kinecut::job::Judgement::Safe, ""));
+    let nothing = html(&report).len();
+    let mut program = ProgramView { file: "ROWS.NC".to_owned(), ..ProgramView::default() };
+    let mut last = [0.0f32; 3];
+    for i in 0..MOVES {
+        // Rows to and fro over a wave, with the last decimal as a planner rounds it.
+        let (row, along) = (i / 500, i % 500);
+        let x = 0.2 * f64::from(if row % 2 == 0 { along } else { 499 - along });
+        let y = 0.25 * f64::from(row);
+        let z = 4.0 * (x / 17.0).sin() * (y / 23.0).cos() - 6.0;
+        program.lines.push(format!("X{x:.5} Y{y:.5} Z{z:.5}"));
+        program.time.push(0.01);
+        program.length.push(0.2);
+        let at = [x, y, z].map(|v| v as f32);
+        report.path.push(PathPiece::new(i, PathRole::Feed, vec![last, at]));
+        last = at;
+    }
+    report.program = Some(program);
+    let page = html(&report);
+    // The lines alone have 26 bytes each. The plan from above has its own bound, by what can be seen.
+    let plan = page.split("<figure class=\"plan\">").nth(1).unwrap().split("</figure>").next().unwrap().len();
+    let each = (page.len() - nothing - plan) as f64 / f64::from(MOVES);
+    assert!(each < 4.0, "{each} bytes a line");
+    assert!(page.contains("its text is packed") && !page.contains("X0.20000"));
+}
+
 #[test]
 fn the_model_survives_json() {
     let mut report = fixture::plate(false);

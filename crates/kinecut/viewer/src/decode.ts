@@ -1,4 +1,4 @@
-// Reads what the page carries: a JSON head and streams of variable-length integers (src/report/encode.rs of the crate).
+// Reads what the page carries: a JSON head and packed streams of integers (src/job/report/encode of the crate).
 
 /** Head of the data; the names are those the crate writes. */
 export interface Head {
@@ -13,11 +13,38 @@ export interface Head {
     edges: number[];
     compared: boolean;
   };
-  path: { pieces: number; step: number };
+  path: { pieces: number; points: number; step: number; axes: number; axis_step: number };
   tools: { number: number; outline: [number, number][]; flutes: number }[];
-  axes: [number, number, number][];
   roles: string[];
   lines: number;
+  line_step: number;
+  /** File, first line and the line after the last of programs whose text is packed. */
+  listing: [string, number, number][];
+}
+
+/** What the packed elements hold, by their names. */
+const streams = new Map<string, Uint8Array>();
+
+/** Unpacks all data of the page; the elements then give their memory back. Fails in a browser that cannot. */
+export async function unpack(): Promise<void> {
+  const elements = [...document.querySelectorAll<HTMLElement>("script[data-packed]")];
+  await Promise.all(
+    elements.map(async (element) => {
+      const text = atob(element.textContent ?? "");
+      const bytes = new Uint8Array(text.length);
+      for (let i = 0; i < text.length; i++) bytes[i] = text.charCodeAt(i);
+      const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("deflate-raw"));
+      streams.set(element.id, new Uint8Array(await new Response(stream).arrayBuffer()));
+      element.remove();
+    }),
+  );
+}
+
+/** The bytes of a stream, which is then forgotten; none where the page has no such stream. */
+export function taken(id: string): Uint8Array {
+  const bytes = streams.get(id) ?? new Uint8Array();
+  streams.delete(id);
+  return bytes;
 }
 
 /** A stream of integers. */
@@ -25,13 +52,8 @@ export class Stream {
   private readonly bytes: Uint8Array;
   private at = 0;
 
-  /** Takes the text of an element; the element then gives its memory back. */
   constructor(id: string) {
-    const element = document.getElementById(id);
-    const text = atob((element?.textContent ?? "").trim());
-    this.bytes = new Uint8Array(text.length);
-    for (let i = 0; i < text.length; i++) this.bytes[i] = text.charCodeAt(i);
-    element?.remove();
+    this.bytes = taken(id);
   }
 
   /** Whether all was read. */
@@ -58,6 +80,19 @@ export class Stream {
     const n = this.unsigned();
     return n % 2 === 0 ? n / 2 : -(n + 1) / 2;
   }
+
+  /** A column of integers: the order of its differences, then they. */
+  column(count: number): Float64Array {
+    const order = this.unsigned();
+    const last = new Float64Array(order);
+    const out = new Float64Array(count);
+    for (let i = 0; i < count; i++) {
+      let n = this.signed();
+      for (let k = order - 1; k >= 0; k--) n = last[k] += n;
+      out[i] = n;
+    }
+    return out;
+  }
 }
 
 export function json<T>(id: string): T {
@@ -75,16 +110,18 @@ export interface PartData {
 export function part(head: NonNullable<Head["part"]>): PartData {
   const positions = new Float32Array(head.vertices * 3);
   const coordinates = new Stream("kc-positions");
-  const last = [0, 0, 0];
-  for (let i = 0; i < positions.length; i++) {
-    const k = i % 3;
-    last[k] += coordinates.signed();
-    positions[i] = head.origin[k] + last[k] * head.step;
+  for (let k = 0; k < 3; k++) {
+    const column = coordinates.column(head.vertices);
+    for (let i = 0; i < head.vertices; i++) positions[3 * i + k] = head.origin[k] + column[i] * head.step;
   }
   const indices = new Uint32Array(head.triangles * 3);
   const corners = new Stream("kc-indices");
-  let index = 0;
-  for (let i = 0; i < indices.length; i++) indices[i] = index += corners.signed();
+  let first = 0;
+  for (let i = 0; i < indices.length; i += 3) {
+    indices[i] = first += corners.unsigned();
+    indices[i + 1] = first + corners.signed();
+    indices[i + 2] = indices[i + 1] + corners.signed();
+  }
   let deviation: Float32Array | null = null;
   const codes = new Stream("kc-deviation");
   if (head.compared) {
@@ -98,10 +135,10 @@ export function part(head: NonNullable<Head["part"]>): PartData {
   return { positions, indices, deviation };
 }
 
-/** Numbers of the program lines in thousandths. */
-export function thousandths(id: string, count: number): Float64Array {
-  const stream = new Stream(id);
+/** Numbers of the program lines, which are in steps. */
+export function ofLines(id: string, head: Head, count: number): Float64Array {
   const out = new Float64Array(count);
-  for (let i = 0; i < count && !stream.done; i++) out[i] = stream.unsigned() / 1000;
+  const stream = new Stream(id);
+  if (!stream.done) stream.column(Math.min(count, stream.unsigned())).forEach((n, i) => (out[i] = n * head.line_step));
   return out;
 }

@@ -1,6 +1,6 @@
 // The interactive part of kinecut's report. The page is complete without it; this adds the 3-D view, the program list
 // and the one cursor through both, the plans and the charts.
-import { type Head, json } from "./decode";
+import { type Head, json, unpack } from "./decode";
 import { startPictures } from "./pictures";
 import { Player } from "./player";
 import { ProgramList } from "./program";
@@ -96,9 +96,24 @@ function startPrint(view: View, changed: () => void): void {
   });
 }
 
-function start(): void {
+/** Without its data the page is what it is without script, and says why. */
+function giveUp(): void {
+  document.documentElement.classList.remove("scripted");
+  const why = typeof DecompressionStream === "undefined" ? "it has no DecompressionStream" : "the data is damaged";
+  for (const told of document.querySelectorAll(".fallback .unscripted, .packed")) {
+    told.textContent = `This browser cannot unpack the 3-D view and long programs: ${why}. `;
+  }
+}
+
+async function start(): Promise<void> {
   document.documentElement.classList.add("scripted");
   startTheme();
+  try {
+    await unpack();
+  } catch {
+    giveUp();
+    return;
+  }
   const head = json<Head>("kc-head");
   const track = new Track(head);
   const cursor = new Cursor();
@@ -123,4 +138,4 @@ function startAtWorst(view: View | null, track: Track, cursor: Cursor): void {
   if (at?.length === 3) view?.showPoint(at as [number, number, number]);
 }
 
-start();
+void start();

@@ -1,5 +1,6 @@
 // The program as a list that only holds the rows in sight, so that a hundred thousand lines stay fluent.
 import { json } from "./decode";
+import { type Listing, type Part, listing } from "./listing";
 import type { Cursor, Place, Track } from "./track";
 import { duration, millimetres } from "./words";
 
@@ -10,20 +11,13 @@ const SPARE = 12;
 /** Longest list a browser lays out [px]; a longer program is reached through a list scaled to it. */
 const TALLEST = 8_000_000;
 
-/** One of the programs: its file and the lines of it among those of all. */
-interface Part {
-  file: string;
-  from: number;
-  to: number;
-}
-
 export class ProgramList {
   private readonly list = document.getElementById("kc-list") as HTMLElement;
   private readonly current = document.getElementById("kc-line") as HTMLElement;
   private readonly rows = document.createElement("div");
   private readonly space = document.createElement("div");
-  private readonly text: string[] = [];
-  private readonly parts: Part[] = [];
+  private readonly text: Listing;
+  private readonly parts: Part[];
   private readonly tabs = document.getElementById("kc-tabs");
   private part!: Part;
   private readonly marks = new Map<number, string>();
@@ -31,13 +25,8 @@ export class ProgramList {
   private to = -1;
 
   constructor(private readonly track: Track, private readonly cursor: Cursor) {
-    for (const pre of document.querySelectorAll<HTMLElement>("pre.kc-program")) {
-      // Each line begins with its number, for paper and for pages without script. A program without lines has none.
-      const prefix = Number(pre.dataset.prefix);
-      const lines = (pre.textContent ?? "").split("\n").map((line) => line.slice(prefix));
-      this.parts.push({ file: pre.dataset.file ?? "", from: this.text.length, to: this.text.length + lines.length });
-      for (const line of lines) this.text.push(line);
-    }
+    this.text = listing(track.head);
+    this.parts = this.text.parts;
     this.part = this.parts[0] ?? { file: "", from: 0, to: 0 };
     this.showTabs();
     const order = ["note", "warning", "doubt", "error"];
@@ -154,7 +143,7 @@ export class ProgramList {
     if (role) tick.title = role;
     // Comments step back: ( ... ) and from ; to the end.
     const code = span("text", "");
-    for (const bit of (this.text[line] ?? "").split(/(\([^)]*\)?|;.*$)/)) {
+    for (const bit of this.text.line(line).split(/(\([^)]*\)?|;.*$)/)) {
       if (!bit) continue;
       const s = document.createElement("span");
       if (bit[0] === "(" || bit[0] === ";") s.className = "comment";
@@ -204,6 +193,6 @@ export class ProgramList {
     };
     if (!(e.key in to) || e.ctrlKey || e.metaKey || e.altKey) return;
     e.preventDefault();
-    this.cursor.go(this.track.ofLine(Math.min(this.text.length - 1, Math.max(0, to[e.key]))), "keys");
+    this.cursor.go(this.track.ofLine(Math.min(this.text.count - 1, Math.max(0, to[e.key]))), "keys");
   }
 }

@@ -249,7 +249,7 @@ export class View {
       const shape = this.tools[track.tool[place.piece]] ?? null;
       this.tool.visible = this.shown.tool && tip !== null && shape !== null;
       if (tip && shape) {
-        const axis = new Vector3(...track.head.axes[track.axis[place.piece]]).normalize();
+        const axis = new Vector3().fromArray(track.axes, 3 * track.axis[place.piece]).normalize();
         this.tool.position.set(...tip);
         this.tool.quaternion.copy(new Quaternion().setFromUnitVectors(new Vector3(0, 0, 1), axis));
         if ((this.tool.children[0] as Mesh | undefined)?.geometry !== shape) {

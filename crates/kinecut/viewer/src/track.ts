@@ -1,5 +1,5 @@
 // The path as pieces on a time line, and the one cursor on it.
-import { type Head, Stream, thousandths } from "./decode";
+import { type Head, Stream, ofLines } from "./decode";
 
 /** Where the cursor stands: a line, and if that line moves the tool, a piece of path and how far along it. */
 export interface Place {
@@ -18,6 +18,8 @@ export class Track {
   readonly axis: Uint32Array;
   /** First point of each piece; one more entry at the end. */
   readonly first: Uint32Array;
+  /** x, y, z of the axes. */
+  readonly axes: Float32Array;
   /** x, y, z of all points [mm]. */
   readonly points: Float32Array;
   /** Time [s] and length [mm] at the end of each piece. */
@@ -38,30 +40,32 @@ export class Track {
     this.axis = new Uint32Array(n);
     this.first = new Uint32Array(n + 1);
     const stream = new Stream("kc-path");
-    const points: number[] = [];
-    const last = [0, 0, 0];
-    let line = 0;
+    this.line.set(stream.column(n));
+    this.role.set(stream.column(n));
+    this.tool.set(stream.column(n));
+    this.axis.set(stream.column(n));
+    const counts = stream.column(n);
+    const columns = [0, 1, 2].map(() => stream.column(head.path.points));
+    this.axes = new Float32Array(3 * head.path.axes);
+    for (let k = 0; k < 3; k++) stream.column(head.path.axes).forEach((v, i) => (this.axes[3 * i + k] = v * head.path.axis_step));
+    // A piece that goes on from the end of the one before has that point too.
+    for (let p = 0; p < n; p++) this.first[p + 1] = this.first[p] + (counts[p] >> 1) + (counts[p] & 1);
+    this.points = new Float32Array(3 * this.first[n]);
+    let [from, to] = [0, 0];
     for (let p = 0; p < n; p++) {
-      this.line[p] = line += stream.signed();
-      this.role[p] = stream.unsigned();
-      this.tool[p] = stream.unsigned();
-      this.axis[p] = stream.unsigned();
-      const count = stream.unsigned();
-      this.first[p] = points.length / 3;
-      for (let i = 0; i < count; i++) {
-        for (let k = 0; k < 3; k++) {
-          last[k] += stream.signed();
-          points.push(last[k] * head.path.step);
-        }
+      if (counts[p] & 1) {
+        this.points.copyWithin(3 * to, 3 * to - 3, 3 * to);
+        to++;
+      }
+      for (let i = counts[p] >> 1; i > 0; i--, from++, to++) {
+        for (let k = 0; k < 3; k++) this.points[3 * to + k] = columns[k][from] * head.path.step;
       }
     }
-    this.first[n] = points.length / 3;
-    this.points = Float32Array.from(points);
 
     let lines = head.lines;
     for (let p = 0; p < n; p++) lines = Math.max(lines, this.line[p] + 1);
-    this.lineTime = thousandths("kc-times", lines);
-    this.lineLength = thousandths("kc-lengths", lines);
+    this.lineTime = ofLines("kc-times", head, lines);
+    this.lineLength = ofLines("kc-lengths", head, lines);
     this.firstPiece = new Int32Array(lines).fill(-1);
     const drawn = new Float64Array(lines);
     for (let p = n - 1; p >= 0; p--) {

@@ -126,6 +126,9 @@ impl<'s> Reader<'s> {
     /// Checks a block that was executed.
     pub(super) fn check_compensation(&mut self, before: &Before) -> Result<()> {
         let is_on = self.modal.comp != Comp::Off;
+        if !is_on && self.modal.comp_turned.is_none() {
+            return Ok(());
+        }
         let items = &self.program.items;
         let new = || (before.items..items.len()).map(|i| items.get(i));
         if is_on && new().any(|item| matches!(item, Item::Cycle(..))) {

@@ -35,7 +35,7 @@ impl<'s> Reader<'s> {
         if self.modal.centre_absolute {
             return Err(self.place.not_understood(&here, "cubics are read in G91.1 only").into());
         }
-        if let Some(z) = words.iter().find(|w| !w.used && w.name.eq_ignore_ascii_case("Z")) {
+        if let Some(z) = words.iter().find(|w| !w.used && w.is("Z")) {
             let finding = self.place.error(FindingCode::NC_ARC, &z.bytes, "a cubic moves X and Y only");
             return Err(finding.help("move Z in a block of its own").into());
         }

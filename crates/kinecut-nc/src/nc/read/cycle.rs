@@ -57,8 +57,7 @@ impl<'s> Reader<'s> {
         }
         let [x, y, z] = self.modal.position;
         // The block may say where the hole is.
-        let says =
-            |name: &str| self.modal.absolute && words.iter().any(|w| w.name.eq_ignore_ascii_case(name));
+        let says = |name: &str| self.modal.absolute && words.iter().any(|w| w.is(name));
         let Some(z) = z.filter(|_| (x.is_some() || says(AXES[0])) && (y.is_some() || says(AXES[1]))) else {
             self.start()?;
             return Ok(());

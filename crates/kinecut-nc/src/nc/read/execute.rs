@@ -4,7 +4,7 @@
 use std::f64::consts::TAU;
 
 use crate::base::{Code as FindingCode, Finding, Result};
-use crate::nc::dialect::Code;
+use crate::nc::dialect::{AXES, Code};
 use crate::program::{Blend, Coolant, SetupId, Speed, Spindle, StopKind, Tcp, ToolNumber, WorkOffset};
 
 use super::lex::Word;
@@ -74,6 +74,20 @@ impl<'s> Reader<'s> {
             self.program.push_stop(kind, &self.state(Speed::Rapid { linear: false }), self.origin);
         }
         Ok(())
+    }
+
+    /// Whether a block has nothing but ends of axes X, Y, Z: nearly all of a long program.
+    pub(super) fn only_moves(&self, words: &[Word<'s>]) -> bool {
+        self.codes.is_empty()
+            && self.modal.feed_mode != FeedMode::InverseTime
+            && words.iter().all(|w| w.used || AXES.iter().any(|axis| w.is(axis)))
+    }
+
+    /// Executes such a block: what [`Reader::execute`] does of it.
+    pub(super) fn go_on(&mut self, words: &mut [Word<'s>]) -> Result<()> {
+        let before = self.before()?;
+        self.motion(words, None)?;
+        self.check_compensation(&before)
     }
 
     fn units(&mut self) {

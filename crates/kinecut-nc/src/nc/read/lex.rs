@@ -3,6 +3,7 @@
 use crate::base::Result;
 use crate::nc::dialect::Dialect;
 
+use super::number::Number;
 use super::place::{Bytes, SourceText};
 
 /// A word: an address with its number, or a keyword without one.
@@ -21,6 +22,16 @@ pub(super) struct Word<'t> {
 }
 
 impl<'t> Word<'t> {
+    /// Whether it has this name, in capitals or not.
+    #[inline]
+    pub(super) fn is(&self, name: &str) -> bool {
+        match (self.name.as_bytes(), name.as_bytes()) {
+            // Nearly all are one letter.
+            ([own], [letter]) => own.eq_ignore_ascii_case(letter),
+            (own, name) => own.eq_ignore_ascii_case(name),
+        }
+    }
+
     /// A keyword without a number.
     fn bare(name: &'t str, bytes: Bytes) -> Word<'t> {
         Word { name, value: None, bytes, way: WordMode::Plain, point: false, used: false }
@@ -231,7 +242,7 @@ impl<'s> Lexer<'s> {
     ) -> Result<usize> {
         let text = self.place.text();
         let bytes = text.as_bytes();
-        let (value, stop, torn) = self.number(at, from, end)?;
+        let Number { value, end: stop, torn, point } = self.number(at, from, end)?;
         if stop < end && matches!(bytes[stop], b'o' | b'O' | b'.') && bytes[stop - 1] != b' ' {
             let token = range(at, self.token_end(at, end));
             let why = if bytes[stop] == b'.' {
@@ -245,50 +256,19 @@ impl<'s> Lexer<'s> {
         if torn {
             block.torn = Some(place.clone());
         }
-        let point = text[from..stop].contains('.');
         let name = &text[at..name_end];
-        block.words.push(Word {
-            name,
-            value: Some(value),
-            bytes: place,
-            way: WordMode::Plain,
-            point,
-            used: false,
-        });
+        block.words.push(Word { name, value, bytes: place, way: WordMode::Plain, point, used: false });
         Ok(stop)
     }
 
-    /// The number from `from`, its end, and whether there were blanks within.
-    fn number(&self, at: usize, from: usize, end: usize) -> Result<(f64, usize, bool)> {
+    /// The number from `from` on.
+    fn number(&self, at: usize, from: usize, end: usize) -> Result<Number> {
         let text = self.place.text();
         let bytes = text.as_bytes();
-        let mut digits = 0;
-        let mut point = false;
-        let mut stop = from;
-        let mut last = from;
-        while stop < end {
-            match bytes[stop] {
-                b'+' | b'-' if stop == from => {}
-                b'0'..=b'9' => digits += 1,
-                b'.' if !point => point = true,
-                b' ' | b'\t' if self.dialect.round_comments => {
-                    stop += 1;
-                    continue;
-                }
-                _ => break,
-            }
-            stop += 1;
-            last = stop;
-        }
-        let written = &text[from..last];
-        let torn = written.contains([' ', '\t']);
-        let value = match (digits, torn) {
-            (0, _) => None,
-            (_, false) => written.parse::<f64>().ok(),
-            (_, true) => written.replace([' ', '\t'], "").parse::<f64>().ok(),
-        };
-        match value {
-            Some(value) if value.abs() <= LARGEST => Ok((value, last, torn)),
+        let number = Number::written(&text[..end], from, self.dialect.round_comments);
+        let last = number.end;
+        match number.value {
+            Some(value) if value.abs() <= LARGEST => Ok(number),
             Some(value) => {
                 let finding = self.place.malformed(&range(at, last), "the number is too large");
                 Err(finding.value(value, "").bound(LARGEST, "").into())
@@ -323,7 +303,7 @@ impl<'s> Lexer<'s> {
                 }
                 let plain =
                     bytes.get(from).is_some_and(|b| b.is_ascii_digit() || matches!(b, b'+' | b'-' | b'.'));
-                let stop = if plain { self.number(at, from, end).map(|n| n.1) } else { Ok(from) };
+                let stop = if plain { self.number(at, from, end).map(|n| n.end) } else { Ok(from) };
                 let ends = |stop: usize| {
                     stop >= end
                         || matches!(bytes[stop], b' ' | b'\t' | b'\r' | b';' | b'.')
@@ -419,14 +399,13 @@ impl<'s> Lexer<'s> {
         if !bytes.get(inner).is_some_and(|b| b.is_ascii_digit() || matches!(b, b'+' | b'-' | b'.')) {
             return Err(self.place.not_understood(&whole, "expressions and names are not read yet").into());
         }
-        let (value, stop, _) = self.number(at, inner, end)?;
+        let Number { value, end: stop, point, .. } = self.number(at, inner, end)?;
         let close = self.blanks(stop, end);
         if bytes.get(close).filter(|_| close < end) != Some(&b')') {
             return Err(self.place.not_understood(&whole, "expressions and names are not read yet").into());
         }
-        let point = text[inner..stop].contains('.');
         let (name, bytes) = (&text[at..name_end], range(at, close + 1));
-        block.words.push(Word { name, value: Some(value), bytes, way: *way, point, used: false });
+        block.words.push(Word { name, value, bytes, way: *way, point, used: false });
         Ok(Some(close + 1))
     }
 
@@ -484,8 +463,8 @@ impl<'s> Lexer<'s> {
                     (None, close + 1)
                 }
                 Some(b) if b.is_ascii_digit() || matches!(b, b'+' | b'-' | b'.') => {
-                    let (value, stop, _) = self.number(at, here, end)?;
-                    (Some(value), stop)
+                    let Number { value, end: stop, .. } = self.number(at, here, end)?;
+                    (value, stop)
                 }
                 Some(_) => {
                     let token = range(at, self.token_end(here, end));

@@ -19,6 +19,7 @@ mod execute;
 mod lex;
 mod modal;
 mod motion;
+mod number;
 pub(super) mod place;
 mod plane;
 mod reader;
@@ -30,7 +31,7 @@ mod tap;
 mod turn;
 mod turned;
 
-use crate::base::{Code, Finding, Result, Sources};
+use crate::base::{Code, FileId, Finding, Result, Sources};
 use crate::program::{Item, Program, Setup, Tcp};
 
 use super::Control;
@@ -83,15 +84,24 @@ pub fn read(
     control: Control,
     setups: &[Setup],
 ) -> Result<Reading> {
+    let file = sources.add(name, text);
+    read_source(sources, file, control, setups)
+}
+
+/// As [`read`], of a text that is among the sources.
+///
+/// # Errors
+/// Those of [`read`].
+pub fn read_source(sources: &Sources, file: FileId, control: Control, setups: &[Setup]) -> Result<Reading> {
+    let place = SourceText { sources, file };
+    let text = place.text();
     if text.len() >= u32::MAX as usize {
-        return Err(Finding::error(Code::NC_SYNTAX, format!("`{name}` is too large"))
+        return Err(Finding::error(Code::NC_SYNTAX, format!("`{}` is too large", sources.name(file)))
             .value(text.len() as f64, "bytes")
             .bound(f64::from(u32::MAX), "bytes")
             .into());
     }
     let dialect = control.dialect();
-    let file = sources.add(name, text);
-    let place = SourceText { sources, file };
     if control == Control::Heidenhain {
         return super::heidenhain::read(place, setups);
     }
@@ -100,7 +110,6 @@ pub fn read(
     let mut block = Block::default();
     let mut started = false;
     let mut at = 0;
-    let text = place.text();
     while at < text.len() && !reader.ended {
         let end = text[at..].find('\n').map_or(text.len(), |n| at + n);
         lexer.line(at, end, &mut block)?;
@@ -111,7 +120,7 @@ pub fn read(
             }
             continue;
         }
-        if !started && matches!(&block.words[..], [word] if word.name.eq_ignore_ascii_case("O")) {
+        if !started && matches!(&block.words[..], [word] if word.is("O")) {
             reader.header.extend(block.comments.drain(..).map(|c| c.0.to_owned()));
             reader.block(&mut block)?;
             continue;

@@ -29,8 +29,7 @@ impl<'s> Reader<'s> {
         }
         let axis = self.has_axis(words);
         let curve = matches!(self.modal.motion, Some(Code::Arc { .. } | Code::Involute { .. }));
-        let centre =
-            curve && words.iter().any(|w| !w.used && OFFSETS.iter().any(|o| w.name.eq_ignore_ascii_case(o)));
+        let centre = curve && words.iter().any(|w| !w.used && OFFSETS.iter().any(|o| w.is(o)));
         if !axis && !centre {
             return match (code, machine) {
                 (Some((Code::Arc { .. } | Code::Involute { .. }, bytes)), _) => {

@@ -94,6 +94,7 @@ impl<'s> Reader<'s> {
             let start = (rest.as_ptr() as usize - text.as_ptr() as usize) as u32;
             self.warn(&(start..start + 1), "text after the end of the program is not run");
         }
+        self.program.items.shrink_to_fit();
         Ok(Reading {
             program: self.program,
             findings: self.findings,
@@ -157,12 +158,15 @@ impl<'s> Reader<'s> {
         if modal || block.call.is_some() {
             self.called(block.call.as_ref(), modal)?;
         } else {
-            self.execute(&mut block.words)?;
+            match self.only_moves(&block.words) {
+                true => self.go_on(&mut block.words)?,
+                false => self.execute(&mut block.words)?,
+            }
             self.call_after_motion(before)?;
         }
         match block.words.iter().find(|w| !w.used) {
             Some(word) => {
-                let rotary = ROTARY.iter().any(|r| word.name.eq_ignore_ascii_case(r));
+                let rotary = ROTARY.iter().any(|r| word.is(r));
                 let why = match self.dialect.axes.rotary {
                     None if rotary => "the control has no rotary axes",
                     _ => "no code of this block uses it",
@@ -179,7 +183,7 @@ impl<'s> Reader<'s> {
         for i in 0..words.len() {
             let (before, rest) = words.split_at_mut(i);
             let word = &mut rest[0];
-            let is = |name: &str| word.name.eq_ignore_ascii_case(name);
+            let is = |name: &str| word.is(name);
             let code = match word.value {
                 Some(value) if is("G") => Some(self.g_code(value).ok_or_else(|| self.unknown(word))?),
                 Some(value) if is("M") => Some(self.m_code(value).ok_or_else(|| self.unknown(word))?),
@@ -193,7 +197,7 @@ impl<'s> Reader<'s> {
                     None
                 }
                 Some(_) => {
-                    if before.iter().any(|w| w.name.eq_ignore_ascii_case(word.name)) {
+                    if before.iter().any(|w| w.is(word.name)) {
                         return Err(self.twice(&word.bytes).into());
                     }
                     None
@@ -228,7 +232,7 @@ impl<'s> Reader<'s> {
             FeedMode::PerRevolution => !has(Code::FeedPerMinute) && !has(Code::InverseTime),
             _ => has(Code::FeedPerRevolution),
         };
-        let is = |word: &Word<'_>, names: &[&str]| names.iter().any(|n| word.name.eq_ignore_ascii_case(n));
+        let is = |word: &Word<'_>, names: &[&str]| names.iter().any(|n| word.is(n));
         for word in words.iter_mut() {
             let feature = has(Code::Tilt);
             let axis = self.centre_is_axis() || has(Code::TipControl { vector: true });
@@ -284,7 +288,7 @@ impl<'s> Reader<'s> {
     fn mixed_points(&mut self, words: &[Word<'_>], without: Option<Finding>) {
         let lengths = ["X", "Y", "Z", "I", "J", "R"];
         let dwells = self.code(|c| c == Code::Dwell).is_some();
-        let is_length = |word: &&Word<'_>| lengths.iter().any(|n| word.name.eq_ignore_ascii_case(n));
+        let is_length = |word: &&Word<'_>| lengths.iter().any(|n| word.is(n));
         self.points.0 |= !dwells && words.iter().filter(is_length).any(|w| w.point);
         if self.points.1.is_none() {
             self.points.1 = without;
@@ -381,14 +385,13 @@ impl<'s> Reader<'s> {
 
     /// Whether the block has a word of an axis.
     pub(super) fn has_axis(&self, words: &[Word<'s>]) -> bool {
-        self.has_rotary(words)
-            || words.iter().any(|w| !w.used && AXES.iter().any(|a| w.name.eq_ignore_ascii_case(a)))
+        self.has_rotary(words) || words.iter().any(|w| !w.used && AXES.iter().any(|a| w.is(a)))
     }
 }
 
 /// The value of a word that nothing has used yet.
 pub(super) fn take(words: &mut [Word<'_>], name: &str) -> Option<Value> {
-    let plain = |w: &&mut Word<'_>| !w.used && w.way == WordMode::Plain && w.name.eq_ignore_ascii_case(name);
+    let plain = |w: &&mut Word<'_>| !w.used && w.way == WordMode::Plain && w.is(name);
     let word = words.iter_mut().find(plain)?;
     word.used = true;
     Some(Value { value: word.value?, bytes: word.bytes.clone() })
@@ -396,7 +399,7 @@ pub(super) fn take(words: &mut [Word<'_>], name: &str) -> Option<Value> {
 
 /// The value of a word that nothing has used yet, and how it counts.
 pub(super) fn take_way(words: &mut [Word<'_>], name: &str) -> Option<(Value, WordMode)> {
-    let word = words.iter_mut().find(|w| !w.used && w.name.eq_ignore_ascii_case(name))?;
+    let word = words.iter_mut().find(|w| !w.used && w.is(name))?;
     word.used = true;
     Some((Value { value: word.value?, bytes: word.bytes.clone() }, word.way))
 }

@@ -31,9 +31,7 @@ impl<'s> Reader<'s> {
 
     /// Whether the block has a word of a rotary axis or of a tool axis.
     pub(super) fn has_rotary(&self, words: &[Word<'s>]) -> bool {
-        let says = |names: [&str; 3]| {
-            words.iter().any(|w| !w.used && names.iter().any(|n| w.name.eq_ignore_ascii_case(n)))
-        };
+        let says = |names: [&str; 3]| words.iter().any(|w| !w.used && names.iter().any(|n| w.is(n)));
         self.dialect.axes.rotary.is_some() && says(ROTARY) || self.vector_words().is_some_and(says)
     }
 

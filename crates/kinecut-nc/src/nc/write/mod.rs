@@ -126,10 +126,10 @@ pub fn write(program: &Program, tools: &[Tool], settings: &PostSettings) -> Resu
     if writer.klartext() {
         writer.end_program();
         let (text, lines) = writer.page.counted(settings.block_numbers);
-        return Ok(Posted { text, lines, notes: writer.notes });
+        return Ok(Posted { text: text.into(), lines, notes: writer.notes });
     }
     let (text, lines) = writer.page.text(settings.block_numbers.then_some(dialect.most_blocks));
-    Ok(Posted { text, lines, notes: writer.notes })
+    Ok(Posted { text: text.into(), lines, notes: writer.notes })
 }
 
 /// An error with the item it belongs to.

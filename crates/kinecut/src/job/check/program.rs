@@ -1,5 +1,7 @@
 //! Programs that others wrote, checked: the text, its control, the values of the registers.
 
+use std::sync::Arc;
+
 use super::super::file::ProgramTable;
 use crate::base::bounded::{MAX_LENGTH, length};
 use crate::base::{Code, FileKind, Finding, Loader, Result};
@@ -15,7 +17,7 @@ pub struct JobProgram {
     /// The control that runs it.
     pub control: Control,
     /// Its text.
-    pub text: String,
+    pub text: Arc<str>,
     /// Whether the file was no UTF-8 and was read as Latin-1.
     pub is_latin: bool,
     /// The tool that is in the spindle at the beginning.
@@ -43,10 +45,10 @@ impl JobProgram {
 }
 
 /// The text of a program: UTF-8, and otherwise Latin-1, which older controls and post-processors write.
-fn text_of(bytes: &[u8]) -> (String, bool) {
+fn text_of(bytes: &[u8]) -> (Arc<str>, bool) {
     match std::str::from_utf8(bytes) {
-        Ok(text) => (text.trim_start_matches('\u{feff}').to_owned(), false),
-        Err(_) => (bytes.iter().map(|b| char::from(*b)).collect(), true),
+        Ok(text) => (text.trim_start_matches('\u{feff}').into(), false),
+        Err(_) => (bytes.iter().map(|b| char::from(*b)).collect::<String>().into(), true),
     }
 }
 
@@ -94,8 +96,8 @@ mod tests {
     #[test]
     fn a_text_that_is_no_utf8_is_read_byte_by_byte() {
         let program = JobProgram::new("a.nc", b"(FR\xc4SER)\nG0 X1", Control::Fanuc);
-        assert!(program.is_latin && program.text == "(FR\u{c4}SER)\nG0 X1", "{}", program.text);
+        assert!(program.is_latin && &*program.text == "(FR\u{c4}SER)\nG0 X1", "{}", program.text);
         let marked = JobProgram::new("a.nc", b"\xef\xbb\xbfG0 X1", Control::Fanuc);
-        assert!(!marked.is_latin && marked.text == "G0 X1");
+        assert!(!marked.is_latin && &*marked.text == "G0 X1");
     }
 }

@@ -1,5 +1,7 @@
 //! Reading a program of others, and following it on the machine.
 
+use std::sync::Arc;
+
 use super::super::check::{Job, JobProgram};
 use super::super::following::{CHORD, line_place};
 use super::Unfollowed;
@@ -49,7 +51,8 @@ pub(crate) fn follow(job: &Job, setup: usize, program: &JobProgram, missing: Mis
     let mut sources = Sources::default();
     let clamped = &job.setups[setup];
     let mut clamping = vec![clamped.setup.clone()];
-    let mut reading = nc::read(&mut sources, &program.file, &program.text, program.control, &clamping)?;
+    let file = sources.add(&program.file, Arc::clone(&program.text));
+    let mut reading = nc::read_source(&sources, file, program.control, &clamping)?;
     let mut assumed = Vec::new();
     if missing == Missing::StoodFor {
         let placed = place_offsets(&mut clamping[0], clamped.offset, &reading.program.frames);
@@ -59,9 +62,8 @@ pub(crate) fn follow(job: &Job, setup: usize, program: &JobProgram, missing: Mis
         reading.program.setups = clamping;
     }
     let read = &reading.program;
-    let lines: Vec<Option<u32>> = (0..read.items.len())
-        .map(|i| read.origin(i).span.map(|s| sources.line(s).saturating_sub(1)))
-        .collect();
+    let mut lines = sources.lines((0..read.items.len()).map(|i| read.origin(i).span));
+    lines.iter_mut().flatten().for_each(|line| *line -= 1);
     let registers = Registers::of(job, clamped, program, read, |item| {
         read.origin(item as usize).span.map(|s| sources.locate(s))
     });
@@ -91,6 +93,9 @@ pub(crate) fn follow(job: &Job, setup: usize, program: &JobProgram, missing: Mis
     };
     // The control starts so, too: that would come in every program and says nothing.
     let said = |line: &str| {
+        if !line.bytes().any(|b| b.eq_ignore_ascii_case(&b'g')) {
+            return false;
+        }
         let code = line.bytes().take_while(|b| !matches!(b, b';' | b'(')).filter(|b| *b != b' ');
         let (mut last, mut without) = ([0; 3], false);
         for byte in code.map(|b| b.to_ascii_uppercase()) {

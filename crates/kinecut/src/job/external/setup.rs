@@ -1,5 +1,7 @@
 //! A set-up whose program others wrote.
 
+use std::sync::Arc;
+
 use super::{ExternalProgram, Followed, Missing, follow};
 use crate::base::{Result, at_most};
 use crate::job::check::{Job, JobProgram};
@@ -34,7 +36,7 @@ pub(crate) fn external_setup(
 ) -> Result<SetupOutcome> {
     let Followed { reading, trace, lines, findings, unfollowed, .. } =
         follow(job, setup, program, Missing::Refused)?;
-    let posted = Posted { text: program.text.clone(), lines: Vec::new(), notes: PostNotes::default() };
+    let posted = Posted { text: Arc::clone(&program.text), lines: Vec::new(), notes: PostNotes::default() };
     Ok(SetupOutcome {
         file: program.file.clone(),
         planned,

@@ -1,6 +1,7 @@
 //! Everything a report shows, as plain data without a planner's types: made by the job layer, drawn by
 //! [`html`](super::html) and [`text`](super::text), serialisable for other front ends.
 
+use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use super::PathPiece;
@@ -121,8 +122,9 @@ pub struct PartView {
 impl PartView {
     /// The view of a mesh; `deviation` as in the field.
     pub fn new(mesh: &Mesh, deviation: Vec<f32>, tolerance: f64) -> PartView {
-        let vertices = mesh.vertices.iter().map(|v| v.as_vec3().to_array()).collect();
-        let (triangles, tolerance) = (mesh.triangles.clone(), tolerance as f32);
+        let vertices = || mesh.vertices.par_iter().map(|v| v.as_vec3().to_array()).collect();
+        let (vertices, triangles) = rayon::join(vertices, || mesh.triangles.clone());
+        let tolerance = tolerance as f32;
         PartView { vertices, triangles, deviation, tolerance, relative: false }
     }
 }

@@ -25,7 +25,7 @@ pub(super) const DRY_RUN: &str = "A proof on a model does not replace the dry ru
 /// The same report gives the same bytes. All text from outside is escaped; control characters and marks of text
 /// direction are made visible.
 pub fn html(report: &Report) -> String {
-    let scene = encode::scene(report);
+    let (scene, plan) = rayon::join(|| encode::scene(report), || workspace::plan(report));
     let page = markup! {
         (DOCTYPE)
         html lang="en" {
@@ -44,7 +44,7 @@ pub fn html(report: &Report) -> String {
                 main {
                     (banner(report))
                     (blocks::facts(&facts::shown(report)))
-                    (workspace::section(report, &scene))
+                    (workspace::section(report, &scene, &plan))
                     @for (i, s) in report.sections.iter().enumerate() {
                         (blocks::section(s, &format!("section-{}", i + 1)))
                     }
@@ -222,7 +222,7 @@ fn data(scene: &Scene, report: &Report) -> Markup {
         script #kc-head type="application/json" { (PreEscaped(inline_json(&scene.head))) }
         script #kc-marks type="application/json" { (PreEscaped(inline_json(&lines))) }
         @for (id, stream) in &scene.streams {
-            script id=(id) type="text/plain" { (PreEscaped(stream)) }
+            script id=(id) type="text/plain" data-packed { (PreEscaped(stream)) }
         }
     }
 }

@@ -3,17 +3,14 @@
 
 use maud::{Markup, html};
 
-use super::encode::Scene;
+use super::encode::{Scene, packs_text};
 use super::facts::is_outside;
 use super::path::seen_from_above;
 use super::{PartView, ProgramView, Report, bands};
 use crate::page::{area_share, duration, fixed, length, plan, trimmed, visible};
 
-/// Longest program that is printed [lines]; some ten pages in two columns.
-const PRINTED_LINES: usize = 1500;
-
 /// View and program side by side, the plan below the view.
-pub(super) fn section(report: &Report, scene: &Scene) -> Markup {
+pub(super) fn section(report: &Report, scene: &Scene, plan: &Markup) -> Markup {
     let has_view = report.part.is_some() || !report.path.is_empty();
     if !has_view && report.program.is_none() {
         return Markup::default();
@@ -22,11 +19,16 @@ pub(super) fn section(report: &Report, scene: &Scene) -> Markup {
         section #work aria-label="Part, path and program" {
             div class={ "work" @if !has_view || report.program.is_none() { " single" } } {
                 @if has_view { (view(report, scene)) }
-                @if !report.path.is_empty() { (plan::figure(&seen_from_above(&report.path))) }
+                (plan)
                 @if let Some(p) = &report.program { (program(p)) }
             }
         }
     }
+}
+
+/// The path from above; nothing without a path.
+pub(super) fn plan(report: &Report) -> Markup {
+    if report.path.is_empty() { Markup::default() } else { plan::figure(&seen_from_above(&report.path)) }
 }
 
 fn view(report: &Report, scene: &Scene) -> Markup {
@@ -64,7 +66,11 @@ fn view(report: &Report, scene: &Scene) -> Markup {
                 p #kc-no-view.fallback {
                     span.unscripted { "The 3-D view needs JavaScript. " }
                     span.reason {}
-                    "The plan, the tables and the program text show the same numbers."
+                    @if report.program.as_ref().is_some_and(packs_text) {
+                        "The plan and the tables show the same numbers."
+                    } @else {
+                        "The plan, the tables and the program text show the same numbers."
+                    }
                 }
                 div #kc-readout.readout.script aria-live="off" {}
                 @if let Some(part) = &report.part { (legend(part, scene)) }
@@ -173,17 +179,32 @@ fn program(program: &ProgramView) -> Markup {
             div #kc-list.list.script tabindex="0" role="listbox" aria-label="Program" aria-describedby="kc-keys" {}
             p #kc-line.current.script aria-live="polite" { "Click a line, or step with the arrow keys." }
             p #kc-keys.hidden { "Arrow keys step through the lines, Home and End go to the ends, space plays." }
-            p.unscripted.quiet.remark { a href="#program-text" { "The text stands at the end." } }
+            p.unscripted.quiet.remark {
+                @if packs_text(program) { span.packed { (PACKED) } } @else { a href="#program-text" { "The text stands at the end." } }
+            }
         }
     }
 }
 
-/// The program as plain text at the end of the page: for paper, for pages without script, and the source of the list.
+/// Told where the list would be, on a page without script.
+const PACKED: &str = "This program is long, and its text is packed: the page shows it with JavaScript only.";
+
+/// The program as plain text at the end of the page: for paper, for pages without script, and the source of the list. A long
+/// one is neither printed nor there as text.
 pub(super) fn program_text(program: &ProgramView) -> Markup {
-    let printed = program.lines.len() <= PRINTED_LINES;
     let digits = program.lines.len().to_string().len();
+    if packs_text(program) {
+        let told = format!("The program text is not printed: it has {} lines.", program.lines.len());
+        return html! {
+            section #program-text {
+                h2 { "Program text" span.count { (visible(&program.file)) } }
+                p.unscripted.packed.quiet { (PACKED) }
+                p.quiet.paper { (told) }
+            }
+        };
+    }
     html! {
-        section #program-text.printed[printed] {
+        section #program-text.printed {
             h2 { "Program text" span.count { (visible(&program.file)) } }
             @for (file, from, to) in program.programs() {
                 @if !program.parts.is_empty() { h3 { (visible(file)) } }
@@ -196,7 +217,6 @@ pub(super) fn program_text(program: &ProgramView) -> Markup {
                     }
                 }
             }
-            @if !printed { p.quiet.paper { "The program text is not printed: it has " (program.lines.len()) " lines." } }
         }
     }
 }

@@ -146,7 +146,7 @@ pub fn translate(
     findings.sort_by_key(|f| std::cmp::Reverse(f.severity));
     let mut assumed: Vec<String> = source.trace.assumed.clone();
     assumed.extend(source.unfollowed.iter().map(ToString::to_string));
-    Ok(Translation { from, to, text: posted.text, read_back, findings, assumed })
+    Ok(Translation { from, to, text: posted.text.to_string(), read_back, findings, assumed })
 }
 
 fn no_machine() -> Error {

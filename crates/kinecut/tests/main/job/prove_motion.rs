@@ -353,7 +353,7 @@ fn the_programs_of_two_setups_have_names_and_numbers_of_their_own() {
     let posted = |control: &str, more: &str| -> Vec<(String, String)> {
         let job = format!("post = {{ control = \"{control}\"{more} }}\n{TWO}");
         let outcome = job::run(&job).unwrap();
-        outcome.setups.iter().map(|s| (s.file.clone(), s.posted.text.clone())).collect()
+        outcome.setups.iter().map(|s| (s.file.clone(), s.posted.text.to_string())).collect()
     };
     let two = posted("fanuc", ", program = \"PLATE\"");
     assert_eq!([&two[0].0, &two[1].0], ["PLATE_1.nc", "PLATE_2.nc"]);

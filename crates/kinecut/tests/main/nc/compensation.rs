@@ -112,7 +112,7 @@ fn planned(control: Control, sense: Sense) -> Program {
 
 fn post(program: &Program, control: Control) -> String {
     let settings = PostSettings { arc_tolerance: 0.01, ..PostSettings::new(control) };
-    nc::write(program, &[tool()], &settings).unwrap().text
+    nc::write(program, &[tool()], &settings).unwrap().text.to_string()
 }
 
 fn read(text: &str, control: Control) -> Reading {

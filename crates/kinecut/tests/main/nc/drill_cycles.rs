@@ -78,7 +78,7 @@ fn holes(control: Control, speed: Speed, holes: &[([f64; 2], Cycle)]) -> Program
 }
 
 fn post(program: &Program, control: Control) -> String {
-    nc::write(program, &[], &PostSettings::new(control)).unwrap().text
+    nc::write(program, &[], &PostSettings::new(control)).unwrap().text.to_string()
 }
 
 fn read(text: &str, control: Control) -> Reading {

@@ -97,7 +97,7 @@ impl Builder {
 
     fn post(&self, decimals: u8) -> Result<String, Error> {
         let settings = PostSettings { decimals, ..PostSettings::new(Control::Heidenhain) };
-        nc::write(&self.program, &[], &settings).map(|p| p.text)
+        nc::write(&self.program, &[], &settings).map(|p| p.text.to_string())
     }
 }
 
@@ -212,7 +212,7 @@ proptest! {
         prop_assert_eq!(next, found.len());
         // And again the same bytes.
         let settings = PostSettings { decimals, ..PostSettings::new(Control::Heidenhain) };
-        prop_assert_eq!(nc::write(&read(&text).program, &[], &settings).unwrap().text, text);
+        prop_assert_eq!(nc::write(&read(&text).program, &[], &settings).unwrap().text.to_string(), text);
     }
 
     /// Whatever the words, a reader answers: a program or an error with a place inside the text.

@@ -111,7 +111,7 @@ fn a_hole_drilled_in_one_go_is_a_cycle_and_any_other_its_moves() {
         .collect();
     assert_eq!(cycles, [hole(50.0), hole(50.0), low]);
     let settings = PostSettings::new(Control::Heidenhain);
-    assert_eq!(nc::write(&back, &[], &settings).unwrap().text, text);
+    assert_eq!(nc::write(&back, &[], &settings).unwrap().text.to_string(), text);
 }
 
 #[test]
