@@ -274,6 +274,24 @@ pub(super) fn gauge_at(part: &ConvexPart, pose: &Pose, point: DVec3) -> Gauge {
     Gauge { value, normal: out * radial + pose.axis * axial }
 }
 
+/// The gauge of a part at a pose and a point of the stock, and its second derivative there: the sum of the squares of two vectors,
+/// of that along the section of the part and of that around its axis.
+pub(super) fn curved_gauge_at(part: &ConvexPart, pose: &Pose, point: DVec3) -> (Gauge, [DVec3; 2]) {
+    let from = point - pose.tip;
+    let z = from.dot(pose.axis);
+    let beside = from - pose.axis * z;
+    let rho = beside.length();
+    let (value, (radial, axial)) = gauge_in_section(part, rho, z, None);
+    let (out, around) =
+        if rho > 0.0 { (beside / rho, (radial.max(0.0) / rho).sqrt()) } else { (DVec3::ZERO, 0.0) };
+    let along = match part.foot {
+        Foot::Torus { radius, .. } if radial > 0.0 && axial < 0.0 => 1.0 / (radius + value).max(0.0).sqrt(),
+        _ => 0.0,
+    };
+    let curves = [(pose.axis * radial - out * axial) * along, pose.axis.cross(out) * around];
+    (Gauge { value, normal: out * radial + pose.axis * axial }, curves)
+}
+
 /// The gauge of a part, at a distance from its axis and a height above its tip, and its radial and axial gradient; without one of
 /// the part's features.
 fn gauge_in_section(part: &ConvexPart, rho: f64, z: f64, without: Option<Touch>) -> (f64, (f64, f64)) {
