@@ -200,6 +200,8 @@ impl LineFrom {
 
     /// Cuts a chord to the round of the foot: by Newton's steps from outside, which never go too far in a convex body.
     fn torus(&self, part: &ConvexPart, chord: &mut Chord) -> Option<()> {
+        // What is left after a step goes with its square over the radius.
+        let enough = if let Foot::Torus { radius, .. } = part.foot { 1e-12 * radius } else { 0.0 };
         for forth in [1.0, -1.0] {
             let (mut s, end) = if forth > 0.0 { (chord.lo, chord.hi) } else { (chord.hi, chord.lo) };
             let mut moved = false;
@@ -237,10 +239,11 @@ impl LineFrom {
                     return None;
                 }
                 moved = true;
-                if next == s {
+                let step = next - s;
+                s = next;
+                if step * step <= enough {
                     break;
                 }
-                s = next;
             }
             if moved && forth > 0.0 {
                 (chord.lo, chord.lo_at) = (s, Touch::Foot);

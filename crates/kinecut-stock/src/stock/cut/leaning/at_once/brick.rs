@@ -4,7 +4,7 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use glam::DVec3;
 
-use super::super::swept::{MOST_STRETCHES, NO_STRETCH, StockLine};
+use super::super::swept::{CoverEnd, MOST_STRETCHES, NO_STRETCH, StockLine};
 use super::super::task::Batch;
 use super::super::tiles::end_point;
 use super::bundle::Bundle;
@@ -206,16 +206,18 @@ impl Work<'_> {
     fn cut(&mut self, cell: &Cell, list: &[u32]) {
         let mut planes = std::mem::take(&mut self.planes);
         planes.set(self.swept, list, cell);
+        // The part that held a line last.
+        let mut held = 0;
         for mut line in self.lines(cell) {
+            if self.hold(&planes, cell, list[held], held, &line) {
+                continue;
+            }
             planes.begin();
             let (mut first, mut sifted) = (true, false);
             while let Some(n) = planes.deepest(&line.ends) {
-                if first && planes.may_hold(n, &line.ends) {
-                    let one = &self.swept[list[n] as usize];
-                    if one.holds(line.ends.map(|end| end + cell.centre)) {
-                        self.take(line.along, line.line, line.hull.map(border));
-                        break;
-                    }
+                if first && n != held && self.hold(&planes, cell, list[n], n, &line) {
+                    held = n;
+                    break;
                 }
                 if !first && !sifted {
                     self.sift(&mut planes, cell, list, &line.ends);
@@ -234,6 +236,16 @@ impl Work<'_> {
             }
         }
         self.planes = planes;
+    }
+
+    /// Takes all material of a line in a cell if a part holds it.
+    fn hold(&mut self, planes: &Planes, cell: &Cell, part: u32, n: usize, line: &Line) -> bool {
+        let holds = planes.may_hold(n, &line.ends)
+            && self.swept[part as usize].holds(line.ends.map(|end| end + cell.centre));
+        if holds {
+            self.take(line.along, line.line, line.hull.map(border));
+        }
+        holds
     }
 
     /// Closes the parts that stay away from the material between two ends, given from the centre of a cell.
@@ -280,7 +292,13 @@ impl Work<'_> {
             let from = if from <= low + SNAP { low } else { from };
             let to = if to >= high - SNAP { high } else { to };
             if from < high - SNAP && to > low + SNAP && from < to {
-                let ends = [(from, &lo), (to, &hi)].map(|(at, end)| end_point(task, swept.index, at, end));
+                // What lies beyond all material of the line does not stay.
+                let [first, last] = line.hull;
+                let end = |at: i32, end: &CoverEnd| match at < first || at > last {
+                    true => border(at),
+                    false => end_point(task, swept.index, at, end),
+                };
+                let ends = [end(from, &lo), end(to, &hi)];
                 changed |= self.take(line.along, line.line, ends) > 0;
             }
         });
