@@ -200,6 +200,8 @@ impl LineFrom {
 
     /// Cuts a chord to the round of the foot: by Newton's steps from outside, which never go too far in a convex body.
     fn torus(&self, part: &ConvexPart, chord: &mut Chord) -> Option<()> {
+        // What is left after a step goes with its square over the radius.
+        let enough = if let Foot::Torus { radius, .. } = part.foot { 1e-12 * radius } else { 0.0 };
         for forth in [1.0, -1.0] {
             let (mut s, end) = if forth > 0.0 { (chord.lo, chord.hi) } else { (chord.hi, chord.lo) };
             let mut moved = false;
@@ -237,10 +239,11 @@ impl LineFrom {
                     return None;
                 }
                 moved = true;
-                if next == s {
+                let step = next - s;
+                s = next;
+                if step * step <= enough {
                     break;
                 }
-                s = next;
             }
             if moved && forth > 0.0 {
                 (chord.lo, chord.lo_at) = (s, Touch::Foot);
@@ -272,6 +275,24 @@ pub(super) fn gauge_at(part: &ConvexPart, pose: &Pose, point: DVec3) -> Gauge {
     let (value, (radial, axial)) = gauge_in_section(part, rho, z, None);
     let out = if rho > 0.0 { beside / rho } else { DVec3::ZERO };
     Gauge { value, normal: out * radial + pose.axis * axial }
+}
+
+/// The gauge of a part at a pose and a point of the stock, and its second derivative there: the sum of the squares of two vectors,
+/// of that along the section of the part and of that around its axis.
+pub(super) fn curved_gauge_at(part: &ConvexPart, pose: &Pose, point: DVec3) -> (Gauge, [DVec3; 2]) {
+    let from = point - pose.tip;
+    let z = from.dot(pose.axis);
+    let beside = from - pose.axis * z;
+    let rho = beside.length();
+    let (value, (radial, axial)) = gauge_in_section(part, rho, z, None);
+    let (out, around) =
+        if rho > 0.0 { (beside / rho, (radial.max(0.0) / rho).sqrt()) } else { (DVec3::ZERO, 0.0) };
+    let along = match part.foot {
+        Foot::Torus { radius, .. } if radial > 0.0 && axial < 0.0 => 1.0 / (radius + value).max(0.0).sqrt(),
+        _ => 0.0,
+    };
+    let curves = [(pose.axis * radial - out * axial) * along, pose.axis.cross(out) * around];
+    (Gauge { value, normal: out * radial + pose.axis * axial }, curves)
 }
 
 /// The gauge of a part, at a distance from its axis and a height above its tip, and its radial and axial gradient; without one of

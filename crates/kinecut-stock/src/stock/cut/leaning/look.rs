@@ -9,7 +9,7 @@ use super::swept::{PARTS, SpanPoses, StockLine};
 pub(super) const MOST_LOOKS: usize = 9;
 
 /// Room for looks: with two ends each time that a stretch is parted.
-const MOST_METS: usize = MOST_LOOKS + 2 * (PARTS as usize + 1);
+pub(super) const MOST_METS: usize = MOST_LOOKS + 2 * (PARTS as usize + 1);
 
 /// A look at a line at one time.
 #[derive(Clone, Copy, Debug)]
@@ -20,7 +20,8 @@ pub(super) struct Met {
     pub(super) rates: [f64; 2],
     /// Sines of the angles of the line to the faces at both ends.
     pub(super) slant: [f64; 2],
-    /// Bends of the ways of both ends, see [`SpanPoses::bend_at`].
+    /// Bends of the ways of both ends: see [`SpanPoses::bend_at`], or less, as a plane comes nearer no more than
+    /// [`SpanPoses::nearer`] says.
     pub(super) bends: [f64; 2],
 }
 
@@ -31,25 +32,25 @@ impl Met {
     }
 }
 
-/// Looks at which a line is met, each time once, in the order of their times; there is room for those that a span is parted at.
+/// Looks at which a line is met, each time once, in the order of their times, as many as there is room for.
 #[derive(Clone, Copy)]
-pub(super) struct Mets {
-    list: [Met; MOST_METS],
+pub(super) struct Mets<const MOST: usize> {
+    list: [Met; MOST],
     count: usize,
 }
 
-impl Mets {
-    pub(super) fn new() -> Mets {
+impl<const MOST: usize> Mets<MOST> {
+    pub(super) fn new() -> Mets<MOST> {
         let none = Chord { lo: 0.0, hi: 0.0, lo_at: Touch::Disc, hi_at: Touch::Disc };
         let met = Met { t: 0.0, chord: none, rates: [0.0; 2], slant: [0.0; 2], bends: [0.0; 2] };
-        Mets { list: [met; MOST_METS], count: 0 }
+        Mets { list: [met; MOST], count: 0 }
     }
 
     pub(super) fn add(&mut self, met: Met) {
         let at = self.list[..self.count].partition_point(|m| m.t < met.t);
         let known = self.list[..self.count].get(at).is_some_and(|m| m.t == met.t);
         if !known && self.count < self.list.len() {
-            self.list[at..].rotate_right(1);
+            self.list[at..=self.count].rotate_right(1);
             self.list[at] = met;
             self.count += 1;
         }
@@ -87,7 +88,9 @@ impl Look<'_> {
             let n = from.outward(self.part, s, touch);
             let slant = n[self.line.along];
             let place = from.point(s);
-            (n.dot(pose.velocity(place)) / slant, slant.abs(), self.of.bend_at(self.part, place.length()))
+            let [_, nearer] = self.of.nearer(pose, n, place, self.part);
+            let bend = self.of.bend_at(self.part, place.length()).min(0.25 * nearer);
+            (n.dot(pose.velocity(place)) / slant, slant.abs(), bend)
         };
         let [low, high] = self.line.material;
         let lo = end(chord.lo, chord.lo_at, chord.lo <= low);

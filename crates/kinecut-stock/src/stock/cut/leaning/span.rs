@@ -105,6 +105,11 @@ impl PoseSpan {
         }
     }
 
+    /// Coefficients of tip and axis by powers of the parameter.
+    pub(super) fn cubics(&self) -> [[DVec3; 4]; 2] {
+        [self.tip, self.axis]
+    }
+
     /// Fraction of the move at a parameter.
     pub(super) fn fraction(&self, t: f64) -> f64 {
         let [from, to] = self.fractions;

@@ -8,7 +8,7 @@ use glam::DVec3;
 
 use super::super::body::{ConvexPart, RevolvedParts, Touch};
 use super::chord::LineFrom;
-use super::look::{Look, MOST_LOOKS, Met, Mets};
+use super::look::{Look, MOST_LOOKS, MOST_METS, Met, Mets};
 use super::span::{Pose, PoseSpan};
 
 /// More than the rounding of an end point [mm].
@@ -72,7 +72,7 @@ pub(super) struct SpanPoses {
     /// Bend of the way of the tip, seen from the tool [mm], and what each millimetre from the tip adds.
     bends: [f64; 2],
     /// See [`PoseSpan::unsteady`].
-    unsteady: [f64; 2],
+    pub(super) unsteady: [f64; 2],
     /// Most that the tip moves, and the tool turns, by the parameter [mm, rad].
     pub(super) rates: [f64; 2],
 }
@@ -105,31 +105,10 @@ impl SpanPoses {
         if look.misses() {
             return;
         }
-        let mut looks = [None; MOST_LOOKS];
-        let count = if self.is_quick(part, line) { MOST_LOOKS } else { TIMES.len() };
-        let time = |i: usize| i as f64 / (count - 1) as f64 - 0.5;
-        for (i, met) in looks[..count].iter_mut().enumerate() {
-            *met = match count {
-                3 => look.at_pose(TIMES[i], &self.poses[i]),
-                _ => look.at(time(i)),
-            };
-        }
-        let looks = &looks[..count];
-        if looks.iter().all(Option::is_none) {
-            let Some(met) = look.nearest() else { return };
-            let around = if met.t < 0.0 { [-0.5, 0.0] } else { [0.0, 0.5] };
-            return look.told(&[met], around, PARTS, &mut found);
-        }
-        // Looks that are parted by one at which the line is not met have stretches of their own.
-        let mut next = 0;
-        for run in looks.chunk_by(|a, b| a.is_some() == b.is_some()) {
-            let around = [next.max(1) - 1, (next + run.len()).min(count - 1)].map(time);
-            next += run.len();
-            let mut mets = Mets::new();
-            run.iter().flatten().for_each(|met| mets.add(*met));
-            if !mets.list().is_empty() {
-                look.told(mets.list(), around, PARTS, &mut found);
-            }
+        if self.is_quick(part, line) {
+            look.by_looks::<MOST_LOOKS>(&mut found);
+        } else {
+            look.by_looks::<{ TIMES.len() }>(&mut found);
         }
     }
 
@@ -164,13 +143,19 @@ impl SpanPoses {
         self.bends[0] + self.bends[1] * (far + 2.0 * part.r1)
     }
 
+    /// The second derivative of the height of a place above a plane that is carried along, while the tool turns steadily [mm by the
+    /// span's parameter squared].
+    pub(super) fn curved(pose: &Pose, normal: DVec3, from_tip: DVec3) -> f64 {
+        let turn = pose.axis.cross(pose.axis_rate);
+        let turned = turn.cross(normal);
+        turn.cross(turned).dot(from_tip) - 2.0 * turned.dot(pose.tip_rate)
+    }
+
     /// Most by which a plane that is carried along comes nearer to a place than its rate says: half of the time before and after, and
     /// all of it before or after [mm]. The tool turns steadily but for `unsteady`, so that the way of the place has a second
     /// derivative that is known, and a third one that is small.
     pub(super) fn nearer(&self, pose: &Pose, normal: DVec3, from_tip: DVec3, part: &ConvexPart) -> [f64; 2] {
-        let turn = pose.axis.cross(pose.axis_rate);
-        let turned = turn.cross(normal);
-        let second = turn.cross(turned).dot(from_tip) - 2.0 * turned.dot(pose.tip_rate);
+        let second = SpanPoses::curved(pose, normal, from_tip);
         let far = from_tip.length() + 2.0 * part.r1;
         let [tip, by_reach] = self.unsteady;
         let [way, turns] = self.rates;
@@ -201,6 +186,31 @@ impl SpanPoses {
 }
 
 impl Look<'_> {
+    /// Tells what the line loses, from so many looks.
+    fn by_looks<const COUNT: usize>(&self, found: &mut dyn FnMut([CoverEnd; 2])) {
+        let time = |i: usize| i as f64 / (COUNT - 1) as f64 - 0.5;
+        let looks: [Option<Met>; COUNT] = std::array::from_fn(|i| match COUNT {
+            3 => self.at_pose(TIMES[i], &self.of.poses[i]),
+            _ => self.at(time(i)),
+        });
+        if looks.iter().all(Option::is_none) {
+            let Some(met) = self.nearest() else { return };
+            let around = if met.t < 0.0 { [-0.5, 0.0] } else { [0.0, 0.5] };
+            return self.told(&[met], around, PARTS, found);
+        }
+        // Looks that are parted by one at which the line is not met have stretches of their own.
+        let mut next = 0;
+        for run in looks.chunk_by(|a, b| a.is_some() == b.is_some()) {
+            let around = [next.max(1) - 1, (next + run.len()).min(COUNT - 1)].map(time);
+            next += run.len();
+            let mut mets = Mets::<COUNT>::new();
+            run.iter().flatten().for_each(|met| mets.add(*met));
+            if !mets.list().is_empty() {
+                self.told(mets.list(), around, PARTS, found);
+            }
+        }
+    }
+
     /// Tells what the line loses at the times around looks at which it is met: one stretch, or one for each of the times between which
     /// it is not met.
     fn told(&self, mets: &[Met], around: [f64; 2], parts: u32, found: &mut dyn FnMut([CoverEnd; 2])) {
@@ -222,7 +232,7 @@ impl Look<'_> {
             return all().for_each(|met| found([self.end(met, false), self.end(met, true)]));
         }
         for (side, around) in [(true, [around[0], gap]), (false, [gap, around[1]])] {
-            let mut some = Mets::new();
+            let mut some = Mets::<MOST_METS>::new();
             all().filter(|met| (met.t < gap) == side).for_each(|met| some.add(*met));
             self.told(some.list(), around, parts - 1, found);
         }

@@ -5,7 +5,10 @@
 //! lines of its square. Of a span, poses are taken that are a quarter of the radius apart or less. Such an amount is measured, not
 //! bounded. Neighbours are asked about together first, with one tangent plane for all of them.
 
+use std::ops::Range;
+
 use glam::{DVec2, DVec3};
+use pulp::Arch;
 use rayon::prelude::*;
 
 use super::super::super::body::RevolvedParts;
@@ -13,9 +16,12 @@ use super::super::super::effect::{Effect, Effects};
 use super::super::super::task::TileLines;
 use super::super::chord::LineFrom;
 use super::super::task::SpanTask;
+use super::about::about;
+use super::bundle::Shape;
+use super::lanes::{LANES, WAY, put};
 use super::near::{Beside, SweptPart};
+use super::shadow::{Shadow, bins, plan};
 use crate::base::Progress;
-use crate::geom::Aabb;
 use crate::stock::tile::TILE_EDGE;
 use crate::stock::tri_dexel::Grid;
 use crate::stock::{Axis, CutId, DexelGrid, TriDexel, fixed, unfixed};
@@ -51,9 +57,22 @@ struct Group {
     hull: (i32, i32),
 }
 
-/// Room for the stretches of a line.
+/// A span that passes lines next to one another.
+struct Passing<'a> {
+    task: &'a SpanTask<'a>,
+    parts: &'a [SweptPart<'a>],
+    shadow: &'a Shadow,
+    /// The lines are those that the span is measured on.
+    is_main: bool,
+    /// Its planes beside the lines.
+    planes: Range<usize>,
+}
+
+/// Room for the spans that pass a group, and for the stretches of a line.
 #[derive(Default)]
-struct Room {
+struct Room<'a> {
+    arch: Arch,
+    passing: Vec<Passing<'a>>,
     planes: Vec<Beside>,
     chords: Vec<(i32, i32)>,
     covered: Vec<(i32, i32)>,
@@ -97,15 +116,23 @@ pub(super) fn account(
             .map(|(tile, (bin, lines))| {
                 let (mut effects, mut room) = (Effects::default(), Room::default());
                 let mut groups = groups(grid, tile, lines, apart);
-                for i in bin {
+                for some in bin.chunks(LANES) {
                     if groups.is_empty() || progress.cancelled() {
                         break;
                     }
-                    let task = (&tasks[*i as usize], parts[*i as usize]);
-                    let shadow = &shadows[*i as usize];
-                    let is_main = main[*i as usize] == along;
-                    for group in groups.iter_mut().filter(|g| shadow.is_near(g.middle, g.half)) {
-                        group.pass(task, shadow, along, is_main.then_some(&mut effects), &mut room);
+                    for group in &mut groups {
+                        room.passing.clear();
+                        let all = some.iter().map(|i| *i as usize);
+                        let near = all.filter(|i| shadows[*i].is_near(group.middle, group.half));
+                        let passing = |i: usize| Passing {
+                            task: &tasks[i],
+                            parts: parts[i],
+                            shadow: &shadows[i],
+                            is_main: main[i] == along,
+                            planes: 0..0,
+                        };
+                        room.passing.extend(near.map(passing));
+                        group.pass(along, &mut effects, &mut room);
                     }
                 }
                 effects
@@ -113,70 +140,6 @@ pub(super) fn account(
             .collect();
         done.iter().flat_map(Effects::iter).for_each(&mut each);
     }
-}
-
-/// All that the edges of a span may sweep of the stock, seen along its lines: what is near a straight way.
-struct Shadow {
-    from: DVec2,
-    to: DVec2,
-    reach: f64,
-}
-
-impl Shadow {
-    fn new(task: &SpanTask, along: usize, stock: Aabb) -> Shadow {
-        let (pose, body) = (&task.poses.poses[1], &task.tool.cutting);
-        let stray = task.poses.span.stray(body.top.max(-body.bottom).hypot(body.radius));
-        let reach = body.radius + stray;
-        // Places of the tool's axis, which go no farther than needed out of the stock.
-        let (rise, tip) = (pose.axis[along], pose.tip[along]);
-        let [a, b] = [stock.min[along] - reach, stock.max[along] + reach].map(|s| (s - tip) / rise);
-        let (low, high) = if rise.abs() > 1e-9 { (a.min(b), a.max(b)) } else { (f64::MIN, f64::MAX) };
-        let ends = [body.bottom, body.top].map(|z| plan(pose.tip + pose.axis * z.min(high).max(low), along));
-        Shadow { from: ends[0], to: ends[1], reach }
-    }
-
-    /// True if a place is no farther away than `by` [mm].
-    fn is_near(&self, place: DVec2, by: f64) -> bool {
-        let (way, off) = (self.to - self.from, place - self.from);
-        let length = way.length_squared();
-        let t = if length > 0.0 { (off.dot(way) / length).clamp(0.0, 1.0) } else { 0.0 };
-        let far = self.reach + by;
-        (off - way * t).length_squared() <= far * far
-    }
-}
-
-/// A point seen along lines: the coordinates along the two other axes in cyclic order, see [`Axis::others`].
-fn plan(point: DVec3, along: usize) -> DVec2 {
-    DVec2::new(point[(along + 1) % 3], point[(along + 2) % 3])
-}
-
-/// For each tile of lines the shadows that may reach it, in order.
-fn bins(grid: &Grid, lines: &[TileLines], shadows: &[Shadow]) -> Vec<Vec<u32>> {
-    let ends = |tile: &TileLines| [0, 1].map(|k| [tile.at[k][0], tile.at[k][tile.size[k] - 1]]);
-    let [columns, rows] = grid.tiles_across().map(|n| n as usize);
-    let column_ends: Vec<[f64; 2]> = (0..columns).map(|i| ends(&lines[i])[0]).collect();
-    let row_ends: Vec<[f64; 2]> = (0..rows).map(|j| ends(&lines[j * columns])[1]).collect();
-    // The tiles that overlap a stretch.
-    let range = |of: &[[f64; 2]], min: f64, max: f64| {
-        let first = of.partition_point(|e| e[1] < min);
-        first..first.max(of.partition_point(|e| e[0] <= max))
-    };
-    let mut bins = vec![Vec::new(); lines.len()];
-    for (i, shadow) in shadows.iter().enumerate() {
-        let min = shadow.from.min(shadow.to) - shadow.reach;
-        let max = shadow.from.max(shadow.to) + shadow.reach;
-        for row in range(&row_ends, min.y, max.y) {
-            for column in range(&column_ends, min.x, max.x) {
-                let [[a, b], [c, d]] = [column_ends[column], row_ends[row]];
-                let (middle, half) =
-                    (DVec2::new(0.5 * (a + b), 0.5 * (c + d)), DVec2::new(b - a, d - c) * 0.5);
-                if shadow.is_near(middle, half.length()) {
-                    bins[row * columns + column].push(i as u32);
-                }
-            }
-        }
-    }
-    bins
 }
 
 /// The lines of a tile on which is measured: those in the middle of squares of `apart` lines.
@@ -223,36 +186,63 @@ impl Group {
         self.hull = ends.fold((i32::MAX, i32::MIN), |hull, of| (hull.0.min(of.0), hull.1.max(of.1)));
     }
 
-    /// Takes a span past the lines; tells what it does there if that is asked for.
-    fn pass(
-        &mut self,
-        (task, parts): (&SpanTask, &[SweptPart]),
-        shadow: &Shadow,
-        along: usize,
-        mut effects: Option<&mut Effects>,
-        room: &mut Room,
-    ) {
-        let (low, high) = (fixed(task.bounds.min[along]), fixed(task.bounds.max[along]));
-        if high <= self.hull.0 || self.hull.1 <= low {
-            return;
-        }
+    /// Takes spans past the lines, in their order, and tells what they do there if the lines are those that they are measured on.
+    fn pass(&mut self, along: usize, effects: &mut Effects, room: &mut Room) {
+        let hull = self.hull;
+        let bounds = |p: &Passing| [p.task.bounds.min[along], p.task.bounds.max[along]].map(fixed);
+        room.passing.retain(|p| {
+            let [low, high] = bounds(p);
+            low < hull.1 && hull.0 < high
+        });
+        let Some(first) = room.passing.first() else { return };
         // A place at the material where the tool comes from.
-        let from_above = task.poses.poses[1].axis[along] > 0.0;
+        let from_above = first.task.poses.poses[1].axis[along] > 0.0;
         let mut anchor = DVec3::ZERO;
-        anchor[along] = unfixed(if from_above { self.hull.1 } else { self.hull.0 });
+        anchor[along] = unfixed(if from_above { hull.1 } else { hull.0 });
         (anchor[(along + 1) % 3], anchor[(along + 2) % 3]) = (self.middle.x, self.middle.y);
-        room.planes.clear();
-        room.planes.extend(parts.iter().map(|part| part.beside(anchor, self.half)));
-        let mut changed = false;
-        for sample in &mut self.samples {
-            if sample.is_reached(&room.planes, anchor, along)
-                && shadow.is_near(plan(sample.start, along), 0.0)
-            {
-                changed |= sample.pass(task, along, effects.as_deref_mut(), room);
+        room.look(anchor, self.half);
+        let passing = std::mem::take(&mut room.passing);
+        for one in &passing {
+            // Of the planes all goes on to hold when there is less material.
+            let mut changed = false;
+            for sample in &mut self.samples {
+                if sample.is_reached(&room.planes[one.planes.clone()], anchor, along)
+                    && one.shadow.is_near(plan(sample.start, along), 0.0)
+                {
+                    changed |= sample.pass(one.task, along, one.is_main.then_some(&mut *effects), room);
+                }
+            }
+            if changed {
+                self.look();
             }
         }
-        if changed {
-            self.look();
+        room.passing = passing;
+    }
+}
+
+impl Room<'_> {
+    /// Sets the planes of the spans about a place.
+    fn look(&mut self, place: DVec3, radius: f64) {
+        self.planes.clear();
+        for one in &mut self.passing {
+            let from = self.planes.len();
+            one.planes = from..from + one.parts.len();
+            self.planes.extend(one.parts.iter().map(|_| Beside::default()));
+        }
+        let parts = self.passing.iter().flat_map(|one| one.parts);
+        let Some(part) = parts.clone().next().map(|first| first.part) else { return };
+        let shape = Shape::of(part).filter(|_| parts.clone().all(|one| std::ptr::eq(one.part, part)));
+        let Some(shape) = shape else {
+            self.planes.iter_mut().zip(parts).for_each(|(plane, part)| *plane = part.beside(place, radius));
+            return;
+        };
+        let (mut ways, mut rest) = ([[0.0; LANES]; WAY], parts);
+        for planes in self.planes.chunks_mut(LANES) {
+            rest.by_ref().take(planes.len()).enumerate().for_each(|(lane, part)| put(&mut ways, lane, part));
+            let about = about(self.arch, shape, &ways, place.to_array(), radius);
+            for (lane, plane) in planes.iter_mut().enumerate() {
+                *plane = Beside::of(&about, lane);
+            }
         }
     }
 }

@@ -4,13 +4,15 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use glam::DVec3;
 
-use super::super::swept::{MOST_STRETCHES, NO_STRETCH, StockLine};
+use super::super::swept::{CoverEnd, MOST_STRETCHES, NO_STRETCH, StockLine};
 use super::super::task::Batch;
 use super::super::tiles::end_point;
 use super::bundle::Bundle;
 use super::cells::{BRICK, Cell, Cells};
-use super::near::{SweptPart, Tangent};
+use super::lanes::LANES;
+use super::near::SweptPart;
 use super::planes::Planes;
+use super::sieve::Sieve;
 use crate::stock::tile::{TILE_EDGE, Tile};
 use crate::stock::tri_dexel::LINE_OFFSET;
 use crate::stock::{Axis, EndPoint, fixed, unfixed};
@@ -48,6 +50,8 @@ struct Work<'a> {
     /// By tile what was taken out of its lines: index of the line, and both ends.
     taken: [Vec<(u16, [EndPoint; 2])>; 3],
     planes: Planes,
+    sieve: Sieve,
+    open: Vec<usize>,
     /// Lines along an edge of the smallest cells.
     leaf: u32,
     /// Room for bundles and a list that are not in use.
@@ -84,8 +88,18 @@ pub(super) fn cut(
     let cell = cells.of_brick(brick);
     let tiles = Axis::ALL.map(|axis| Tile::clone(&tile(grids, axis, &cell)));
     let taken = [const { Vec::new() }; 3];
-    let mut work =
-        Work { cells, swept, tiles, taken, planes: Planes::default(), leaf, bundles: vec![], some: vec![] };
+    let mut work = Work {
+        cells,
+        swept,
+        tiles,
+        taken,
+        planes: Planes::default(),
+        sieve: Sieve::default(),
+        open: vec![],
+        leaf,
+        bundles: vec![],
+        some: vec![],
+    };
     work.halve(&cell, BRICK, near);
     for (axis, taken) in Axis::ALL.into_iter().zip(work.taken).filter(|(_, taken)| !taken.is_empty()) {
         let mut tile = tile(grids, axis, &cell);
@@ -95,13 +109,20 @@ pub(super) fn cut(
     }
 }
 
-/// Takes all material out of a brick.
-pub(super) fn empty(cells: &Cells, grids: &[Grids; 3], brick: u32) {
-    let cell = cells.of_brick(brick);
-    for axis in Axis::ALL {
-        let mut tile = tile(grids, axis, &cell);
-        let [lo, hi] = window(&cell, axis.index()).map(border);
-        each_line(cells, &cell, axis, |line, _| {
+/// Takes all material out of the bricks along the lines of a tile that have none left; `had` tells which had some.
+pub(super) fn empty(cells: &Cells, grids: &[Grids; 3], axis: Axis, tile: usize, had: &[bool]) {
+    let grid = &grids[axis.index()];
+    let bricks: Vec<u32> =
+        cells.along(axis, tile as u32 % grid.across[0], tile as u32 / grid.across[0]).collect();
+    let mut tile = grid.tiles[tile].lock().unwrap_or_else(PoisonError::into_inner);
+    // Those next to one another at once, with those between them that never had any.
+    for run in bricks.chunk_by(|a, b| cells.has_material(*a) == cells.has_material(*b)) {
+        if cells.has_material(run[0]) || !run.iter().any(|brick| had[*brick as usize]) {
+            continue;
+        }
+        let [first, last] = [run[0], run[run.len() - 1]].map(|brick| cells.of_brick(brick));
+        let [lo, hi] = [window(&first, axis.index())[0], window(&last, axis.index())[1]].map(border);
+        each_line(cells, &first, axis, |line, _| {
             tile.subtract(line, lo, hi);
         });
     }
@@ -160,9 +181,7 @@ impl Work<'_> {
         if size > self.leaf && !some.is_empty() {
             self.halve(cell, size, &some);
         } else if !some.is_empty() {
-            let tangents = some.iter().map(|i| (*i, self.swept[*i as usize].tangent_closely(cell)));
-            let list: Vec<(u32, Tangent)> = tangents.filter(|(_, t)| t.reach >= -cell.radius).collect();
-            self.cut(cell, &list);
+            self.cut(cell, &some);
         }
         self.some = some;
     }
@@ -184,22 +203,32 @@ impl Work<'_> {
 
     /// Cuts a cell by the swept parts that may reach it: each line first by the one that cut its neighbour last, then by the one that
     /// reaches deepest beyond its end, as long as one does.
-    fn cut(&mut self, cell: &Cell, list: &[(u32, Tangent)]) {
+    fn cut(&mut self, cell: &Cell, list: &[u32]) {
         let mut planes = std::mem::take(&mut self.planes);
-        planes.set(list);
-        let mut last = None;
+        planes.set(self.swept, list, cell);
+        // The part that held a line last.
+        let mut held = 0;
         for mut line in self.lines(cell) {
+            if self.hold(&planes, cell, list[held], held, &line) {
+                continue;
+            }
             planes.begin();
-            let mut guess: Option<usize> = last.filter(|n| planes.reaches(*n, &line.ends));
-            while let Some(n) = guess.take().or_else(|| planes.deepest(&line.ends)) {
-                let one = &self.swept[list[n].0 as usize];
-                if planes.may_hold(n, &line.ends) && one.holds(line.ends.map(|end| end + cell.centre)) {
-                    self.take(line.along, line.line, line.hull.map(border));
+            let (mut first, mut sifted) = (true, false);
+            while let Some(n) = planes.deepest(&line.ends) {
+                if first && n != held && self.hold(&planes, cell, list[n], n, &line) {
+                    held = n;
                     break;
                 }
+                if !first && !sifted {
+                    self.sift(&mut planes, cell, list, &line.ends);
+                    sifted = true;
+                    continue;
+                }
+                let n = if first { planes.deepest_closely(n, &line.ends) } else { n };
+                first = false;
                 planes.close(n);
-                if self.cut_line(&line, one) {
-                    last = Some(n);
+                if self.cut_line(&line, &self.swept[list[n] as usize]) {
+                    sifted = false;
                     if !self.look(&mut line, cell.centre) {
                         break;
                     }
@@ -207,6 +236,36 @@ impl Work<'_> {
             }
         }
         self.planes = planes;
+    }
+
+    /// Takes all material of a line in a cell if a part holds it.
+    fn hold(&mut self, planes: &Planes, cell: &Cell, part: u32, n: usize, line: &Line) -> bool {
+        let holds = planes.may_hold(n, &line.ends)
+            && self.swept[part as usize].holds(line.ends.map(|end| end + cell.centre));
+        if holds {
+            self.take(line.along, line.line, line.hull.map(border));
+        }
+        holds
+    }
+
+    /// Closes the parts that stay away from the material between two ends, given from the centre of a cell.
+    fn sift(&mut self, planes: &mut Planes, cell: &Cell, list: &[u32], ends: &[DVec3; 2]) {
+        let mut open = std::mem::take(&mut self.open);
+        open.clear();
+        open.extend(planes.open());
+        for some in open.chunks(LANES) {
+            let part = |n: &usize| {
+                let places = planes.nearer_first(*n, ends).map(|place| place + cell.centre);
+                (&self.swept[list[*n] as usize], places)
+            };
+            let bounds = self.sieve.bounds(some.iter().map(part));
+            for (n, bound) in some.iter().zip(bounds) {
+                if bound > 0.0 {
+                    planes.close(*n);
+                }
+            }
+        }
+        self.open = open;
     }
 
     /// Takes a stretch out of a line; returns the length removed [fixed steps].
@@ -233,7 +292,13 @@ impl Work<'_> {
             let from = if from <= low + SNAP { low } else { from };
             let to = if to >= high - SNAP { high } else { to };
             if from < high - SNAP && to > low + SNAP && from < to {
-                let ends = [(from, &lo), (to, &hi)].map(|(at, end)| end_point(task, swept.index, at, end));
+                // What lies beyond all material of the line does not stay.
+                let [first, last] = line.hull;
+                let end = |at: i32, end: &CoverEnd| match at < first || at > last {
+                    true => border(at),
+                    false => end_point(task, swept.index, at, end),
+                };
+                let ends = [end(from, &lo), end(to, &hi)];
                 changed |= self.take(line.along, line.line, ends) > 0;
             }
         });

@@ -5,12 +5,13 @@ use std::sync::atomic::{AtomicU64, Ordering::Relaxed};
 use glam::DVec3;
 use rayon::prelude::*;
 
-use super::near::{SweptPart, Tangent};
+use super::near::SweptPart;
+use super::places::Places;
 use crate::base::Progress;
 use crate::geom::Aabb;
 use crate::stock::tile::TILE_EDGE;
 use crate::stock::tri_dexel::Grid;
-use crate::stock::{DexelGrid, Lattice, TriDexel, unfixed};
+use crate::stock::{Axis, DexelGrid, Lattice, TriDexel, unfixed};
 
 /// Lines along an edge of a brick.
 pub(super) const BRICK: u32 = TILE_EDGE;
@@ -38,6 +39,8 @@ pub(in super::super) struct Cells {
     /// Number of bricks, and of piles.
     bricks: [u32; 3],
     piles: [u32; 3],
+    /// Middles and half widths of the bricks along each coordinate [mm].
+    middles: [Vec<[f64; 2]>; 3],
     /// By pile: a bit for each brick that may have material.
     filled: Vec<AtomicU64>,
 }
@@ -70,7 +73,15 @@ impl Cells {
         let bricks = lattice.counts.map(|n| n.div_ceil(BRICK));
         let piles = bricks.map(|n| n.div_ceil(PILE));
         let filled = (0..piles.iter().product::<u32>()).map(|_| AtomicU64::new(0)).collect();
-        let cells = Cells { lattice, bounds: stock.bounds(), bricks, piles, filled };
+        let middles = [const { Vec::new() }; 3];
+        let mut cells = Cells { lattice, bounds: stock.bounds(), bricks, piles, middles, filled };
+        cells.middles = std::array::from_fn(|k| {
+            let middle = |i: u32| {
+                let [low, high] = [i, i + 1].map(|i| cells.border(k, i * BRICK));
+                [0.5 * (low + high), 0.5 * (high - low)]
+            };
+            (0..bricks[k]).map(middle).collect()
+        });
         for grid in &stock.grids {
             (0..grid.tiles.len()).into_par_iter().for_each(|tile| cells.fill(grid, tile));
         }
@@ -117,6 +128,21 @@ impl Cells {
     fn indices(&self, brick: u32) -> [u32; 3] {
         let [x, y, _] = self.bricks;
         [brick % x, brick / x % y, brick / (x * y)]
+    }
+
+    /// Number of bricks.
+    pub(super) fn count(&self) -> usize {
+        self.bricks.iter().product::<u32>() as usize
+    }
+
+    /// The bricks along an axis, at indices of bricks along the two others in cyclic order.
+    pub(super) fn along(&self, axis: Axis, a: u32, b: u32) -> impl Iterator<Item = u32> + '_ {
+        let (others, mut brick) = (axis.others(), [0; 3]);
+        (brick[others.0.index()], brick[others.1.index()]) = (a, b);
+        (0..self.bricks[axis.index()]).map(move |i| {
+            brick[axis.index()] = i;
+            self.number(brick)
+        })
     }
 
     fn number(&self, [i, j, k]: [u32; 3]) -> u32 {
@@ -173,11 +199,12 @@ impl Cells {
         bricks
     }
 
-    /// Calls for each brick that may have material and that a swept part may reach, with its cell.
-    pub(super) fn each_near(&self, swept: &SweptPart, mut found: impl FnMut(u32, &Cell, Tangent)) {
+    /// Calls for each brick that may have material and that a swept part may reach, with a bound on its reach beyond the middle [mm].
+    pub(super) fn each_near(&self, swept: &SweptPart, mut found: impl FnMut(u32, f64)) {
         if !swept.bounds.meets(self.bounds) {
             return;
         }
+        let mut places = Places::default();
         let edge = BRICK * PILE;
         let from: [u32; 3] = std::array::from_fn(|k| self.index(k, swept.bounds.min[k]) / edge);
         let to: [u32; 3] = std::array::from_fn(|k| self.index(k, swept.bounds.max[k]) / edge);
@@ -186,19 +213,21 @@ impl Cells {
                 for x in from[0]..=to[0] {
                     let pile = (z * self.piles[1] + y) * self.piles[0] + x;
                     let mut filled = self.filled[pile as usize].load(Relaxed);
-                    if filled == 0 || swept.reaches(&self.cell([x, y, z].map(|i| i * edge), edge)).is_none() {
+                    if filled == 0 || !swept.reaches(&self.cell([x, y, z].map(|i| i * edge), edge)) {
                         continue;
                     }
+                    places.clear();
                     while filled != 0 {
                         let bit = filled.trailing_zeros();
                         filled &= filled - 1;
                         let [i, j, k] = [bit % PILE, bit / PILE % PILE, bit / (PILE * PILE)];
                         let brick = [x * PILE + i, y * PILE + j, z * PILE + k];
-                        let cell = self.cell(brick.map(|i| i * BRICK), BRICK);
-                        if let Some(tangent) = swept.reaches(&cell) {
-                            found(self.number(brick), &cell, tangent);
-                        }
+                        let [x, y, z] = std::array::from_fn(|k| self.middles[k][brick[k] as usize]);
+                        let radius = (x[1] * x[1] + y[1] * y[1] + z[1] * z[1]).sqrt();
+                        places.add(self.number(brick), [x[0], y[0], z[0], radius]);
                     }
+                    places.ask(swept);
+                    places.each_reached(&mut found);
                 }
             }
         }
@@ -221,8 +250,12 @@ impl Cells {
                 let mut found = Found::default();
                 if !progress.cancelled() {
                     for (i, one) in some.iter().enumerate() {
-                        self.each_near(one, |brick, cell, tangent| {
-                            if tangent.reach > cell.radius && one.swallows(cell) {
+                        self.each_near(one, |brick, reach| {
+                            let swallowed = reach > 0.0 && {
+                                let cell = self.of_brick(brick);
+                                reach > cell.radius && one.swallows(&cell)
+                            };
+                            if swallowed {
                                 found.swallowed.push(brick);
                             } else {
                                 found.pairs.push((brick, (end + n * CHUNK + i) as u32));

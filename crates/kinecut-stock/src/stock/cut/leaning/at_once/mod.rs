@@ -2,19 +2,25 @@
 //!
 //! The stock is divided into bricks of 16 x 16 x 16 lines (`cells.rs`). A brick that one pose of a tool swallows is void; in each
 //! that is left the spans near it are sought, then in smaller and smaller cells (`brick.rs`), with bounds by tangent planes
-//! (`near.rs`). In the smallest cell the span that reaches deepest comes first, so that nearly all others have nothing left to cut;
-//! each stretch of a line is cut as it is in order, by the same functions, so that the lines are the same up to the rounding of an
-//! end or two; but a line that lies in a flat face, to within 2 nm, may be taken in order and be left here.
+//! (`near.rs`). In the smallest cell the span that reaches deepest comes first (`planes.rs`), so that nearly all others have nothing
+//! left to cut, which closer bounds tell (`sieve.rs`); what is asked of many spans, or about many bricks, is asked side by side
+//! (`lanes.rs`). Each stretch of a line is cut as it is in order, by the same functions, so that the lines are the same up to the
+//! rounding of an end or two; but a line that lies in a flat face, to within 2 nm, may be taken in order and be left here.
 //!
 //! A run holds moves of tools without a core that are meant to cut, and whose shank and holder stay away from all material there is before it.
 //! The amount that a move removes depends on the order: it is measured on some of the lines (`account.rs`).
 
+mod about;
 mod account;
 mod brick;
 mod bundle;
 mod cells;
+mod lanes;
 mod near;
+mod places;
 mod planes;
+mod shadow;
+mod sieve;
 
 use std::ops::Range;
 use std::sync::Mutex;
@@ -28,7 +34,7 @@ use self::near::SweptPart;
 use super::super::effect::{Effect, Looked, Sum};
 use super::task::{Batch, SpanTask};
 use crate::base::Progress;
-use crate::stock::TriDexel;
+use crate::stock::{Axis, TriDexel};
 
 /// Spans from which on a run is cut at once.
 pub(super) const LEAST: usize = 256;
@@ -42,7 +48,7 @@ pub(super) fn may_be_cut_at_once(cells: &Cells, batch: &Batch) -> Vec<bool> {
             body.parts.iter().all(|part| {
                 let swept = SweptPart::new(task, part, 0);
                 let mut meets = false;
-                cells.each_near(&swept, |_, _, _| meets = true);
+                cells.each_near(&swept, |_, _| meets = true);
                 !meets
             })
         };
@@ -119,7 +125,12 @@ fn unite(
         from = near.end;
     }
     let left = |brick: &u32| cells.has_material(*brick);
-    bricks.par_iter().filter(|brick| !left(brick)).for_each(|brick| brick::empty(cells, &grids, *brick));
+    let mut had = vec![false; cells.count()];
+    bricks.iter().for_each(|brick| had[*brick as usize] = true);
+    for axis in Axis::ALL {
+        let tiles = 0..grids[axis.index()].tiles.len();
+        tiles.into_par_iter().for_each(|tile| brick::empty(cells, &grids, axis, tile, &had));
+    }
     let touched = touched.par_iter().zip(&bricks).filter(|(touched, brick)| **touched && left(brick));
     let winners = touched.map(|(_, brick)| brick::winners(cells, &grids, *brick, batch));
     winners.collect::<Vec<_>>().concat()

@@ -6,10 +6,13 @@
 use glam::DVec3;
 
 use super::super::super::body::ConvexPart;
-use super::super::chord::gauge_at;
+use super::super::chord::{curved_gauge_at, gauge_at};
 use super::super::span::Pose;
+use super::super::swept::SpanPoses;
 use super::super::task::SpanTask;
+use super::about::ABOUT;
 use super::cells::Cell;
+use super::lanes::{LANES, WAY};
 use crate::geom::Aabb;
 
 /// Way by which a cell, or a line, lies within a tool that takes all of it: more than the rounding of ends [mm].
@@ -41,12 +44,37 @@ pub(super) struct Tangent {
     pub(super) likely: f64,
 }
 
+/// The gauge of a part near the centre of a cell, over the time of a span, but for what is of the third order: it is
+/// `value + normal . d + |curves . d - carried t|^2 / 2 - closing t + gains t^2 / 2`.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Nearby {
+    /// Gauge at the centre in the middle of the time [mm], and its gradient.
+    pub(super) value: f64,
+    pub(super) normal: DVec3,
+    /// Its second derivative: the squares of two vectors.
+    pub(super) curves: [DVec3; 2],
+    /// The way of the centre by the time, along these vectors.
+    pub(super) carried: [f64; 2],
+    /// How fast the gauge falls [mm by the span's parameter], and how the turn of the tool changes that.
+    pub(super) closing: f64,
+    pub(super) gains: f64,
+}
+
 /// A plane that a part stays behind, near a place: all it sweeps has `normal . (q - place) <= reach`, and `widens` more for each
 /// millimetre by which q is farther than it was made for.
+#[derive(Default)]
 pub(super) struct Beside {
     pub(super) normal: DVec3,
     pub(super) reach: f64,
     pub(super) widens: f64,
+}
+
+impl Beside {
+    /// The plane of a lane.
+    pub(super) fn of(about: &[[f64; LANES]; ABOUT], lane: usize) -> Beside {
+        let normal = DVec3::new(about[0][lane], about[1][lane], about[2][lane]);
+        Beside { normal, reach: about[3][lane], widens: about[ABOUT - 1][lane] }
+    }
 }
 
 impl<'a> SweptPart<'a> {
@@ -74,6 +102,18 @@ impl<'a> SweptPart<'a> {
         [p.x, p.y, p.z, u.x, u.y, u.z, v.x, v.y, v.z, w.x, w.y, w.z, self.turn, tip, by_reach]
     }
 
+    /// As lanes hold them: tip and axis as cubics, and what their way is bent by.
+    #[inline]
+    pub(super) fn way(&self) -> [f64; WAY] {
+        let poses = &self.task.poses;
+        let ([[a, b, c, d], [e, f, g, h]], [bend, by_reach]) = (poses.span.cubics(), poses.unsteady);
+        let [way, turns] = poses.rates;
+        [
+            a.x, a.y, a.z, b.x, b.y, b.z, c.x, c.y, c.z, d.x, d.y, d.z, e.x, e.y, e.z, f.x, f.y, f.z, g.x,
+            g.y, g.z, h.x, h.y, h.z, bend, by_reach, way, turns,
+        ]
+    }
+
     /// Most that the part reaches beyond the centre of what is no farther from it than `radius` [mm].
     pub(super) fn reach(&self, centre: DVec3, radius: f64) -> f64 {
         self.tangent(centre, radius).reach
@@ -97,6 +137,22 @@ impl<'a> SweptPart<'a> {
     /// The tangent plane about a cell at the middle of the time, or one that keeps closer to the part.
     pub(super) fn tangent_closely(&self, cell: &Cell) -> Tangent {
         self.closely(cell.centre, cell.radius)
+    }
+
+    /// The gauge about the centre of a cell.
+    pub(super) fn nearby(&self, cell: &Cell) -> Nearby {
+        let pose = &self.middle;
+        let (gauge, curves) = curved_gauge_at(self.part, pose, cell.centre);
+        let place = cell.centre - pose.tip;
+        let velocity = pose.velocity(place);
+        Nearby {
+            value: gauge.value,
+            normal: gauge.normal,
+            curves,
+            carried: curves.map(|c| c.dot(velocity)),
+            closing: gauge.normal.dot(velocity),
+            gains: SpanPoses::curved(pose, gauge.normal, place),
+        }
     }
 
     /// The tangent plane at the middle of the time, or one that keeps closer to the part: that and the one at the end of the time to
@@ -143,10 +199,9 @@ impl<'a> SweptPart<'a> {
         tip + by_reach * reach
     }
 
-    /// The tangent plane about a cell; `None` if the part stays away from the cell.
-    pub(super) fn reaches(&self, cell: &Cell) -> Option<Tangent> {
-        let tangent = self.tangent(cell.centre, cell.radius);
-        (tangent.reach >= -cell.radius).then_some(tangent)
+    /// True unless the part stays away from a cell.
+    pub(super) fn reaches(&self, cell: &Cell) -> bool {
+        self.reach(cell.centre, cell.radius) >= -cell.radius
     }
 
     /// True if a stretch of a line lies within the part at the start, the middle or the end.
@@ -167,12 +222,17 @@ mod tests {
     use super::super::super::super::body::Foot;
     use super::super::super::super::{CutList, CutMove, CutOptions, ToolBody};
     use super::super::super::task::Batch;
-    use super::super::bundle::Bundle;
+    use super::super::about::about;
+    use super::super::bundle::{Bundle, Shape};
     use super::super::cells::Cells;
+    use super::super::lanes::put;
+    use super::super::places::Places;
+    use super::super::sieve::Sieve;
     use super::*;
     use crate::geom::{Arc, Curve, Line, Profile};
     use crate::stock::TriDexel;
     use crate::sweep::ToolMotion;
+    use pulp::Arch;
 
     /// Numbers in [0, 1) that leave no place out.
     fn spread(n: u32, k: usize) -> f64 {
@@ -180,8 +240,31 @@ mod tests {
         (f64::from(n) * [a, b, c][k]).fract()
     }
 
-    /// How far planes lie from what they bound [mm]: the least, over all poses and all places of cells that a tool holds.
-    fn least_room(motion: &ToolMotion, curve: Curve, profile: &Profile) -> (f64, usize) {
+    /// Lines along the edges of a cell, from either end, that a sieve tells to be missed: at no time is one of their places in the part.
+    fn sift(swept: &SweptPart, cell: &Cell, n: u32) -> usize {
+        let mut missed = 0;
+        for k in 0..3 {
+            let start = cell.low + (cell.high - cell.low) * spread(n, k);
+            let mut ends = [start; 2];
+            (ends[0][k], ends[1][k]) = (cell.low[k], cell.high[k]);
+            for ends in [ends, [ends[1], ends[0]]] {
+                if !(Sieve::default().bounds(std::iter::once((swept, ends)))[0] > 0.0) {
+                    continue;
+                }
+                missed += 1;
+                for i in 0..200 {
+                    let place = ends[0] + (ends[1] - ends[0]) * (f64::from(i % 14) / 13.0);
+                    let pose = swept.task.poses.span.at(f64::from(i) / 199.0 - 0.5);
+                    assert!(gauge_at(swept.part, &pose, place).value > -1e-9, "{ends:?}");
+                }
+            }
+        }
+        missed
+    }
+
+    /// How far planes lie from what they bound [mm]: the least, over all poses and all places of cells that a tool holds; how many those
+    /// are, and how many lines are missed.
+    fn least_room(motion: &ToolMotion, curve: Curve, profile: &Profile) -> (f64, usize, usize) {
         let bounds = Aabb { min: DVec3::splat(-8.0), max: DVec3::splat(8.0) };
         let stock = TriDexel::from_box(bounds, 0.25).unwrap();
         let options = CutOptions::default();
@@ -190,7 +273,7 @@ mod tests {
         let list = CutList::new(&bodies, moves, &options, 0.25).unwrap();
         let batch = Batch::new(&stock, &list, 0..1);
         let cells = Cells::new(&stock);
-        let (mut least, mut held) = (f64::INFINITY, 0);
+        let (mut least, mut held, mut sifted) = (f64::INFINITY, 0, 0);
         for (task, part) in batch.tasks.iter().flat_map(|t| t.tool.cutting.parts.iter().map(move |p| (t, p)))
         {
             let swept = SweptPart::new(task, part, 0);
@@ -205,6 +288,20 @@ mod tests {
                 let reach = swept.reach(cell.centre, cell.radius);
                 assert!((bundle.reaches[0] - reach).abs() < 1e-9 || matches!(part.foot, Foot::Flat));
                 let planes = [swept.tangent(cell.centre, cell.radius), swept.tangent_closely(&cell)];
+                let shape = Shape::of(part).unwrap();
+                let mut ways = [[0.0; LANES]; WAY];
+                put(&mut ways, 3, &swept);
+                let about = about(Arch::default(), shape, &ways, cell.centre.to_array(), cell.radius);
+                let beside = Beside::of(&about, 3);
+                let mut places = Places::default();
+                places.add(5, [cell.centre.x, cell.centre.y, cell.centre.z, cell.radius]);
+                places.ask(&swept);
+                let mut is_near = false;
+                places.each_reached(&mut |_, bound| {
+                    is_near = true;
+                    assert!((bound - reach).abs() < 1e-9 || matches!(part.foot, Foot::Flat));
+                });
+                sifted += sift(&swept, &cell, n);
                 for i in 0..400 {
                     let at = DVec3::from_array([0, 1, 2].map(|k| spread(i, k)));
                     let point = cell.low + (cell.high - cell.low) * at;
@@ -213,14 +310,16 @@ mod tests {
                         continue;
                     }
                     held += 1;
-                    assert!(swept.reaches(&cell).is_some() && bundle.reaches[0] >= -cell.radius);
+                    assert!(swept.reaches(&cell) && bundle.reaches[0] >= -cell.radius);
+                    assert!(is_near);
+                    least = least.min(beside.reach - beside.normal.dot(point - cell.centre));
                     for plane in planes {
                         least = least.min(plane.reach - plane.normal.dot(point - cell.centre));
                     }
                 }
             }
         }
-        (least, held)
+        (least, held, sifted)
     }
 
     #[test]
@@ -246,7 +345,8 @@ mod tests {
                 (ToolMotion::fixed(round.into(), axis).unwrap(), round.into()),
             ];
             for (motion, curve) in motions {
-                let (least, held) = least_room(&motion, curve.clone(), &profile);
+                let (least, held, sifted) = least_room(&motion, curve.clone(), &profile);
+                assert!(sifted > 100, "{profile:?} {curve:?} {sifted}");
                 assert!(held > 1000 && least > -1e-9, "{profile:?} {curve:?} {held} {least}");
             }
         }
