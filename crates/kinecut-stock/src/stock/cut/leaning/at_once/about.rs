@@ -42,7 +42,7 @@ impl NullaryFnOnce for About<'_> {
     #[inline(always)]
     fn call(self) {
         let About { shape, ways, centre, radius, about } = self;
-        // In a place of its own, as in a sieve.
+        // In a place of its own, as with the bounds of spans that stay away.
         let mut found = [[0.0; LANES]; ABOUT];
         for lane in 0..LANES {
             let of = Lane { shape, ways, lane };

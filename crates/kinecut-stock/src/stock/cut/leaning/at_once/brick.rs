@@ -7,12 +7,12 @@ use glam::DVec3;
 use super::super::swept::{CoverEnd, MOST_STRETCHES, NO_STRETCH, StockLine};
 use super::super::task::Batch;
 use super::super::tiles::end_point;
+use super::away::AwayBounds;
 use super::bundle::Bundle;
 use super::cells::{BRICK, Cell, Cells};
 use super::lanes::LANES;
 use super::near::SweptPart;
 use super::planes::Planes;
-use super::sieve::Sieve;
 use crate::stock::tile::{TILE_EDGE, Tile};
 use crate::stock::tri_dexel::LINE_OFFSET;
 use crate::stock::{Axis, EndPoint, fixed, unfixed};
@@ -50,7 +50,7 @@ struct Work<'a> {
     /// By tile what was taken out of its lines: index of the line, and both ends.
     taken: [Vec<(u16, [EndPoint; 2])>; 3],
     planes: Planes,
-    sieve: Sieve,
+    away: AwayBounds,
     open: Vec<usize>,
     /// Lines along an edge of the smallest cells.
     leaf: u32,
@@ -94,7 +94,7 @@ pub(super) fn cut(
         tiles,
         taken,
         planes: Planes::default(),
-        sieve: Sieve::default(),
+        away: AwayBounds::default(),
         open: vec![],
         leaf,
         bundles: vec![],
@@ -258,7 +258,7 @@ impl Work<'_> {
                 let places = planes.nearer_first(*n, ends).map(|place| place + cell.centre);
                 (&self.swept[list[*n] as usize], places)
             };
-            let bounds = self.sieve.bounds(some.iter().map(part));
+            let bounds = self.away.bounds(some.iter().map(part));
             for (n, bound) in some.iter().zip(bounds) {
                 if bound > 0.0 {
                     planes.close(*n);

@@ -3,7 +3,7 @@
 //! The stock is divided into bricks of 16 x 16 x 16 lines (`cells.rs`). A brick that one pose of a tool swallows is void; in each
 //! that is left the spans near it are sought, then in smaller and smaller cells (`brick.rs`), with bounds by tangent planes
 //! (`near.rs`). In the smallest cell the span that reaches deepest comes first (`planes.rs`), so that nearly all others have nothing
-//! left to cut, which closer bounds tell (`sieve.rs`); what is asked of many spans, or about many bricks, is asked side by side
+//! left to cut, which closer bounds tell (`away.rs`); what is asked of many spans, or about many bricks, is asked side by side
 //! (`lanes.rs`). Each stretch of a line is cut as it is in order, by the same functions, so that the lines are the same up to the
 //! rounding of an end or two; but a line that lies in a flat face, to within 2 nm, may be taken in order and be left here.
 //!
@@ -12,6 +12,7 @@
 
 mod about;
 mod account;
+mod away;
 mod brick;
 mod bundle;
 mod cells;
@@ -20,7 +21,6 @@ mod near;
 mod places;
 mod planes;
 mod shadow;
-mod sieve;
 
 use std::ops::Range;
 use std::sync::Mutex;

@@ -223,11 +223,11 @@ mod tests {
     use super::super::super::super::{CutList, CutMove, CutOptions, ToolBody};
     use super::super::super::task::Batch;
     use super::super::about::about;
+    use super::super::away::AwayBounds;
     use super::super::bundle::{Bundle, Shape};
     use super::super::cells::Cells;
     use super::super::lanes::put;
     use super::super::places::Places;
-    use super::super::sieve::Sieve;
     use super::*;
     use crate::geom::{Arc, Curve, Line, Profile};
     use crate::stock::TriDexel;
@@ -240,7 +240,7 @@ mod tests {
         (f64::from(n) * [a, b, c][k]).fract()
     }
 
-    /// Lines along the edges of a cell, from either end, that a sieve tells to be missed: at no time is one of their places in the part.
+    /// Lines along the edges of a cell, from either end, that are told to be missed: at no time is one of their places in the part.
     fn sift(swept: &SweptPart, cell: &Cell, n: u32) -> usize {
         let mut missed = 0;
         for k in 0..3 {
@@ -248,7 +248,7 @@ mod tests {
             let mut ends = [start; 2];
             (ends[0][k], ends[1][k]) = (cell.low[k], cell.high[k]);
             for ends in [ends, [ends[1], ends[0]]] {
-                if !(Sieve::default().bounds(std::iter::once((swept, ends)))[0] > 0.0) {
+                if !(AwayBounds::default().bounds(std::iter::once((swept, ends)))[0] > 0.0) {
                     continue;
                 }
                 missed += 1;

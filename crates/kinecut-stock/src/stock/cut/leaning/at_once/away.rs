@@ -13,18 +13,18 @@ use super::lanes::{LANES, Lane, Seen, Vector, WAY, Ways, along, dot, put};
 use super::near::SweptPart;
 
 /// Parts side by side.
-pub(super) struct Sieve {
+pub(super) struct AwayBounds {
     arch: Arch,
     ways: Ways,
 }
 
-impl Default for Sieve {
-    fn default() -> Sieve {
-        Sieve { arch: Arch::default(), ways: [[0.0; LANES]; WAY] }
+impl Default for AwayBounds {
+    fn default() -> AwayBounds {
+        AwayBounds { arch: Arch::default(), ways: [[0.0; LANES]; WAY] }
     }
 }
 
-impl Sieve {
+impl AwayBounds {
     /// By part, of no more than there are lanes: a bound on its gauge at all the material between two places, the first of which it is
     /// nearer to [mm]; without bound where its shape is not that of the first.
     pub(super) fn bounds<'p>(
@@ -51,7 +51,7 @@ impl Sieve {
     }
 }
 
-/// See [`Sieve::bounds`].
+/// See [`AwayBounds::bounds`].
 struct Bounds<'a> {
     shape: Shape,
     ways: &'a Ways,
