@@ -67,10 +67,17 @@ pub(super) fn is_plain(task: &Task, highest: f64) -> bool {
 }
 
 /// A task's part with its bounds on the blocks of a patch.
-struct Bounded<'a> {
+struct Bounded<'a, 't> {
     index: u32,
-    sweep: Sweep<'a>,
+    task: &'a Task<'t>,
+    part: &'t ConvexPart,
     bounds: [f64; BLOCKS],
+}
+
+impl<'t> Bounded<'_, 't> {
+    fn sweep(&self) -> Sweep<'t> {
+        Sweep::new(self.task, self.part)
+    }
 }
 
 /// Lets tasks of a run go over a patch: each takes all above its underside.
@@ -81,10 +88,9 @@ pub(super) fn cut(patch: &mut Patch, group: &[u32], tasks: &[Task]) {
         // One that is watched meets nothing.
         let parts = if task.watch { &[][..] } else { &task.tool.cutting.parts };
         for part in parts {
-            let sweep = Sweep::new(task, part);
-            let bounds = patch.bounds(&sweep);
+            let bounds = patch.bounds(&Sweep::new(task, part));
             if !patch.open_to(&bounds, f64::from(*index)).is_empty() {
-                all.push(Bounded { index: *index, sweep, bounds });
+                all.push(Bounded { index: *index, task, part, bounds });
             }
         }
     }
@@ -107,7 +113,7 @@ pub(super) fn cut(patch: &mut Patch, group: &[u32], tasks: &[Task]) {
             open = patch.open_by_planes(planes, open, |block| patch.slack(block, index));
         }
         if !open.is_empty() {
-            patch.sink(&one.sweep, open, index, false);
+            patch.sink(&one.sweep(), open, index, false);
             patch.lower(open);
         }
     };
@@ -122,7 +128,7 @@ pub(super) fn cut(patch: &mut Patch, group: &[u32], tasks: &[Task]) {
         if done.next_if_eq(&&i).is_some() || open.is_empty() {
             continue;
         }
-        let planes = patch.planes(&one.sweep);
+        let planes = patch.planes(&one.sweep());
         let open = patch.open_by_planes(&planes, open, |block| patch.slack(block, index));
         if !open.is_empty() {
             rest.push((patch.depth(&planes, open), below.len() as u32));

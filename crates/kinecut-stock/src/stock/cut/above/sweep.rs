@@ -315,7 +315,9 @@ impl<'a> Sweep<'a> {
                     let h = centre_z - root(rr - dd);
                     if dd <= rr0 { z0 } else { h }
                 };
-                if radius == part.r1 && !part.has_edge() {
+                if radius == part.r1 && !part.has_edge() && path.slope != 0.0 {
+                    self.fill_ball(path, x, y, out, (centre_z, share));
+                } else if radius == part.r1 && !part.has_edge() {
                     self.fill(path, x, y, out, foot, move |half, _| share * half);
                 } else {
                     let least_x = self.edge();
@@ -384,6 +386,32 @@ impl<'a> Sweep<'a> {
                 let off = along - t;
                 let low = path.from + path.slope * t + foot(least(off * off + l * l, rr));
                 *h = if l > r1 || first > last { f64::INFINITY } else { low };
+            }
+        }
+    }
+
+    /// Heights of a ball along a slope. Where on its way it is lowest is known to seven digits, which the height does not see: it is
+    /// even there.
+    #[inline(always)]
+    fn fill_ball(
+        &self,
+        path: &Straight,
+        x: &[f64; BLOCK],
+        y: &[f64; BLOCK],
+        out: &mut BlockOf<f64>,
+        (centre_z, share): (f64, f64),
+    ) {
+        let (rr, back) = (self.part.r1 * self.part.r1, -share.copysign(path.slope));
+        for (row, y) in out.iter_mut().zip(y) {
+            for (h, x) in row.iter_mut().zip(x) {
+                let (along, beside) = path.place(*x, *y);
+                let ll = beside * beside;
+                let half = f64::from((most(rr - ll, 0.0) as f32).sqrt());
+                let t = most(least(along + back * half, path.length), 0.0);
+                let off = along - t;
+                let dd = off * off + ll;
+                let low = path.from + path.slope * t + (centre_z - root(rr - dd));
+                *h = if dd > rr { f64::INFINITY } else { low };
             }
         }
     }
