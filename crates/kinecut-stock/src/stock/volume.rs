@@ -185,8 +185,13 @@ fn of_tiles((grid, above): (&Grid, Option<&FromAbove>), row: u32, across: &[Acro
         grid.within(a, b, [low.max(from), high.min(to)])
     };
     // A row beyond the stock is like the one at its border.
-    let lengths =
-        |j: usize| -> Vec<i64> { (0..columns).map(|i| within(i, j, [i32::MIN, i32::MAX])).collect() };
+    let mut limits = vec![[i32::MIN, i32::MAX]; columns];
+    let mut lengths = |j: usize| -> Vec<i64> {
+        if let Some(above) = above {
+            above.limits_of_row(j as u32, &mut limits);
+        }
+        limits.iter().enumerate().map(|(i, limits)| grid.within(i as u32, j as u32, *limits)).collect()
+    };
     let mut before = lengths(first.saturating_sub(1));
     let mut here = lengths(first);
     let counts_for = |k: usize, index: usize| {
@@ -205,6 +210,9 @@ fn of_tiles((grid, above): (&Grid, Option<&FromAbove>), row: u32, across: &[Acro
             bends += bend(here[i.saturating_sub(1)], here[(i + 1).min(columns - 1)]);
             bends += bend(before[i], behind[i]);
             let place = [i, j];
+            if i > 0 && i + 1 < columns && j > 0 && j + 1 < rows {
+                continue;
+            }
             for (k, side) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
                 if let Some((width, strip)) = across[k].face(place[k], side) {
                     let heights = strip.unknown(across[1 - k].span(place[1 - k])).map(fixed);

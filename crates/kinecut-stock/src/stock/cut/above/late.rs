@@ -16,7 +16,7 @@ use super::super::task::Task;
 use super::super::upright::tasks_of;
 use super::FromAbove;
 use super::claims::{Claim, Lines};
-use super::field::Field;
+use super::field::{Field, OWN};
 use super::layers::Layers;
 use super::patch::{Known, Patch};
 use super::sides::{clear, cut_claims, direction, row_axis};
@@ -116,6 +116,26 @@ impl FromAbove {
             (None, _) => [i32::MIN, i32::MAX],
             (Some(top), true) => [i32::MIN, top],
             (Some(top), false) => [-top, i32::MAX],
+        }
+    }
+
+    /// The same for the first lines of a row.
+    pub(in crate::stock) fn limits_of_row(&self, b: u32, limits: &mut [[i32; 2]]) {
+        let of_top = |top: Option<i32>| match (top, self.axis.sign() > 0.0) {
+            (None, _) => [i32::MIN, i32::MAX],
+            (Some(top), true) => [i32::MIN, top],
+            (Some(top), false) => [-top, i32::MAX],
+        };
+        let (own, b) = (OWN as usize, b as usize);
+        for (column, limits) in limits.chunks_mut(own).enumerate() {
+            match &self.tops[b / own * self.across + column] {
+                None => limits.fill(of_top(None)),
+                Some(tops) => {
+                    for (i, limits) in limits.iter_mut().enumerate() {
+                        *limits = of_top(tops.top(b % own * own + i));
+                    }
+                }
+            }
         }
     }
 
