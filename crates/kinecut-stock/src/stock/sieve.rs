@@ -35,6 +35,11 @@ impl Sieve {
         }
     }
 
+    /// Distance of the lines that are left, counted in lines.
+    pub(super) fn every(&self) -> i64 {
+        self.every.into()
+    }
+
     /// The lattice of all lines.
     pub(super) fn whole(&self) -> &Lattice {
         &self.lattice
@@ -43,12 +48,6 @@ impl Sieve {
     /// Index among all points along an axis of a point that is left.
     pub(super) fn whole_index(&self, axis: Axis, index: u32) -> u32 {
         self.first[axis.index()] + index * self.every
-    }
-
-    /// Index of a point along an axis among those that are left, if it is one.
-    pub(super) fn index(&self, axis: Axis, whole: u32) -> Option<u32> {
-        let beyond = whole.checked_sub(self.first[axis.index()])?;
-        (beyond % self.every == 0).then_some(beyond / self.every)
     }
 }
 
@@ -67,10 +66,7 @@ mod tests {
                 for i in 0..n {
                     let whole = sieve.whole_index(axis, i);
                     assert!((lattice.coordinate(axis, whole) - coarse.coordinate(axis, i)).abs() < 1e-12);
-                    assert_eq!(sieve.index(axis, whole), Some(i));
                 }
-                let left = (0..lattice.counts[axis.index()]).filter(|i| sieve.index(axis, *i).is_some());
-                assert_eq!(left.count(), n as usize);
                 let last = sieve.whole_index(axis, n - 1);
                 assert!(last < lattice.counts[axis.index()] && lattice.counts[axis.index()] - last <= every);
             }

@@ -9,8 +9,6 @@ use super::super::task::Task;
 use super::layers::Layers;
 use super::patch::{BLOCKS, Blocks, HEIGHTS, Patch, ROUNDING, SIDE, height_at, put_row, row_at};
 use super::sweep::{BLOCK, Sweep, least, most};
-use crate::stock::Axis;
-use crate::stock::sieve::Sieve;
 
 /// Layers of a row in which a task is to be cut.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -34,51 +32,9 @@ fn push(claims: &mut Vec<Claim>, new: Claim) {
     claims.push(new);
 }
 
-/// The lines that may be claimed: their layers, and their rows.
-pub(super) struct Lines<'a> {
-    pub(super) layers: Layers,
-    pub(super) sieve: &'a Sieve,
-    /// By direction of the lines: the axis along which their rows are numbered.
-    pub(super) row_axes: [Axis; 2],
-}
-
-impl Lines<'_> {
-    /// Number of a row of lines along a direction.
-    fn row(&self, k: usize, whole: i64) -> Option<u32> {
-        self.sieve.index(self.row_axes[k], u32::try_from(whole).ok()?)
-    }
-
-    /// By direction of the lines: a bit for each row of a patch with lines.
-    fn rows(&self, patch: &Patch) -> [u32; 2] {
-        let of = |k: usize| {
-            let is_row = |i: &usize| self.row(k, patch.first[1 - k] + *i as i64).is_some();
-            (0..SIDE).filter(is_row).fold(0, |rows, i| rows | 1 << i)
-        };
-        [of(0), of(1)]
-    }
-}
-
 impl Patch {
-    /// Adds the claims of tasks in the patch, on lines along the two directions across their axis.
-    pub(super) fn claim<'t>(
-        &mut self,
-        lines: &Lines,
-        tasks: impl Iterator<Item = (u32, &'t Task<'t>)>,
-        claims: &mut [Vec<Claim>; 2],
-    ) {
-        let rows = lines.rows(self);
-        for (index, task) in tasks {
-            self.claim_one((lines, rows), index, task, claims);
-        }
-    }
-
-    fn claim_one(
-        &mut self,
-        (lines, [along, across]): (&Lines, [u32; 2]),
-        index: u32,
-        task: &Task,
-        claims: &mut [Vec<Claim>; 2],
-    ) {
+    /// Adds the claims of a task in the patch, on lines along the two directions across its axis.
+    pub(super) fn claim(&mut self, layers: &Layers, index: u32, task: &Task, claims: &mut [Vec<Claim>; 2]) {
         for part in &task.tool.cutting.parts {
             let sweep = Sweep::new(task, part);
             let mut blocks = self.active(&sweep, 4.0 * ROUNDING);
@@ -88,24 +44,18 @@ impl Patch {
             if blocks.is_empty() {
                 continue;
             }
-            let claimed =
-                self.arch.dispatch(Bound { patch: self, sweep: &sweep, blocks, layers: lines.layers });
-            for ((c0, r0), mut claimed) in blocks.corners().zip(claimed) {
-                for i in 0..BLOCK {
-                    claimed[0][i] *= u8::from(along >> (r0 + i) & 1 == 1);
-                    claimed[1][i] &= (across >> c0) as u8;
-                }
-                let [along, across] = claimed;
+            let claimed = self.arch.dispatch(Bound { patch: self, sweep: &sweep, blocks, layers });
+            for ((c0, r0), [along, across]) in blocks.corners().zip(claimed) {
                 // One way after the other along a row.
                 for (r, columns) in along.into_iter().enumerate() {
                     for c in bits(columns) {
-                        self.claim_way(lines, (r0 + r, c0 + c, 0), (index, &sweep), &mut claims[0]);
+                        self.claim_way(layers, (r0 + r, c0 + c, 0), (index, &sweep), &mut claims[0]);
                     }
                 }
                 let columns = across.into_iter().fold(0, |all, columns| all | columns);
                 for c in bits(columns) {
                     for r in (0..BLOCK).filter(|r| across[*r] >> c & 1 == 1) {
-                        self.claim_way(lines, (r0 + r, c0 + c, 1), (index, &sweep), &mut claims[1]);
+                        self.claim_way(layers, (r0 + r, c0 + c, 1), (index, &sweep), &mut claims[1]);
                     }
                 }
             }
@@ -166,7 +116,7 @@ impl Patch {
     #[inline(always)]
     fn claim_way(
         &self,
-        lines: &Lines,
+        layers: &Layers,
         (r, c, k): (usize, usize, usize),
         (index, sweep): (u32, &Sweep),
         claims: &mut Vec<Claim>,
@@ -183,12 +133,10 @@ impl Patch {
             low
         };
         if low < f64::INFINITY {
-            let layers = lines.layers.between(low, ceiling);
-            let row = if k == 0 { self.first[1] + r as i64 } else { self.first[0] + c as i64 };
-            if layers.0 < layers.1
-                && let Some(row) = lines.row(k, row)
-            {
-                push(claims, Claim { task: index, row, layers });
+            let layers = layers.between(low, ceiling);
+            if layers.0 < layers.1 {
+                let row = if k == 0 { self.first[1] + r as i64 } else { self.first[0] + c as i64 };
+                push(claims, Claim { task: index, row: row as u32, layers });
             }
         }
     }
@@ -209,7 +157,7 @@ struct Bound<'a, 'b> {
     patch: &'a mut Patch,
     sweep: &'a Sweep<'b>,
     blocks: Blocks,
-    layers: Layers,
+    layers: &'a Layers,
 }
 
 impl NullaryFnOnce for Bound<'_, '_> {
@@ -222,13 +170,13 @@ impl NullaryFnOnce for Bound<'_, '_> {
         if sweep.is_convex() {
             patch.raise(sweep, blocks);
             for (corner, claimed) in blocks.corners().zip(&mut claimed) {
-                *claimed = [patch.bound_ways(corner, 0, &layers), patch.bound_ways(corner, 1, &layers)];
+                *claimed = [patch.bound_ways(corner, 0, layers), patch.bound_ways(corner, 1, layers)];
             }
         } else {
             for (corner, claimed) in blocks.corners().zip(&mut claimed) {
                 *claimed = [
-                    patch.bound_discs(corner, 0, sweep, &layers),
-                    patch.bound_discs(corner, 1, sweep, &layers),
+                    patch.bound_discs(corner, 0, sweep, layers),
+                    patch.bound_discs(corner, 1, sweep, layers),
                 ];
             }
         }

@@ -1,6 +1,6 @@
 //! The grid along the tool axis as patches see it.
 
-use std::ops::Range;
+use std::ops::{Range, RangeInclusive};
 
 use glam::DVec2;
 use pulp::Arch;
@@ -80,6 +80,20 @@ impl<'a> Field<'a> {
             first,
             ..self
         }
+    }
+
+    /// Index in the grid of a line along the direction `k`.
+    pub(super) fn in_whole(&self, k: usize, index: i64) -> i64 {
+        self.first[k] + index * self.stride
+    }
+
+    /// The ways of the grid along the direction `k` that the way to a line from the one before it is made of: each by the line that it
+    /// leads to.
+    pub(super) fn ways(&self, k: usize, index: i64) -> RangeInclusive<i64> {
+        let from = if index == 0 { 0 } else { self.in_whole(k, index - 1) + 1 };
+        let out = i64::from(self.grid.counts[k]);
+        let to = if index == self.counts[k] { out } else { self.in_whole(k, index) };
+        from..=to
     }
 
     /// Number of patches along both directions.

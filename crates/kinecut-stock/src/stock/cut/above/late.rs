@@ -15,11 +15,12 @@ use super::super::list::CutList;
 use super::super::task::Task;
 use super::super::upright::tasks_of;
 use super::FromAbove;
-use super::claims::{Claim, Lines};
+use super::ceilings::KeptCeilings;
+use super::claims::Claim;
 use super::field::{Field, OWN};
 use super::layers::Layers;
 use super::patch::{Known, Patch};
-use super::sides::{clear, cut_claims, direction, row_axis};
+use super::sides::{clear, cut_claims, direction};
 use super::sweep::Sweep;
 use super::tops::{self, Kept};
 use crate::base::Progress;
@@ -215,9 +216,21 @@ impl FromAbove {
         }
         if across {
             let field = Field::new(shape, sieve.whole(), &frame, bounds, None);
-            let patches = field.patches();
-            let open = Open { patches, rectangle: patches.map(|n| 0..n), paid: self.late.paid.clone() };
-            self.cut_across(grids, (sieve, &field), &open, progress);
+            let all = |patches: [usize; 2], paid: Vec<usize>| Open {
+                patches,
+                rectangle: patches.map(|n| 0..n),
+                paid,
+            };
+            self.clear_across(grids, sieve, &all(field.patches(), self.late.paid.clone()), progress);
+            // Paid again does no harm.
+            let least = self.late.paid.iter().min().copied().unwrap_or(0);
+            let highest = field.highest;
+            let sparse = field.sparse(sieve.every());
+            let [columns, rows] = sparse.patches();
+            let open = all([columns, rows], vec![least; columns * rows]);
+            let kept = KeptCeilings { ceilings: &self.ceilings, across: self.across, highest };
+            let ceilings = kept.sparse(&sparse);
+            self.claim_across(grids, (&sieve.lattice(), &sparse), (&open, &ceilings), progress);
         }
     }
 
@@ -235,7 +248,9 @@ impl FromAbove {
         let field = Field::new(&shape, lattice, &frame, bounds, None);
         let open =
             Open { patches: field.patches(), rectangle: rectangle(&field), paid: self.late.paid.clone() };
-        self.cut_across(grids, (&Sieve::all(lattice), &field), &open, progress);
+        let sieve = Sieve::all(lattice);
+        self.clear_across(grids, &sieve, &open, progress);
+        self.claim_across(grids, (lattice, &field), (&open, &self.ceilings), progress);
         if progress.cancelled() {
             // Cutting it once more does no harm.
             return;
@@ -250,69 +265,76 @@ impl FromAbove {
         }
     }
 
-    /// Cuts lines across the tool axis through patches of a field, those of a sieve, by the moves that these owe.
-    pub(super) fn cut_across(
-        &self,
-        grids: &mut [Grid; 3],
-        (sieve, field): (&Sieve, &Field),
-        open: &Open,
-        progress: &dyn Progress,
-    ) {
+    /// Takes what lies above ceilings out of lines across the tool axis, those of a sieve, through some patches. It comes first, on whole
+    /// lines: the rest of them is then short.
+    fn clear_across(&self, grids: &mut [Grid; 3], sieve: &Sieve, open: &Open, progress: &dyn Progress) {
         let frame = ToolFrame::new(self.axis);
         let along = frame.axes[2];
-        // Material above ceilings first, on whole lines: the rest of them is then short.
         for grid in grids.iter_mut().filter(|grid| grid.axis != along) {
             let k = direction(grid.axis, &frame);
             let whole = open.whole_lines(k);
             clear(grid, (sieve, &frame), (&self.ceilings, &self.late.cleared[k]), &whole, progress);
         }
-        let lattice = sieve.lattice();
-        let lines = Lines {
-            layers: Layers::new(&lattice, &frame),
-            sieve,
-            row_axes: [0, 1].map(|k| row_axis(k, &frame)),
-        };
+    }
+
+    /// Cuts lines across the tool axis through patches of a field by the moves that these owe, as far as they come below ceilings.
+    fn claim_across(
+        &self,
+        grids: &mut [Grid; 3],
+        (lattice, field): (&Lattice, &Field),
+        (open, ceilings): (&Open, &[Known]),
+        progress: &dyn Progress,
+    ) {
+        let frame = ToolFrame::new(self.axis);
+        let along = frame.axes[2];
+        let layers = Layers::new(lattice, &frame);
         let mut next = open.inside().map(|patch| open.paid[patch]).min().unwrap_or(usize::MAX);
         while next < self.late.count && !progress.cancelled() {
             let (tasks, end) = self.late.tasks(next, &frame, field, open);
             next = end;
-            let mut claims = self.claims(field, open, &tasks, &lines, progress);
+            let mut claims = claims(field, (open, ceilings), &tasks, &layers, progress);
             for grid in grids.iter_mut().filter(|grid| grid.axis != along) {
                 let claims = std::mem::take(&mut claims[direction(grid.axis, &frame)]);
-                cut_claims(grid, (&lattice, &frame), (&tasks, claims), progress);
+                cut_claims(grid, (lattice, &frame), (&tasks, claims), progress);
             }
         }
     }
+}
 
-    /// Claims of tasks on the ways of open patches, by direction.
-    fn claims(
-        &self,
-        field: &Field,
-        open: &Open,
-        tasks: &[Task],
-        lines: &Lines,
-        progress: &dyn Progress,
-    ) -> [Vec<Claim>; 2] {
-        let mut bins: Vec<Vec<u32>> = vec![Vec::new(); self.ceilings.len()];
-        field.each_near(tasks, |patch, i| {
-            if open.wants(patch, tasks[i as usize].index as usize) {
-                bins[patch].push(i);
-            }
-        });
-        let work = bins.par_iter().enumerate().filter(|(_, bin)| !bin.is_empty());
-        let all: Vec<[Vec<Claim>; 2]> = work
-            .map(|(p, bin)| {
-                let mut claims = [Vec::new(), Vec::new()];
-                let mut patch = Patch::new(field, p, self.ceilings[p].as_deref());
-                patch.keep_covers(true);
+/// Claims of tasks on the ways of open patches of a field below their ceilings, by direction.
+fn claims(
+    field: &Field,
+    (open, ceilings): (&Open, &[Known]),
+    tasks: &[Task],
+    layers: &Layers,
+    progress: &dyn Progress,
+) -> [Vec<Claim>; 2] {
+    let mut bins: Vec<Vec<u32>> = vec![Vec::new(); ceilings.len()];
+    field.each_near(tasks, |patch, i| {
+        if open.wants(patch, tasks[i as usize].index as usize) {
+            bins[patch].push(i);
+        }
+    });
+    let work = bins.par_iter().enumerate().filter(|(_, bin)| !bin.is_empty());
+    let all: Vec<[Vec<Claim>; 2]> = work
+        .map(|(p, bin)| {
+            let mut claims = [Vec::new(), Vec::new()];
+            let mut patch = Patch::new(field, p, ceilings[p].as_deref());
+            patch.keep_covers(true);
+            for i in bin {
+                if progress.cancelled() {
+                    break;
+                }
                 // A watched task was clear, and has met nothing.
-                let some = bin.iter().map(|i| (*i, &tasks[*i as usize])).filter(|(_, task)| !task.watch);
-                patch.claim(lines, some.take_while(|_| !progress.cancelled()), &mut claims);
-                claims
-            })
-            .collect();
-        [0, 1].map(|k| all.iter().flat_map(|claims| &claims[k]).copied().collect())
-    }
+                let task = &tasks[*i as usize];
+                if !task.watch {
+                    patch.claim(layers, *i, task, &mut claims);
+                }
+            }
+            claims
+        })
+        .collect();
+    [0, 1].map(|k| all.iter().flat_map(|claims| &claims[k]).copied().collect())
 }
 
 /// Patches that are paid.

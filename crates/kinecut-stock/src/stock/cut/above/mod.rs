@@ -14,6 +14,7 @@
 //! the ceilings have become, the less is left to do (`late.rs`).
 
 mod at_once;
+mod ceilings;
 mod claims;
 mod column;
 mod field;

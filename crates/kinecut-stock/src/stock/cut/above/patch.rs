@@ -155,6 +155,8 @@ pub(super) struct Patch {
 impl Patch {
     /// A patch of a field with its ceilings so far, as if no line had material.
     pub(super) fn new(field: &Field, patch: usize, known: Option<&PatchCeilings>) -> Patch {
+        // Ways between sparse lines have no ceilings but those that are given.
+        let is_between = field.stride == 1 || known.is_some();
         let first = field.first(patch);
         let places =
             |k: usize| -> [f64; SIDE] { std::array::from_fn(|i| field.place(k, first[k] + i as i64)) };
@@ -191,7 +193,7 @@ impl Patch {
             for c in 1..SIDE {
                 let (l, a, b) = (r * SIDE + c, first[0] + c as i64, first[1] + r as i64);
                 for (k, ceilings) in made.ceilings.iter_mut().enumerate() {
-                    if field.stride == 1 && field.has_way(k, a, b) {
+                    if is_between && field.has_way(k, a, b) {
                         ceilings[l] = known.map_or(field.highest, |known| f64::from(known[k][l]));
                     }
                 }
