@@ -120,7 +120,8 @@ pub(super) fn cut(patch: &mut Patch, group: &[u32], tasks: &[Task]) {
     first.iter().for_each(|i| go(patch, &all[*i], None));
     // Then those that may go deepest below what is there, as far as they still may.
     patch.keep_covers(false);
-    let (mut rest, mut below): (Vec<(f64, u32)>, Vec<(&Bounded, Planes)>) = (Vec::new(), Vec::new());
+    let mut rest: Vec<(f64, u32)> = Vec::new();
+    let mut below: Vec<(&Bounded, Planes)> = Vec::new();
     let mut done = first.iter().peekable();
     for (i, one) in all.iter().enumerate() {
         let index = f64::from(one.index);

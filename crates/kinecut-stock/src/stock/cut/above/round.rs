@@ -33,7 +33,7 @@ impl Round {
 
     /// Squared distances of a place, from the centre, from the two ends.
     #[inline(always)]
-    fn from_ends(&self, vx: f64, vy: f64) -> [f64; 2] {
+    fn end_squares(&self, vx: f64, vy: f64) -> [f64; 2] {
         let square = |end: DVec2| {
             let (x, y) = (vx - end.x * self.radius, vy - end.y * self.radius);
             x * x + y * y
@@ -45,7 +45,7 @@ impl Round {
     #[inline(always)]
     pub(super) fn distance(&self, x: f64, y: f64) -> f64 {
         let (vx, vy, far, is_beside) = self.seen(x, y);
-        let [a, b] = self.from_ends(vx, vy);
+        let [a, b] = self.end_squares(vx, vy);
         let (on, end) = ((far - self.radius).abs(), least(a, b).sqrt());
         if is_beside { on } else { end }
     }
@@ -54,7 +54,7 @@ impl Round {
     #[inline(always)]
     pub(super) fn nearest(&self, x: f64, y: f64) -> (f64, f64) {
         let (vx, vy, far, is_beside) = self.seen(x, y);
-        let [a, b] = self.from_ends(vx, vy);
+        let [a, b] = self.end_squares(vx, vy);
         let (first, last) = (self.first, self.last);
         let (ex, ey) = if a <= b { (first.x, first.y) } else { (last.x, last.y) };
         let share = 1.0 / most(far, f64::MIN_POSITIVE);
