@@ -4,23 +4,26 @@
 //! its neighbour a height from which on up nothing is left on it (a **ceiling**): one convex part took both ends, so it took all
 //! between. Tasks come in order. Blocks of 8 x 8 lines are left out where a bound says that a task goes nowhere lower.
 
+mod covers;
+mod sink;
+mod told;
+
 use std::f64::consts::SQRT_2;
 use std::sync::Arc;
 
 use glam::DVec2;
 use pulp::{Arch, NullaryFnOnce};
 
+use self::covers::Cover;
 use super::super::body::RevolvedParts;
 use super::super::edge::most_below;
 use super::super::effect::Looked;
 use super::super::task::Task;
 use super::Done;
-use super::column::{Column, heights};
-use super::field::{Field, OWN, rounded};
-use super::round::Round;
-use super::sweep::{BLOCK, BlockOf, Sweep, least, most};
+use super::field::{Field, OWN};
+use super::sweep::{BLOCK, BlockOf, Sweep, most};
 use super::tops::Tops;
-use crate::stock::{FIXED_STEP, Interval};
+use crate::stock::FIXED_STEP;
 
 /// Lines along an edge of a patch that are computed; the first row and column belong to the neighbours.
 pub(super) const SIDE: usize = 32;
@@ -100,13 +103,6 @@ fn corner(block: usize) -> (usize, usize) {
 
 /// By block, the height of a plane over the middle [mm], and its slopes along x and y.
 pub(super) type Planes = [[f64; BLOCKS]; 3];
-
-/// A plane above the tops and ceilings of a block: its height over the middle [mm], and its slopes along x and y.
-#[derive(Clone, Copy, Debug, Default)]
-struct Cover {
-    height: f64,
-    slopes: [f64; 2],
-}
 
 /// The state of a patch while tasks go over it.
 pub(super) struct Patch {
@@ -298,98 +294,6 @@ impl Patch {
         if index < self.latest[block] { FIXED_STEP } else { NEAR }
     }
 
-    /// By block a plane that a part stays above, see [`Sweep::planes`].
-    pub(super) fn planes(&self, sweep: &Sweep) -> Planes {
-        self.arch.dispatch(Tangents { patch: self, sweep })
-    }
-
-    /// Those of some blocks whose covers a part may come down to, with some slack, by planes that it stays above.
-    pub(super) fn open_by_planes(
-        &self,
-        [heights, along_x, along_y]: &Planes,
-        blocks: Blocks,
-        slack: impl Fn(usize) -> f64,
-    ) -> Blocks {
-        let Some(covers) = &self.covers else { return blocks };
-        // From the middle to the farthest line with a way to the block.
-        let half = (0.5 * (BLOCK - 1) as f64 + 1.0) * self.step;
-        let mut mask = 0;
-        for b in 0..BLOCKS {
-            let Cover { height, slopes: [x, y] } = covers[b];
-            let apart = (x - along_x[b]).abs() + (y - along_y[b]).abs();
-            mask |= u32::from(heights[b] < height + half * apart + slack(b)) << b;
-        }
-        Blocks(blocks.0 & mask)
-    }
-
-    /// How far a part may come down below the cover of some block, about [mm].
-    pub(super) fn depth(&self, [heights, ..]: &Planes, blocks: Blocks) -> f64 {
-        let Some(covers) = &self.covers else { return 0.0 };
-        let below = |b: usize| covers[b].height - heights[b];
-        (0..BLOCKS).filter(|b| blocks.0 >> b & 1 == 1).map(below).fold(f64::NEG_INFINITY, most)
-    }
-
-    /// Begins to keep the covers of the blocks; `whole`: above the ceilings on all of their ways, not at one end of each.
-    pub(super) fn keep_covers(&mut self, whole: bool) {
-        self.whole = whole;
-        self.covers = Some(self.arch.dispatch(Covers(self)));
-    }
-
-    /// A plane along the tops of a block, above them and above the ceilings of the ways to and from its lines.
-    #[inline(always)]
-    fn cover_of(&self, block: usize) -> Cover {
-        let (c0, r0) = corner(block);
-        let step = self.step;
-        // Slopes from one border of the block to the other, of the lines where they are known.
-        let (of, unit) = match self.top[r0 * SIDE + c0] > f64::NEG_INFINITY {
-            true => (&self.top, FIXED_STEP),
-            false => (&self.ceilings[0], 1.0),
-        };
-        let (mut over_x, mut over_y) = ([0.0; BLOCK], [0.0; BLOCK]);
-        let (low, high) = (row_at(&of[..], r0 * SIDE + c0), row_at(&of[..], (r0 + BLOCK - 1) * SIDE + c0));
-        for i in 0..BLOCK {
-            over_y[i] = high[i] - low[i];
-            let row = (r0 + i) * SIDE + c0;
-            over_x[i] = of[row + BLOCK - 1] - of[row];
-        }
-        let scale = unit / (BLOCK as f64 * (BLOCK - 1) as f64 * step);
-        let slopes = [over_x, over_y].map(|over| over.into_iter().sum::<f64>() * scale);
-        let slopes = if slopes[0].is_finite() && slopes[1].is_finite() { slopes } else { [0.0; 2] };
-        let [sx, sy] = slopes;
-        // Of a way the end at which the plane is higher: a part that takes it comes down to its ceiling at both. Or the other one.
-        let of_way = |slope: f64| if self.whole { -most(0.0, slope) } else { most(0.0, -slope) };
-        let (back_x, back_y) = (of_way(sx * step), of_way(sy * step));
-        let middle = 0.5 * (BLOCK - 1) as f64;
-        let mut across = [0.0; BLOCK];
-        for c in 0..BLOCK {
-            across[c] = sx * (c as f64 - middle) * step;
-        }
-        let mut most_of = [f64::NEG_INFINITY; BLOCK];
-        for r in 0..BLOCK {
-            let start = (r0 + r) * SIDE + c0;
-            let row = |of: &[f64; LINES]| row_at(&of[..], start);
-            let (top, along, up) = (row(&self.top), row(&self.ceilings[0]), row(&self.ceilings[1]));
-            let off = sy * (r as f64 - middle) * step;
-            for c in 0..BLOCK {
-                let highest = most(top[c] * FIXED_STEP, most(along[c] - back_x, up[c] - back_y));
-                most_of[c] = most(most_of[c], highest - (across[c] + off));
-            }
-            if c0 + BLOCK < SIDE {
-                let beyond =
-                    self.ceilings[0][start + BLOCK] - back_x - (sx * (BLOCK as f64 - middle) * step + off);
-                most_of[0] = most(most_of[0], beyond);
-            }
-        }
-        if r0 + BLOCK < SIDE {
-            let next = row_at(&self.ceilings[1][..], (r0 + BLOCK) * SIDE + c0);
-            let off = sy * (BLOCK as f64 - middle) * step;
-            for c in 0..BLOCK {
-                most_of[c] = most(most_of[c], next[c] - back_y - (across[c] + off));
-            }
-        }
-        Cover { height: most_of.into_iter().fold(f64::NEG_INFINITY, most), slopes }
-    }
-
     /// Bounds on a part by block, as [`Sweep::bounds`] has them.
     pub(super) fn bounds(&self, sweep: &Sweep) -> [f64; BLOCKS] {
         self.arch.dispatch(Bounds { patch: self, sweep })
@@ -516,228 +420,6 @@ impl Patch {
         }
     }
 
-    /// Lets a part go through blocks, and tells what it takes, if that is asked for; its heights stay until they are forgotten.
-    pub(super) fn sink(&mut self, sweep: &Sweep, blocks: Blocks, index: f64, tell: bool) -> [Sunk; BLOCKS] {
-        if sweep.is_one_by_one() {
-            self.raise_one_by_one(sweep, blocks);
-            if self.between {
-                self.sink_ceilings_one_by_one(sweep, blocks);
-            }
-        }
-        self.arch.dispatch(Sink { patch: self, sweep, blocks, index, tell })
-    }
-
-    /// Lowers the tops of a block to the heights of a part.
-    #[inline(always)]
-    fn sink_tops(&mut self, (c0, r0): (usize, usize), index: f64) -> Sunk {
-        let (mut greatest, mut sum) = ([0.0; BLOCK], [0.0; BLOCK]);
-        let mut lowest = [false; BLOCK];
-        for r in r0..r0 + BLOCK {
-            let start = r * SIDE + c0;
-            let heights = row_at(&self.heights[..], height_at(r, c0));
-            let (mut top, mut task) = (row_at(&self.top[..], start), row_at(&self.task[..], start));
-            let bottom = row_at(&self.bottom[..], start);
-            let mut overlap = [0.0; BLOCK];
-            for c in 0..BLOCK {
-                let at = most(rounded(heights[c]), bottom[c]);
-                // Heights are whole numbers: of tasks that go equally low the first.
-                let limit = top[c] + if index < task[c] { 0.5 } else { 0.0 };
-                let goes_lowest = at < limit;
-                task[c] = if goes_lowest { index } else { task[c] };
-                lowest[c] |= goes_lowest;
-                overlap[c] = most(top[c] - at, 0.0);
-                top[c] = least(top[c], at);
-                sum[c] += overlap[c];
-                greatest[c] = most(greatest[c], overlap[c]);
-            }
-            put_row(&mut self.top[..], start, top);
-            put_row(&mut self.task[..], start, task);
-            put_row(&mut self.overlap[..], start, overlap);
-        }
-        let is_new = lowest.into_iter().fold(false, |any, one| any | one);
-        Sunk { greatest: greatest.into_iter().fold(0.0, most), sum: sum.into_iter().sum::<f64>(), is_new }
-    }
-
-    /// Notes what a part has met in a block.
-    fn note(&self, field: &Field, (c0, r0): (usize, usize), task: &Task, sunk: &Sunk, done: &mut Done) {
-        let Sunk { greatest, sum, .. } = *sunk;
-        if self.simple {
-            done.removed += sum as i64;
-        }
-        // The part made smaller by the clearance passes higher by the clearance at least.
-        let clearance = task.clearance / FIXED_STEP - 1.0;
-        let told = |overlap: f64, done: &Done| overlap > clearance && overlap > done.deepest as f64;
-        if greatest == 0.0 || (self.simple && !told(greatest, done)) {
-            return;
-        }
-        // The deepest first: after it no other one has to be told.
-        let at = |i: usize| (r0 + i / BLOCK, c0 + i % BLOCK);
-        let deepest = |i: &usize| self.overlap_at(at(*i)) == greatest;
-        let first = (0..BLOCK * BLOCK).find(deepest).unwrap_or(0);
-        for i in std::iter::once(first).chain((0..BLOCK * BLOCK).filter(|i| *i != first)) {
-            let (r, c) = at(i);
-            let overlap = self.overlap_at((r, c));
-            if overlap == 0.0 || (self.simple && !told(overlap, done)) {
-                continue;
-            }
-            let Some(line) = field.line(self.first[0] + c as i64, self.first[1] + r as i64) else {
-                continue;
-            };
-            let floor = self.top[r * SIDE + c];
-            let over = Sweep::exchanged(task, DVec2::new(self.x[c], self.y[r]));
-            let column = Column { over, floor: floor as i32, top: (floor + overlap) as i32 };
-            let mut taken = overlap as i64;
-            if !self.simple {
-                taken = column.taken(field.material(line), task);
-                done.removed += taken;
-            }
-            if told(overlap, done) {
-                column.note(field.material(line), taken, task, done);
-            }
-            if self.simple && !told(greatest, done) {
-                break;
-            }
-        }
-    }
-
-    fn overlap_at(&self, (r, c): (usize, usize)) -> f64 {
-        self.overlap[r * SIDE + c]
-    }
-
-    /// The same without telling what was taken.
-    #[inline(always)]
-    fn sink_tops_only(&mut self, (c0, r0): (usize, usize), index: f64) -> Sunk {
-        let mut lowest = [false; BLOCK];
-        for r in r0..r0 + BLOCK {
-            let start = r * SIDE + c0;
-            let heights = row_at(&self.heights[..], height_at(r, c0));
-            let (mut top, mut task) = (row_at(&self.top[..], start), row_at(&self.task[..], start));
-            let bottom = row_at(&self.bottom[..], start);
-            for c in 0..BLOCK {
-                let at = most(rounded(heights[c]), bottom[c]);
-                let limit = top[c] + if index < task[c] { 0.5 } else { 0.0 };
-                let goes_lowest = at < limit;
-                task[c] = if goes_lowest { index } else { task[c] };
-                top[c] = least(top[c], at);
-                lowest[c] |= goes_lowest;
-            }
-            put_row(&mut self.top[..], start, top);
-            put_row(&mut self.task[..], start, task);
-        }
-        Sunk { is_new: lowest.into_iter().fold(false, |any, one| any | one), ..Sunk::default() }
-    }
-
-    /// Lowers the ceilings of a block to where a part has taken both ends of a way, and all between; true if one has become lower.
-    #[inline(always)]
-    fn sink_ceilings(&mut self, (c0, r0): (usize, usize)) -> bool {
-        let mut lower = [false; BLOCK];
-        let heights = &self.heights[..];
-        let [along, up] = &mut self.ceilings;
-        for r in r0..r0 + BLOCK {
-            let (start, at) = (r * SIDE + c0, height_at(r, c0));
-            // Not by `map`, which does not become part of this.
-            let (here, left, below) =
-                (row_at(heights, at), row_at(heights, at - 1), row_at(heights, at - HEIGHTS));
-            let (mut a, mut u) = (row_at(&along[..], start), row_at(&up[..], start));
-            for c in 0..BLOCK {
-                let (beside, behind) = (most(here[c], left[c]), most(here[c], below[c]));
-                lower[c] |= beside < a[c] || behind < u[c];
-                a[c] = least(a[c], beside);
-                u[c] = least(u[c], behind);
-            }
-            put_row(&mut along[..], start, a);
-            put_row(&mut up[..], start, u);
-        }
-        lower.into_iter().fold(false, |any, one| any | one)
-    }
-
-    /// The same for what is swept along an arc at one height.
-    #[inline(always)]
-    fn sink_ceilings_round(&mut self, (c0, r0): (usize, usize), sweep: &Sweep, round: &Round) -> bool {
-        let mut lower = [false; BLOCK];
-        let (x, mut left) = (row_at(&self.x, c0), row_at(&self.x, c0));
-        for x in &mut left {
-            *x -= self.step;
-        }
-        for r in r0..r0 + BLOCK {
-            let (start, at) = (r * SIDE + c0, height_at(r, c0));
-            let (y, below) = ([self.y[r]; BLOCK], [self.y[r] - self.step; BLOCK]);
-            let here = row_at(&self.heights[..], at);
-            for (k, (from, before)) in
-                [([&left, &y], at - 1), ([&x, &below], at - HEIGHTS)].into_iter().enumerate()
-            {
-                let before = row_at(&self.heights[..], before);
-                let mut ceilings = row_at(&self.ceilings[k][..], start);
-                let mut any = false;
-                for c in 0..BLOCK {
-                    any |= most(here[c], before[c]) < ceilings[c];
-                }
-                if !any {
-                    continue;
-                }
-                let between = sweep.between_round(round, [from, [&x, &y]], [&before, &here]);
-                for c in 0..BLOCK {
-                    lower[c] |= between[c] < ceilings[c];
-                    ceilings[c] = least(ceilings[c], between[c]);
-                }
-                put_row(&mut self.ceilings[k][..], start, ceilings);
-            }
-        }
-        lower.into_iter().fold(false, |any, one| any | one)
-    }
-
-    /// The same for what is swept along a rising arc, way by way.
-    fn sink_ceilings_one_by_one(&mut self, sweep: &Sweep, blocks: Blocks) {
-        for (c0, r0) in blocks.corners() {
-            for (k, (dr, dc)) in [(0, (0, 1)), (1, (1, 0))] {
-                for r in r0.max(1)..r0 + BLOCK {
-                    for c in c0.max(1)..c0 + BLOCK {
-                        let ceiling = &mut self.ceilings[k][r * SIDE + c];
-                        let both = self.heights[height_at(r, c)].max(self.heights[height_at(r - dr, c - dc)]);
-                        if both < *ceiling {
-                            let at = |r: usize, c: usize| DVec2::new(self.x[c], self.y[r]);
-                            *ceiling = ceiling.min(sweep.between(at(r - dr, c - dc), at(r, c)));
-                        }
-                    }
-                }
-            }
-        }
-    }
-
-    /// Whether the height down to which a task went over a line lies in the material that was there.
-    fn leaves_end(&self, field: &Field, l: usize, task: &Task) -> bool {
-        let line = field.line(self.first[0] + (l % SIDE) as i64, self.first[1] + (l / SIDE) as i64);
-        let is_in = |interval: &Interval| {
-            let (from, to) = heights(interval, task);
-            f64::from(from) <= self.top[l] && self.top[l] < f64::from(to)
-        };
-        line.is_some_and(|line| field.material(line).iter().any(is_in))
-    }
-
-    /// The tasks that have left an end on a line of the patch: they have taken something, of which no more is known than one rounding.
-    pub(super) fn left(&self, field: &Field, tasks: &[Task]) -> Vec<Done> {
-        let mut all: Vec<(u32, usize)> = Vec::new();
-        for (l, task) in self.task.iter().enumerate().filter(|(_, task)| **task != NO_TASK) {
-            if !self.simple && !self.leaves_end(field, l, &tasks[*task as usize]) {
-                continue;
-            }
-            if all.last().is_none_or(|(last, _)| *last != *task as u32) {
-                all.push((*task as u32, l));
-            }
-        }
-        all.sort_unstable();
-        all.dedup_by_key(|(task, _)| *task);
-        let point = |task: &Task, l: usize| {
-            let over = Sweep::exchanged(task, DVec2::new(self.x[l % SIDE], self.y[l / SIDE]));
-            task.frame.stock(over.extend(self.top[l] * FIXED_STEP)).to_array()
-        };
-        let done = |(task, l)| {
-            let first = Some((1.0, point(&tasks[task as usize], l)));
-            Done { task, removed: 1, deepest: 1, first }
-        };
-        all.into_iter().map(done).collect()
-    }
-
     /// The heights of the own lines that a task has cut, and the tasks.
     pub(super) fn cut_tops(&self) -> Box<Tops> {
         let mut tops = Box::new(Tops::UNCUT);
@@ -752,15 +434,6 @@ impl Patch {
         }
         tops
     }
-}
-
-/// What a part took out of a block [fixed steps]: the most of one line, and of all.
-#[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Sunk {
-    greatest: f64,
-    sum: f64,
-    /// Whether it went lowest on a line, or in a way.
-    is_new: bool,
 }
 
 // Work in the widest instructions of the machine: all that these call has to become part of them.
@@ -787,38 +460,6 @@ impl NullaryFnOnce for Reached<'_, '_> {
     }
 }
 
-/// Planes below a part by block.
-struct Tangents<'a, 'b> {
-    patch: &'a Patch,
-    sweep: &'a Sweep<'b>,
-}
-
-impl NullaryFnOnce for Tangents<'_, '_> {
-    type Output = Planes;
-
-    #[inline(always)]
-    fn call(self) -> [[f64; BLOCKS]; 3] {
-        let Tangents { patch, sweep } = self;
-        sweep.planes(&patch.middles[0], &patch.middles[1])
-    }
-}
-
-/// The covers of all blocks.
-struct Covers<'a>(&'a Patch);
-
-impl NullaryFnOnce for Covers<'_> {
-    type Output = [Cover; BLOCKS];
-
-    #[inline(always)]
-    fn call(self) -> [Cover; BLOCKS] {
-        let mut covers = [Cover::default(); BLOCKS];
-        for (b, cover) in covers.iter_mut().enumerate() {
-            *cover = self.0.cover_of(b);
-        }
-        covers
-    }
-}
-
 /// Bounds on a part by block.
 struct Bounds<'a, 'b> {
     patch: &'a Patch,
@@ -832,53 +473,6 @@ impl NullaryFnOnce for Bounds<'_, '_> {
     fn call(self) -> [f64; BLOCKS] {
         let Bounds { patch, sweep } = self;
         sweep.bounds(&patch.middles[0], &patch.middles[1], patch.radius)
-    }
-}
-
-/// A part goes through blocks; if it is along a straight path its heights are computed.
-struct Sink<'a, 'b> {
-    patch: &'a mut Patch,
-    sweep: &'a Sweep<'b>,
-    blocks: Blocks,
-    index: f64,
-    /// Whether what is taken is told.
-    tell: bool,
-}
-
-impl NullaryFnOnce for Sink<'_, '_> {
-    type Output = [Sunk; BLOCKS];
-
-    #[inline(always)]
-    fn call(self) -> [Sunk; BLOCKS] {
-        let Sink { patch, sweep, blocks, index, tell } = self;
-        let one_by_one = sweep.is_one_by_one();
-        if !one_by_one {
-            patch.raise(sweep, blocks);
-        }
-        let mut sunk = [Sunk::default(); BLOCKS];
-        for (corner, sunk) in blocks.corners().zip(&mut sunk) {
-            *sunk = if tell { patch.sink_tops(corner, index) } else { patch.sink_tops_only(corner, index) };
-            if patch.between {
-                sunk.is_new |= match sweep.round() {
-                    // They were lowered before.
-                    Some(_) if one_by_one => true,
-                    Some(round) => patch.sink_ceilings_round(corner, sweep, round),
-                    None => patch.sink_ceilings(corner),
-                };
-            }
-        }
-        let mut covers = patch.covers;
-        for (b, _) in
-            (0..BLOCKS).filter(|b| blocks.0 >> b & 1 == 1).zip(&sunk).filter(|(_, sunk)| sunk.is_new)
-        {
-            patch.hull[b] = patch.hull_of(b);
-            patch.latest[b] = patch.latest_of(b);
-            if let Some(covers) = &mut covers {
-                covers[b] = patch.cover_of(b);
-            }
-        }
-        patch.covers = covers;
-        sunk
     }
 }
 
