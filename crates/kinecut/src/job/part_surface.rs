@@ -5,8 +5,7 @@ use super::setup_outcome::SetupOutcome;
 use super::shape::compares;
 use super::simulate::{Simulation, surface};
 use crate::base::{Progress, Result};
-use crate::stock::TriDexel;
-use crate::stock::surface::{CutSurface, SurfaceOptions, surface_with_cuts};
+use crate::stock::surface::{CutSurface, SurfaceOptions};
 
 /// Surface of the cut part that a run makes.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -14,14 +13,14 @@ pub enum PartSurface {
     /// Of all lines of the stock model: for meshes, sections, points, and for what the part is compared with.
     #[default]
     Full,
-    /// For the picture of the report: of no more lines than it shows. Full where the part is compared with something. The volume is
-    /// then known by the lines alone, all of them.
+    /// For the picture of the report: of about as many lines as it shows, and the volume is known by the lines alone, all of them. Where
+    /// the part is compared with something it is the full surface.
     Picture,
     /// No surface: the volume is known by the lines alone.
     None,
 }
 
-/// Lines of a picture: about twice as many triangles are as many as a page shows quickly.
+/// Lines of a picture, about: twice as many triangles are as many as a page shows quickly.
 const LINES: u64 = 300_000;
 
 /// Number of lines of the stock model for each line of a picture, along each direction.
@@ -50,18 +49,18 @@ pub(super) fn part_surface(
     match job.part_surface {
         PartSurface::None => Ok(None),
         PartSurface::Picture if every > 1 && !compares(job, setups) => {
-            let stock = &simulation.stock;
-            let options = simulation.budget.surface_options(job, stock);
-            let some: TriDexel = stock.sieved(every, progress);
+            let options = simulation.budget.surface_options(job, &simulation.stock);
             let step = job.step * f64::from(every);
             let usual = SurfaceOptions::default().tolerance(step);
             let tolerance = Some(options.tolerance(job.step).max(usual));
-            let surface = surface_with_cuts(&some, &SurfaceOptions { tolerance, ..options }, progress)?;
+            let some = simulation.stock.sieved(every, progress);
+            let surface = surface(&some, &SurfaceOptions { tolerance, ..options }, progress)?;
             Ok(Some(MadeSurface { surface, drawn_step: Some(step) }))
         }
         PartSurface::Picture | PartSurface::Full => {
             simulation.stock.settle(progress);
-            let surface = surface(job, (&simulation.budget, &simulation.stock), progress)?;
+            let options = simulation.budget.surface_options(job, &simulation.stock);
+            let surface = surface(&simulation.stock, &options, progress)?;
             Ok(Some(MadeSurface { surface, drawn_step: None }))
         }
     }

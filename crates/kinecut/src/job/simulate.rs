@@ -18,7 +18,7 @@ use crate::geom::Solid;
 use crate::operations::measured::{Loose, Probe, WallProbe};
 use crate::stock::certify::{Certificate, CertifiedRun, certify};
 use crate::stock::cut::{CutAxis, CutList, CutMove, CutOptions, MoveEffect, Stance, ToolBody, cut_list};
-use crate::stock::surface::{CutSurface, surface_with_cuts};
+use crate::stock::surface::{CutSurface, SurfaceOptions, surface_with_cuts};
 use crate::stock::{PointEngagement, TriDexel, Volume, WallEnd, point_engagement, wall_ends};
 use crate::sweep::ToolMotion;
 use crate::tool::{Cutter, DrillPoint, Tool, ToolNumber};
@@ -85,7 +85,9 @@ pub fn simulate(
         Volume::of_solid(&job.stock)
     } else {
         let surface = match job.part_surface {
-            PartSurface::Full => Some(surface(job, (&budget, &stock), &crate::base::Silent)?),
+            PartSurface::Full => {
+                Some(surface(&stock, &budget.surface_options(job, &stock), &crate::base::Silent)?)
+            }
             PartSurface::Picture | PartSurface::None => None,
         };
         left(job, &stock, surface.as_ref())
@@ -178,17 +180,16 @@ fn append<T>(all: &mut Vec<T>, more: Vec<T>) {
     }
 }
 
-/// The surface of a stock of a job, within the memory that the job allows.
+/// The surface of a stock of a job.
 ///
 /// # Errors
 /// `KC0105` at `simulate.mesh_tolerance` when that does not suffice; `KC0009` when cancelled.
 pub(super) fn surface(
-    job: &Job,
-    (budget, stock): (&Budget, &TriDexel),
+    stock: &TriDexel,
+    options: &SurfaceOptions,
     progress: &dyn Progress,
 ) -> Result<CutSurface> {
-    let options = budget.surface_options(job, stock);
-    surface_with_cuts(stock, &options, progress).map_err(|e| match e.code() {
+    surface_with_cuts(stock, options, progress).map_err(|e| match e.code() {
         Code::JOB_BUDGET => e.under("simulate.mesh_tolerance"),
         _ => e,
     })

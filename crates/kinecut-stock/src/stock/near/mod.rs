@@ -54,6 +54,19 @@ pub fn face_below<G: DexelGrid + ?Sized>(
     leaning::face_below(stock, tip, axis, radius, reach)
 }
 
+/// False only if no line along the axis, in a tool at rest at `tip` or next to it, has material at the heights of the tool: then
+/// nothing but a wall thinner than the lines are apart can touch it. That is known sooner than [`touches`], and no line has to be cut for
+/// it. True for a tool that leans, of which nothing is known sooner.
+pub fn may_touch<G: DexelGrid + ?Sized>(
+    stock: &G,
+    parts: &[(&Profile, f64)],
+    tip: DVec3,
+    axis: DVec3,
+    margin: f64,
+) -> bool {
+    CutAxis::of(axis).is_none_or(|along| upright::may_touch(stock, parts, tip, along, margin))
+}
+
 /// True if a tool at rest at `tip` touches material: if one of its parts, with a `margin` [mm] on all sides, overlaps
 /// some. Parts are given with their heights above the tip [mm]; their radius is taken not to fall upwards.
 pub fn touches<G: DexelGrid + ?Sized>(

@@ -34,7 +34,7 @@ pub(super) fn highest<G: DexelGrid + ?Sized>(stock: &G, axis: CutAxis) -> Option
 pub(super) fn above<G: DexelGrid + ?Sized>(stock: &G, tip: DVec3, axis: CutAxis, radius: f64) -> f64 {
     let floor = tip.dot(axis.vector());
     let mut longest: f64 = 0.0;
-    columns(stock, tip, axis, radius, |_, a, b| {
+    columns(stock, tip, axis, radius, |_, [a, b]| {
         let length: f64 = stock
             .line(axis.along(), a, b)
             .iter()
@@ -49,7 +49,7 @@ pub(super) fn above<G: DexelGrid + ?Sized>(stock: &G, tip: DVec3, axis: CutAxis,
 /// Heights at which material ends upwards on the lines along the axis whose distance from `at` is between two radii.
 pub(super) fn tops<G: DexelGrid + ?Sized>(stock: &G, at: DVec3, axis: CutAxis, radii: [f64; 2]) -> Vec<f64> {
     let mut found = Vec::new();
-    columns(stock, at, axis, radii[1], |r, a, b| {
+    columns(stock, at, axis, radii[1], |r, [a, b]| {
         let line = stock.line(axis.along(), a, b);
         let end = if axis.sign() > 0.0 { line.last() } else { line.first() };
         if r >= radii[0] {
@@ -70,9 +70,7 @@ pub(super) fn touches<G: DexelGrid + ?Sized>(
 ) -> bool {
     parts.iter().any(|(profile, at)| {
         let foot = tip + axis.vector() * *at;
-        on_floor(stock, profile, foot, axis, margin)
-            || is_beside_lines(stock, profile, foot, axis, margin)
-                && at_wall(stock, profile, foot, axis, margin)
+        on_floor(stock, profile, foot, axis, margin) || at_wall(stock, profile, foot, axis, margin)
     })
 }
 
@@ -84,34 +82,29 @@ fn on_floor<G: DexelGrid + ?Sized>(
     margin: f64,
 ) -> bool {
     let base = foot.dot(axis.vector());
-    let mut touched = false;
-    columns(stock, foot, axis, profile.max_radius() + margin, |r, a, b| {
-        touched = touched || {
-            let from = base + lowest(profile, r - margin) - margin;
-            stock.has_material(axis.along(), [a, b], between(axis, from, base + profile.top()))
-        };
-    });
-    touched
+    any_column(stock, foot, axis, profile.max_radius() + margin, |r, line| {
+        let from = base + lowest(profile, r - margin) - margin;
+        stock.has_material(axis.along(), line, between(axis, from, base + profile.top()))
+    })
 }
 
-/// Whether a line along the axis next to a part, or in it, has material at its heights: where there is a wall, one has, but for walls
-/// thinner than the lines are apart. The lines across the axis are many, and may have to be cut before they are read.
-fn is_beside_lines<G: DexelGrid + ?Sized>(
+/// True if a line along the axis, in a tool at rest at `tip` or next to it, has material at the heights of the tool.
+pub(super) fn may_touch<G: DexelGrid + ?Sized>(
     stock: &G,
-    profile: &Profile,
-    foot: DVec3,
+    parts: &[(&Profile, f64)],
+    tip: DVec3,
     axis: CutAxis,
     margin: f64,
 ) -> bool {
     /// From a wall to the line behind it: more than the diagonal of a square of lines [steps].
     const BEHIND: f64 = 1.5;
-    let [from, to] = [profile.bottom(), profile.top()].map(|z| foot.dot(axis.vector()) + z);
-    let mut beside = false;
-    let radius = profile.max_radius() + margin + BEHIND * stock.lattice().step;
-    columns(stock, foot, axis, radius, |_, a, b| {
-        beside = beside || stock.has_material(axis.along(), [a, b], between(axis, from, to));
-    });
-    beside
+    parts.iter().any(|(profile, at)| {
+        let heights = [profile.bottom() - margin, profile.top()];
+        let [from, to] = heights.map(|z| tip.dot(axis.vector()) + at + z);
+        let radius = profile.max_radius() + margin + BEHIND * stock.lattice().step;
+        let has_material = |line| stock.has_material(axis.along(), line, between(axis, from, to));
+        any_column(stock, tip, axis, radius, |_, line| has_material(line))
+    })
 }
 
 /// The lowest height at which a profile is as wide as `r` [mm].
@@ -209,23 +202,37 @@ fn columns<G: DexelGrid + ?Sized>(
     at: DVec3,
     axis: CutAxis,
     radius: f64,
-    mut each: impl FnMut(f64, u32, u32),
+    mut each: impl FnMut(f64, [u32; 2]),
 ) {
+    any_column(stock, at, axis, radius, |r, line| {
+        each(r, line);
+        false
+    });
+}
+
+/// True if something holds of a line along the axis that is at most `radius` from a point, by its distance and its indices.
+fn any_column<G: DexelGrid + ?Sized>(
+    stock: &G,
+    at: DVec3,
+    axis: CutAxis,
+    radius: f64,
+    mut holds: impl FnMut(f64, [u32; 2]) -> bool,
+) -> bool {
     let lattice = stock.lattice();
     // Half the diagonal of a cell, and a little: a circle of that has a line in it.
     let radius = radius.max(0.75 * lattice.step);
     let (a, b) = axis.along().others();
     let centre = [at[a.index()], at[b.index()]];
-    for j in indices(lattice, b, centre[1] - radius, centre[1] + radius) {
-        for i in indices(lattice, a, centre[0] - radius, centre[0] + radius) {
+    let [columns, mut rows] =
+        [(a, 0), (b, 1)].map(|(axis, k)| indices(lattice, axis, centre[k] - radius, centre[k] + radius));
+    rows.any(|j| {
+        columns.clone().any(|i| {
             let x = lattice.coordinate(a, i) + LINE_OFFSET - centre[0];
             let y = lattice.coordinate(b, j) + LINE_OFFSET - centre[1];
             let r = x.hypot(y);
-            if r <= radius {
-                each(r, i, j);
-            }
-        }
-    }
+            r <= radius && holds(r, [i, j])
+        })
+    })
 }
 
 /// The indices of the lattice along an axis whose coordinates lie between two.
@@ -275,6 +282,32 @@ mod tests {
         assert!(!touched([10.0, 10.0, -10.06], CutAxis::MinusZ));
         assert!(touched([-0.04, 10.0, -5.0], CutAxis::MinusX));
         assert!(!touched([-0.06, 10.0, -5.0], CutAxis::MinusX));
+    }
+
+    #[test]
+    fn what_touches_may_touch_and_what_is_far_may_not() {
+        let (mill, ball) =
+            (Profile::cylinder(6.0, 15.0).unwrap(), Profile::bull_nose(8.0, 4.0, 15.0).unwrap());
+        let stock = block();
+        let mut touched = 0;
+        for i in 0..4000u32 {
+            // Places all about the block, spread evenly; a part that hangs lower than the tip's.
+            let part = |irrational: f64, wide: f64| (f64::from(i) * irrational).fract() * wide;
+            let tip = DVec3::new(
+                part(0.414_213_56, 30.0) - 5.0,
+                part(0.732_050_8, 30.0) - 5.0,
+                part(0.236_067_98, 20.0) - 15.0,
+            );
+            let parts = [(if i % 2 == 0 { &mill } else { &ball }, f64::from(i % 3) - 1.0)];
+            let axis = CutAxis::ALL[i as usize % 6];
+            let touches = touches(&stock, &parts, tip, axis, 0.05);
+            assert!(!touches || may_touch(&stock, &parts, tip, axis, 0.05), "{tip} {axis:?}");
+            touched += u32::from(touches);
+        }
+        assert!((500..3500).contains(&touched), "{touched}");
+        let beside =
+            |x: f64| may_touch(&stock, &[(&mill, 0.0)], DVec3::new(x, 10.3, -4.0), CutAxis::PlusZ, 0.05);
+        assert!(beside(23.04) && !beside(25.0));
     }
 
     #[test]

@@ -56,7 +56,7 @@ pub struct Job {
     pub surface: SurfaceOptions,
     /// Whether the cut stock is proven against the moves.
     pub certified: bool,
-    /// Whether no surface of the cut part is wanted.
+    /// Surface of the cut part that is made.
     pub part_surface: PartSurface,
     /// Clampings, in order.
     pub setups: Vec<JobSetup>,

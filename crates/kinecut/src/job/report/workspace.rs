@@ -76,7 +76,7 @@ fn view(report: &Report, scene: &Scene) -> Markup {
                 @if let Some(part) = &report.part { (legend(part, scene)) }
             }
             @if let Some(step) = report.drawn_step {
-                p.bar.quiet { "Part drawn from lines " (trimmed(step, 3)) " mm apart, numbers are of all lines." }
+                p.bar.quiet { "Part drawn from lines " (trimmed(step, 3)) " mm apart: what is thinner may not show. Numbers are of all lines." }
             }
             @if !report.path.is_empty() { (player()) }
         }

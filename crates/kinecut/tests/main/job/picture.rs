@@ -1,9 +1,9 @@
 //! The part of a report is drawn from some lines; what is said of it is known by all.
 
-use kinecut::base::{Code, Silent};
+use kinecut::base::{Code, MemoryLoader, Silent};
 use kinecut::job::{
-    GivenFile, InspectWants, Inspection, Outcome, PartSurface, ProgramWants, StockWants, given_alone, report,
-    simulate_given,
+    GivenFile, InspectWants, Inspection, Outcome, PartSurface, ProgramWants, RunWants, StockWants,
+    given_alone, report, run_with, simulate_given,
 };
 
 /// A slot 8 mm wide and 3 mm deep, and a hole of 4 mm through the block.
@@ -49,4 +49,39 @@ fn a_picture_of_few_lines_is_the_surface() {
     let [drawn, full] = [PartSurface::Picture, PartSurface::Full].map(|surface| simulated(0.4, surface));
     assert_eq!(drawn.drawn_step, None);
     assert!(drawn.part == full.part && drawn.removed == full.removed);
+}
+
+/// Colours of deviation are those of the ends around each vertex: lines left out would hide some.
+#[test]
+fn a_part_that_is_compared_has_its_surface_of_all_lines() {
+    let job = r#"
+        format = 1
+        stock = { box = { min = [-12, -12, -6], max = [12, 12, 0] } }
+        post = { control = "fanuc" }
+        simulate = { step = 0.05 }
+        [[tool]]
+        number = 1
+        type = "drill"
+        diameter = 8
+        flute_length = 60
+        [[setup]]
+        offset = "G54"
+        safe_height = 20
+        [[setup.operation]]
+        type = "drill"
+        tool = 1
+        points = [[0, 0]]
+        entry = { surface = "plane" }
+        exit = "same"
+        length = 6
+        tolerance = 0.05
+        speed = 1800
+        feed_per_rev = { entry = 0.1, steady = 0.2, exit = 0.1 }
+    "#;
+    let stock = StockWants { surface: PartSurface::Picture, ..StockWants::default() };
+    let wants = RunWants { stock, ..RunWants::default() };
+    let outcome = run_with("job.toml", job, &wants, &MemoryLoader::default(), &Silent).unwrap();
+    assert!(outcome.simulation.budget.line_count > 300_000);
+    assert!(outcome.drawn_step.is_none() && !outcome.deviation.at_vertices.is_empty());
+    assert_eq!(outcome.deviation.at_vertices.len(), outcome.part.vertices.len());
 }

@@ -179,7 +179,7 @@ pub(super) fn cut_behind(
 }
 
 impl Late {
-    /// Whether a move, by its number, is none along a straight line.
+    /// True for the number of a move that does not go along a straight line.
     fn is_curved(&self, number: u32) -> bool {
         let owed = self.owed(number as usize);
         owed.is_some_and(|(list, at)| !matches!(list.moves[at].curve.kind(), CurveKind::Line(_)))

@@ -9,7 +9,7 @@ use super::reference::Random;
 use crate::base::{Progress, Silent};
 use crate::geom::{Aabb, Line};
 use crate::stock::cut::{CutAxis, CutList, CutMove, CutOptions, ToolBody, cut_list};
-use crate::stock::{Axis, DexelGrid, TriDexel};
+use crate::stock::{Axis, DexelGrid, Interval, TriDexel, Volume, unfixed};
 
 const BLOCK: Aabb = Aabb { min: DVec3::new(-9.0, -8.0, -7.0), max: DVec3::new(9.3, 8.1, 6.2) };
 
@@ -49,6 +49,24 @@ fn lines_are_cut_when_they_are_read_and_not_before() {
         }
         let mut settled = late.clone();
         settled.settle(&Silent);
+        // Known without reading, and without cutting.
+        assert_eq!(Volume::of_lines(&late), Volume::of_lines(&settled));
+        let [along, a, b] = [axis.along(), axis.along().others().0, axis.along().others().1];
+        let counts = late.lattice().counts;
+        let mut found = [0; 2];
+        for j in 0..counts[b.index()] {
+            for i in 0..counts[a.index()] {
+                let low = random.within(-9.0, 9.0);
+                let between = [low, low + random.within(0.0, 3.0)];
+                let line = settled.line(along, i, j).iter();
+                let has = |i: &Interval| unfixed(i.lo.at) < between[1] && unfixed(i.hi.at) > between[0];
+                let has_some = line.clone().any(has);
+                assert_eq!(late.has_material(along, [i, j], between), has_some, "{axis:?} {i} {j}");
+                found[usize::from(has_some)] += 1;
+            }
+        }
+        assert!(found.iter().all(|n| *n > 50), "{found:?}");
+        assert!(late.above.as_ref().is_some_and(|above| above.owes(along)));
         // Read before and after the others.
         compare_lines([&late, &settled], "read", |a, b| a == b);
         let (volume, others) = (late.volumes()[axis.along().index()], late.volumes());

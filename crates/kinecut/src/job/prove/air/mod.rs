@@ -17,7 +17,7 @@ use crate::base::{Code, Finding};
 use crate::geom::Aabb;
 use crate::job::look::TOUCH;
 use crate::program::Item;
-use crate::stock::near::touches;
+use crate::stock::near::{may_touch, touches};
 use crate::tool::Cutter;
 
 /// Share of the way at depth in air from which a piece of work is reported.
@@ -49,31 +49,34 @@ fn one(simulated: &Simulated<'_>, work: &Work<'_>) -> Vec<Finding> {
     let feeds: Vec<&Done<'_>> = work.feeds().collect();
     let (stock, radius) = (simulated.job.stock.bounds(), work.radius());
     // Material nearby counts only if a path that meets nothing could be reported.
-    let bounds: Vec<_> = feeds.par_iter().map(|d| (*d, way(d, stock, radius, |_, _| false))).collect();
+    let bounds: Vec<AirMove> = feeds.par_iter().map(|d| way(d, stock, radius, |_, _| false)).collect();
     let lines = &simulated.simulation.stock;
-    let near = |tip, axis| touches(lines, &[(&cutting, 0.0)], tip, axis, TOUCH);
-    let mut ways = Ways::new(bounds, |done| way(done, stock, radius, near));
+    let parts = [(&cutting, 0.0)];
+    let near =
+        |tip, axis| may_touch(lines, &parts, tip, axis, TOUCH) && touches(lines, &parts, tip, axis, TOUCH);
+    let bounds = feeds.iter().map(|done| done.index).zip(bounds);
+    let mut ways = Ways::new(bounds, |at| way(feeds[at], stock, radius, near));
     let finding = |message: String, way: f64| {
         Finding::warning(Code::FEED_IN_AIR, message)
             .value((way * 10.0).round() / 10.0, "mm")
             .help("look at its place, its depth and the stock")
     };
     if let Some(air) = ways.nearly_all(NEARLY_ALL, most(SHORT))
-        && let Some((first, _)) = ways.moves().find(|(_, w)| w.air > 0.0)
+        && let Some(first) = ways.first().map(|at| feeds[at])
     {
         let message =
             format!("{} feeds through air nearly all the way that it is inside the stock", work.name);
         return vec![simulated.at(work.setup, first.segment.item, finding(message, air))];
     }
     let mut found = Vec::new();
-    if let Some(item) = idle_hole(simulated, work, &mut ways) {
+    if let Some(item) = idle_hole((simulated, work), &feeds, &mut ways) {
         let message = format!("a drilling cycle of {} meets no material", work.tool.number);
         let whole = Finding { value: None, ..finding(message, 0.0) };
         found.push(simulated.at(work.setup, item, whole));
     }
-    if let Some((way, item)) = ways.longest(most(LONG)) {
+    if let Some((way, first)) = ways.longest(most(LONG)) {
         let message = format!("{} feeds through air inside the stock for long", work.tool.number);
-        found.push(simulated.at(work.setup, item, finding(message, way)));
+        found.push(simulated.at(work.setup, feeds[first].segment.item, finding(message, way)));
     }
     found
 }
@@ -101,9 +104,9 @@ fn way(done: &Done<'_>, stock: Aabb, radius: f64, near: impl Fn(DVec3, DVec3) ->
 
 /// The first drilling cycle whose drill is in air all the way.
 fn idle_hole(
-    simulated: &Simulated<'_>,
-    work: &Work<'_>,
-    ways: &mut Ways<'_, impl Fn(&Done<'_>) -> AirMove + Sync>,
+    (simulated, work): (&Simulated<'_>, &Work<'_>),
+    feeds: &[&Done<'_>],
+    ways: &mut Ways<impl Fn(usize) -> AirMove + Sync>,
 ) -> Option<u32> {
     /// Least depth in air [mm].
     const DEEP: f64 = 2.0;
@@ -111,19 +114,18 @@ fn idle_hole(
         return None;
     }
     let program = &simulated.setups[work.setup].program;
-    let items: Vec<u32> = ways.moves().map(|(done, _)| done.segment.item).collect();
     let mut end = 0;
-    for hole in items.chunk_by(|a, b| a == b) {
+    for hole in feeds.chunk_by(|a, b| a.segment.item == b.segment.item) {
         let moves = end..end + hole.len();
         end = moves.end;
-        if !matches!(program.items.get(hole[0] as usize), Item::Cycle(..)) {
+        if !matches!(program.items.get(hole[0].segment.item as usize), Item::Cycle(..)) {
             continue;
         }
         let is_idle = |w: AirMove| w.air > DEEP + work.tool.cutter.tip_height() && w.air >= 0.99 * w.depth;
         if is_idle(ways.sums(moves.clone())) {
             ways.ask(&moves.clone().collect::<Vec<_>>());
             if is_idle(ways.sums(moves)) {
-                return Some(hole[0]);
+                return Some(hole[0].segment.item);
             }
         }
     }

@@ -7,10 +7,8 @@ use std::ops::Range;
 
 use rayon::prelude::*;
 
-use crate::job::prove::Done;
-
 /// A way at depth, and what of it is in air [mm].
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct AirMove {
     pub(super) depth: f64,
     pub(super) air: f64,
@@ -28,28 +26,29 @@ const AT_ONCE: usize = 16;
 
 /// A move, and what is known of it.
 #[derive(Clone, Copy)]
-struct Way<'a> {
-    done: &'a Done<'a>,
+struct Way {
+    /// Index in the trace.
+    index: usize,
     of: AirMove,
     is_bound: bool,
 }
 
 /// The ways of a piece of work, in its order.
-pub(super) struct Ways<'a, F> {
-    all: Vec<Way<'a>>,
+pub(super) struct Ways<F> {
+    all: Vec<Way>,
     exact: F,
 }
 
-impl<'a, F: Fn(&Done<'_>) -> AirMove + Sync> Ways<'a, F> {
-    /// Ways by the most that may be in air of each; `exact` is what of a move is.
-    pub(super) fn new(bounds: Vec<(&'a Done<'a>, AirMove)>, exact: F) -> Ways<'a, F> {
-        let all = bounds.into_iter().map(|(done, of)| Way { done, of, is_bound: true }).collect();
+impl<F: Fn(usize) -> AirMove + Sync> Ways<F> {
+    /// Ways by their indices in the trace, and the most that may be in air of each; `exact` is what of the way at a place in this list is.
+    pub(super) fn new(bounds: impl Iterator<Item = (usize, AirMove)>, exact: F) -> Ways<F> {
+        let all = bounds.map(|(index, of)| Way { index, of, is_bound: true }).collect();
         Ways { all, exact }
     }
 
-    /// The moves with what may be in air of them.
-    pub(super) fn moves(&self) -> impl Iterator<Item = (&'a Done<'a>, AirMove)> + '_ {
-        self.all.iter().map(|way| (way.done, way.of))
+    /// The first way that may be in air.
+    pub(super) fn first(&self) -> Option<usize> {
+        self.all.iter().position(|way| way.of.air > 0.0)
     }
 
     /// Finds out what of some moves is in air.
@@ -57,7 +56,7 @@ impl<'a, F: Fn(&Done<'_>) -> AirMove + Sync> Ways<'a, F> {
         // What has none at most has none.
         let open = |at: &usize| self.all[*at].is_bound && self.all[*at].of.air > 0.0;
         let open: Vec<usize> = moves.iter().copied().filter(open).collect();
-        let exact = |at: usize| (at, (self.exact)(self.all[at].done));
+        let exact = |at: usize| (at, (self.exact)(at));
         let found: Vec<(usize, AirMove)> = open.into_par_iter().map(exact).collect();
         for (at, of) in found {
             self.all[at] = Way { of, is_bound: false, ..self.all[at] };
@@ -88,8 +87,8 @@ impl<'a, F: Fn(&Done<'_>) -> AirMove + Sync> Ways<'a, F> {
         Some(self.sums(0..self.all.len()).air).filter(|air| enough(*air))
     }
 
-    /// The longest way through air without a break, longer than `least`, and the item at which it begins.
-    pub(super) fn longest(&mut self, least: f64) -> Option<(f64, u32)> {
+    /// The longest way through air without a break, longer than `least`, and where it begins.
+    pub(super) fn longest(&mut self, least: f64) -> Option<(f64, usize)> {
         let mut best: Option<(f64, usize)> = None;
         let is_long = |run: &(f64, usize, usize)| run.0 > least;
         let mut open = self.runs();
@@ -98,7 +97,7 @@ impl<'a, F: Fn(&Done<'_>) -> AirMove + Sync> Ways<'a, F> {
         while let Some(next) = open.iter().enumerate().max_by(|a, b| a.1.0.total_cmp(&b.1.0)).map(|(i, _)| i)
         {
             let (length, from, to) = open.swap_remove(next);
-            if best.is_some_and(|(most, first)| (most, from) > (length, first)) {
+            if best.is_some_and(|(most, _)| most > length) {
                 break;
             }
             match self.broken(from..to) {
@@ -113,7 +112,7 @@ impl<'a, F: Fn(&Done<'_>) -> AirMove + Sync> Ways<'a, F> {
                 None => {}
             }
         }
-        best.map(|(length, first)| (length, self.all[first].done.segment.item))
+        best
     }
 
     /// A move of some that is not free.
@@ -132,7 +131,7 @@ impl<'a, F: Fn(&Done<'_>) -> AirMove + Sync> Ways<'a, F> {
             let goes_on = at > from
                 && self.all.get(at).is_some_and(|way| {
                     // A rapid between two feed moves ends the way.
-                    way.of.is_free() && way.done.index == self.all[at - 1].done.index + 1
+                    way.of.is_free() && way.index == self.all[at - 1].index + 1
                 });
             if goes_on {
                 continue;
@@ -167,7 +166,61 @@ fn gcd(mut a: usize, mut b: usize) -> usize {
 
 #[cfg(test)]
 mod tests {
+    use proptest::prelude::*;
+
     use super::*;
+
+    /// The longest run and the sum by going through all ways, as the rule says them.
+    fn by_all(
+        ways: &[(usize, AirMove)],
+        least: f64,
+        [share, short]: [f64; 2],
+    ) -> (Option<(f64, usize)>, Option<f64>) {
+        let (mut run, mut best): ((f64, usize), Option<(f64, usize)>) = ((0.0, 0), None);
+        let (mut depth, mut air, mut next) = (0.0, 0.0, 0);
+        for (at, (index, way)) in ways.iter().enumerate() {
+            (depth, air) = (depth + way.depth, air + way.air);
+            if way.air <= 0.0 || way.air < 0.99 * way.depth {
+                run = (0.0, 0);
+            } else {
+                run = if run.0 > 0.0 && *index == next { (run.0 + way.air, run.1) } else { (way.air, at) };
+            }
+            next = index + 1;
+            if run.0 > least && best.is_none_or(|(most, _)| run.0 > most) {
+                best = Some(run);
+            }
+        }
+        (best, Some(air).filter(|air| *air >= share * depth && *air > short))
+    }
+
+    proptest! {
+        #![proptest_config(kinecut_cases::property(256))]
+        #[test]
+        fn what_is_asked_of_some_is_what_all_say(
+            moves in prop::collection::vec((1..4usize, 0..5u32, 0..20u32, prop::bool::ANY), 0..120),
+            least in 0..12u32,
+            free in 0..20u32,
+        ) {
+            // Depth in whole numbers; a way is all in air as often as `free` says, or in part, or met material.
+            let mut index = 0;
+            let ways: Vec<(usize, AirMove, AirMove)> = moves
+                .iter()
+                .map(|&(gap, depth, of_twenty, met)| {
+                    index += if gap < 3 { 1 } else { 2 };
+                    let depth = f64::from(depth);
+                    let bound = if met && of_twenty > 17 { 0.0 } else { depth };
+                    let air = if of_twenty >= free { bound } else { (0.5 * bound).floor() };
+                    (index, AirMove { depth, air: bound }, AirMove { depth, air })
+                })
+                .collect();
+            let exact: Vec<(usize, AirMove)> = ways.iter().map(|(index, _, of)| (*index, *of)).collect();
+            let bounds = || ways.iter().map(|(index, bound, _)| (*index, *bound));
+            let (least, some) = (f64::from(least), [0.9, f64::from(least)]);
+            let (longest, air) = by_all(&exact, least, some);
+            prop_assert_eq!(Ways::new(bounds(), |at| exact[at].1).longest(least), longest);
+            prop_assert_eq!(Ways::new(bounds(), |at| exact[at].1).nearly_all(some[0], some[1]), air);
+        }
+    }
 
     #[test]
     fn spread_numbers_are_all_of_them_once_and_neighbours_are_apart() {

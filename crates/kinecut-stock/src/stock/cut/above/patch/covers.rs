@@ -38,7 +38,7 @@ impl Patch {
         Blocks(blocks.0 & mask)
     }
 
-    /// How far a part may come down below the cover of some block, about [mm].
+    /// Depth to which a part may come down below the cover of some block, about [mm].
     pub(in crate::stock::cut::above) fn depth(&self, [heights, ..]: &Planes, blocks: Blocks) -> f64 {
         let Some(covers) = &self.covers else { return 0.0 };
         let below = |b: usize| covers[b].height - heights[b];

@@ -26,9 +26,9 @@ impl Patch {
         self.arch.dispatch(Sink { patch: self, sweep, blocks, index, tell })
     }
 
-    /// Lowers the tops of a block to the heights of a part.
+    /// Lowers the tops of a block to the heights of a part; `TELL`: notes what is taken of each line.
     #[inline(always)]
-    fn sink_tops(&mut self, (c0, r0): (usize, usize), index: f64) -> Sunk {
+    fn sink_tops<const TELL: bool>(&mut self, (c0, r0): (usize, usize), index: f64) -> Sunk {
         let (mut greatest, mut sum) = ([0.0; BLOCK], [0.0; BLOCK]);
         let mut lowest = [false; BLOCK];
         for r in r0..r0 + BLOCK {
@@ -44,40 +44,21 @@ impl Patch {
                 let goes_lowest = at < limit;
                 task[c] = if goes_lowest { index } else { task[c] };
                 lowest[c] |= goes_lowest;
-                overlap[c] = most(top[c] - at, 0.0);
+                if TELL {
+                    overlap[c] = most(top[c] - at, 0.0);
+                    sum[c] += overlap[c];
+                    greatest[c] = most(greatest[c], overlap[c]);
+                }
                 top[c] = least(top[c], at);
-                sum[c] += overlap[c];
-                greatest[c] = most(greatest[c], overlap[c]);
             }
             put_row(&mut self.top[..], start, top);
             put_row(&mut self.task[..], start, task);
-            put_row(&mut self.overlap[..], start, overlap);
+            if TELL {
+                put_row(&mut self.overlap[..], start, overlap);
+            }
         }
         let is_new = lowest.into_iter().fold(false, |any, one| any | one);
         Sunk { greatest: greatest.into_iter().fold(0.0, most), sum: sum.into_iter().sum::<f64>(), is_new }
-    }
-
-    /// The same without telling what was taken.
-    #[inline(always)]
-    fn sink_tops_only(&mut self, (c0, r0): (usize, usize), index: f64) -> Sunk {
-        let mut lowest = [false; BLOCK];
-        for r in r0..r0 + BLOCK {
-            let start = r * SIDE + c0;
-            let heights = row_at(&self.heights[..], height_at(r, c0));
-            let (mut top, mut task) = (row_at(&self.top[..], start), row_at(&self.task[..], start));
-            let bottom = row_at(&self.bottom[..], start);
-            for c in 0..BLOCK {
-                let at = most(rounded(heights[c]), bottom[c]);
-                let limit = top[c] + if index < task[c] { 0.5 } else { 0.0 };
-                let goes_lowest = at < limit;
-                task[c] = if goes_lowest { index } else { task[c] };
-                top[c] = least(top[c], at);
-                lowest[c] |= goes_lowest;
-            }
-            put_row(&mut self.top[..], start, top);
-            put_row(&mut self.task[..], start, task);
-        }
-        Sunk { is_new: lowest.into_iter().fold(false, |any, one| any | one), ..Sunk::default() }
     }
 
     /// Lowers the ceilings of a block to where a part has taken both ends of a way, and all between; true if one has become lower.
@@ -158,7 +139,7 @@ impl Patch {
     }
 }
 
-/// What a part took out of a block [fixed steps]: the most of one line, and of all.
+/// Lengths that a part took out of a block [fixed steps]: the most of one line, and of all.
 #[derive(Clone, Copy, Debug, Default)]
 pub(in crate::stock::cut::above) struct Sunk {
     pub(super) greatest: f64,
@@ -173,7 +154,7 @@ struct Sink<'a, 'b> {
     sweep: &'a Sweep<'b>,
     blocks: Blocks,
     index: f64,
-    /// Whether what is taken is told.
+    /// Whether lengths that are taken are noted.
     tell: bool,
 }
 
@@ -189,7 +170,11 @@ impl NullaryFnOnce for Sink<'_, '_> {
         }
         let mut sunk = [Sunk::default(); BLOCKS];
         for (corner, sunk) in blocks.corners().zip(&mut sunk) {
-            *sunk = if tell { patch.sink_tops(corner, index) } else { patch.sink_tops_only(corner, index) };
+            *sunk = if tell {
+                patch.sink_tops::<true>(corner, index)
+            } else {
+                patch.sink_tops::<false>(corner, index)
+            };
             if patch.between {
                 sunk.is_new |= match sweep.round() {
                     // They were lowered before.

@@ -1,4 +1,4 @@
-//! What tasks did in a patch.
+//! Amounts and contacts of tasks in a patch, and which of them left ends.
 
 use glam::DVec2;
 

@@ -55,7 +55,7 @@ pub(super) struct Nearby {
     pub(super) curves: [DVec3; 2],
     /// The way of the centre by the time, along these vectors.
     pub(super) carried: [f64; 2],
-    /// How fast the gauge falls [mm by the span's parameter], and how the turn of the tool changes that.
+    /// Rate at which the gauge falls [mm by the span's parameter], and its change by the turn of the tool.
     pub(super) closing: f64,
     pub(super) gains: f64,
 }
@@ -262,7 +262,7 @@ mod tests {
         missed
     }
 
-    /// How far planes lie from what they bound [mm]: the least, over all poses and all places of cells that a tool holds; how many those
+    /// Distances of planes from what they bound [mm]: the least, over all poses and all places of cells that a tool holds; how many those
     /// are, and how many lines are missed.
     fn least_room(motion: &ToolMotion, curve: Curve, profile: &Profile) -> (f64, usize, usize) {
         let bounds = Aabb { min: DVec3::splat(-8.0), max: DVec3::splat(8.0) };
