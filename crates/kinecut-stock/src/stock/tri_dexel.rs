@@ -15,7 +15,7 @@ use std::thread::{self, ScopedJoinHandle};
 use glam::DVec3;
 use rayon::prelude::*;
 
-use super::cut::FromAbove;
+use super::cut::{FromAbove, OwedAcross};
 use super::sieve::Sieve;
 use super::skimmed::Skimmed;
 use super::tile::{TILE_EDGE, Tile};
@@ -133,6 +133,9 @@ pub struct TriDexel {
     /// Knowledge from cutting from above, and the moves that have still to cut the lines across their axis; it holds as long as
     /// material is only taken out.
     pub(super) above: Option<FromAbove>,
+    /// Moves of leaning tools that have still to cut the lines across the axis that they are near to. Where there are some, no upright
+    /// ones owe lines.
+    pub(super) owed: Option<OwedAcross>,
     /// The grids across that axis with all moves cut, made where somebody reads them before they are; and the one along it.
     whole: OnceLock<Box<[Grid; 3]>>,
     whole_along: OnceLock<Box<Grid>>,
@@ -156,7 +159,7 @@ impl TriDexel {
         let grids = Axis::ALL.map(|axis| Grid::new(axis, &lattice, alike[axis.index()]));
         let skimmed = Skimmed::UNKNOWN;
         let (whole, whole_along) = (OnceLock::new(), OnceLock::new());
-        Ok(TriDexel { lattice, bounds, grids, above: None, whole, whole_along, skimmed })
+        Ok(TriDexel { lattice, bounds, grids, above: None, owed: None, whole, whole_along, skimmed })
     }
 
     /// Memory that a stock in a box needs at a grid step [bytes], at most two intervals a line. It grows with the
@@ -235,6 +238,12 @@ impl TriDexel {
 
     /// The lines along an axis, with all moves cut.
     pub(super) fn grid(&self, axis: Axis) -> &Grid {
+        if let Some(owed) = &self.owed {
+            return match owed.is_across(axis) {
+                true => &self.whole.get_or_init(|| self.settled_apart())[axis.index()],
+                false => &self.grids[axis.index()],
+            };
+        }
         match &self.above {
             Some(above) if !above.owes(axis) => &self.grids[axis.index()],
             Some(above) if above.is_across(axis) => {
@@ -249,7 +258,9 @@ impl TriDexel {
     /// axis.
     pub(super) fn grid_within(&self, axis: Axis) -> (&Grid, Option<&FromAbove>) {
         match &self.above {
-            Some(above) if !above.is_across(axis) && self.whole_along.get().is_none() => {
+            Some(above)
+                if self.owed.is_none() && !above.is_across(axis) && self.whole_along.get().is_none() =>
+            {
                 (&self.grids[axis.index()], Some(above))
             }
             _ => (self.grid(axis), None),
@@ -277,6 +288,7 @@ impl TriDexel {
         let lattice = sieve.lattice();
         let above = self.above.as_ref();
         // Which grids are behind, and have not been cut apart.
+        let across = self.owed.as_ref().filter(|_| self.whole.get().is_none());
         let owed = Axis::ALL.map(|axis| {
             let cut_apart = |above: &FromAbove| match above.is_across(axis) {
                 true => self.whole.get().is_some(),
@@ -285,12 +297,13 @@ impl TriDexel {
             above.is_some_and(|above| above.owes(axis) && !cut_apart(above))
         });
         let mut grids = Axis::ALL.map(|axis| {
-            let from = if owed[axis.index()] { &self.grids[axis.index()] } else { self.grid(axis) };
+            let is_behind = owed[axis.index()] || across.is_some();
+            let from = if is_behind { &self.grids[axis.index()] } else { self.grid(axis) };
             let mut grid = Grid::new(axis, &lattice, None);
             grid.copy_some(from, &sieve);
             grid
         });
-        if let Some(above) = above {
+        if let Some(above) = above.filter(|_| self.owed.is_none()) {
             let tool = above.along();
             let (along, across) = (owed[tool.index()], owed[tool.others().0.index()]);
             let stock = (&sieve, &self.grids[tool.index()].without_lines(), self.bounds);
@@ -298,7 +311,10 @@ impl TriDexel {
         }
         let (whole, whole_along) = (OnceLock::new(), OnceLock::new());
         let (bounds, skimmed) = (self.bounds, Skimmed::UNKNOWN);
-        TriDexel { lattice, bounds, grids, above: None, whole, whole_along, skimmed }
+        let owed = across.map(|owed| owed.anew(&lattice, bounds));
+        let mut some = TriDexel { lattice, bounds, grids, above: None, owed, whole, whole_along, skimmed };
+        some.settle(progress);
+        some
     }
 
     /// The grid along the tool axis, cut by the moves that have still to do so.
@@ -315,6 +331,14 @@ impl TriDexel {
     /// The grids across the tool axis, cut by the moves that have still to do so.
     fn settled_apart(&self) -> Box<[Grid; 3]> {
         apart(|| {
+            if let Some(owed) = &self.owed {
+                let mut grids = self.grids.each_ref().map(|grid| match owed.is_across(grid.axis) {
+                    true => grid.clone(),
+                    false => grid.without_lines(),
+                });
+                owed.clone().pay_all(&mut grids, (&self.lattice, self.bounds), &Silent);
+                return Box::new(grids);
+            }
             let mut grids = self.grids.each_ref().map(|grid| match &self.above {
                 Some(above) if above.is_across(grid.axis) && above.owes(grid.axis) => grid.clone(),
                 _ => grid.without_lines(),
@@ -352,6 +376,34 @@ impl TriDexel {
     /// Lets moves cut the lines that they have left for later: those across the axis of upright tools. Whoever reads these lines without
     /// this waits for it then. When it is cancelled they are left for later still.
     pub fn settle(&mut self, progress: &dyn Progress) {
+        self.settle_leaning(progress);
+        self.settle_upright(progress);
+    }
+
+    /// The same for lines that moves of leaning tools have left.
+    fn settle_leaning(&mut self, progress: &dyn Progress) {
+        let Some(mut owed) = self.owed.take() else { return };
+        match self.whole.take() {
+            Some(whole) => {
+                for (own, grid) in self.grids.iter_mut().zip(*whole) {
+                    if owed.is_across(grid.axis) {
+                        *own = grid;
+                    }
+                }
+            }
+            None => {
+                owed.pay_all(&mut self.grids, (&self.lattice, self.bounds), progress);
+                self.owed = progress.cancelled().then_some(owed);
+            }
+        }
+    }
+
+    /// The same for lines that moves of upright tools have left.
+    pub(super) fn settle_upright(&mut self, progress: &dyn Progress) {
+        if self.owed.is_some() {
+            // They have left none.
+            return;
+        }
         self.take_back_along();
         let Some(above) = &mut self.above else { return };
         match self.whole.take() {

@@ -63,7 +63,7 @@ use crate::sweep::ToolMotion;
 pub(in crate::stock) use above::FromAbove;
 pub use axis::CutAxis;
 pub use face::SweptFace;
-pub(in crate::stock) use leaning::meets_at_rest;
+pub(in crate::stock) use leaning::{OwedAcross, meets_at_rest};
 pub use list::CutList;
 pub use run::{cut, cut_list};
 pub use stance::Stance;

@@ -152,7 +152,10 @@ pub(super) fn cut_upright(
     progress: &dyn Progress,
 ) -> Result<()> {
     let (frame, step) = (ToolFrame::new(axis), stock.lattice().step);
-    if stock.above.as_ref().is_some_and(|above| !above.is_along(axis)) {
+    let is_other = stock.above.as_ref().is_some_and(|above| !above.is_along(axis));
+    // What leaning tools have left for later is cut before one of these tools comes to the stock.
+    let comes = |i: usize| list.swept(i).meets(stock.bounds().grown(2.0 * step));
+    if is_other || stock.owed.is_some() && moves.clone().any(comes) {
         stock.settle(progress);
     }
     let (mut next, mut size, mut singly) = (moves.start, BATCH, 1);

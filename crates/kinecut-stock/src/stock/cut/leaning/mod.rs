@@ -21,5 +21,6 @@ mod swept;
 mod task;
 mod tiles;
 
+pub(in crate::stock) use at_once::OwedAcross;
 pub(in crate::stock) use rest::meets_at_rest;
 pub(super) use run::cut_leaning;

@@ -1,12 +1,13 @@
 //! Moves of tools that lean or turn: long runs of which only the outcome counts at once, the others in order.
 
 use std::ops::Range;
+use std::sync::Arc;
 
 use super::super::MoveEffect;
 use super::super::effect::Sum;
 use super::super::list::CutList;
 use super::super::run::{Order, still_wanted};
-use super::at_once::{Cells, LEAST, cut_at_once, may_be_cut_at_once};
+use super::at_once::{Cells, LEAST, cut_at_once, may_be_cut_at_once, settle_near};
 use super::task::Batch;
 use super::tiles::cut_in_order;
 use crate::base::{Progress, Result};
@@ -16,16 +17,16 @@ use crate::stock::{DexelGrid, TriDexel};
 pub(in super::super) fn cut_leaning(
     stock: &mut TriDexel,
     order: Order,
-    list: &CutList,
+    list: &Arc<CutList>,
     moves: Range<usize>,
     effects: &mut Vec<MoveEffect>,
     progress: &dyn Progress,
 ) -> Result<()> {
     let step = stock.lattice().step;
-    stock.settle(progress);
+    stock.settle_upright(progress);
     let mut next = moves.start;
     while next < moves.end {
-        let batch = Batch::new(stock, list, next..moves.end);
+        let batch = Batch::new((stock.lattice(), stock.bounds()), list, next..moves.end);
         let mut sums: Vec<Sum> = batch.moves.iter().map(|_| Sum::new(true)).collect();
         let at_once = match order {
             Order::InRuns if batch.tasks.len() >= LEAST => {
@@ -43,8 +44,14 @@ pub(in super::super) fn cut_leaning(
                 None => (all.end, None),
             };
             match cells {
-                Some(cells) => cut_at_once(stock, cells, &batch, from..end, &mut sums, progress),
-                None => cut_in_order(stock, &batch, from..end, &mut sums, progress),
+                Some(cells) => {
+                    let from_list = (&batch, list, next);
+                    cut_at_once(stock, cells, from_list, from..end, &mut sums, progress);
+                }
+                None => {
+                    settle_near(stock, batch.tasks_of(from..end), progress);
+                    cut_in_order(stock, &batch, from..end, &mut sums, progress);
+                }
             }
             progress.advance((end - from) as u64);
             from = end;

@@ -10,7 +10,7 @@ use super::hollow::Plunge;
 use super::span::spans;
 use super::swept::SpanPoses;
 use crate::geom::{Aabb, Rigid};
-use crate::stock::{Axis, CutId, DexelGrid, TriDexel};
+use crate::stock::{Axis, CutId, Lattice};
 
 /// Spans that are made ready at once: bounds the memory of the lists.
 const MOST: usize = 20_000;
@@ -55,12 +55,15 @@ pub(super) struct Batch<'a> {
 }
 
 impl<'a> Batch<'a> {
-    /// Of a range of moves, as many as there is room for.
-    pub(super) fn new(stock: &TriDexel, list: &'a CutList, range: Range<usize>) -> Batch<'a> {
+    /// Of a range of moves, as many as there is room for, for a stock with a lattice over a box.
+    pub(super) fn new(
+        (lattice, bounds_of_stock): (&Lattice, Aabb),
+        list: &'a CutList,
+        range: Range<usize>,
+    ) -> Batch<'a> {
         let (first, moves) = (list.cut(range.start), &list.moves[range]);
-        let step = stock.lattice().step;
-        let margin = beside(step).unwrap_or(0.0);
-        let within = stock.bounds().grown(step);
+        let margin = beside(lattice.step).unwrap_or(0.0);
+        let within = bounds_of_stock.grown(lattice.step);
         let mut batch =
             Batch { moves: &[], first, tasks: vec![], errors: vec![], filled: vec![], main: vec![] };
         for (i, one) in moves.iter().enumerate() {

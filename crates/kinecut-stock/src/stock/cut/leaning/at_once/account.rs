@@ -79,20 +79,23 @@ struct Room<'a> {
     contact: Vec<(i32, i32)>,
 }
 
-/// Tells what moves remove, on the lines along the axis that most of their tools are nearest to; a tool that leans from it by more
-/// than [`FLAT`] is looked at along the one it is nearest to itself.
+/// By span, the index of the axis along which it is measured: the one that most tools are nearest to, but for a tool that leans from it by
+/// more than [`FLAT`] the one that it is nearest to itself.
+pub(super) fn measured_along(tasks: &[SpanTask]) -> Vec<usize> {
+    let axes = tasks.iter().map(|t| t.poses.poses[1].axis.abs());
+    let usual = Axis::nearest(axes.clone().sum()).index();
+    axes.map(|axis| if axis[usual] > FLAT { usual } else { Axis::nearest(axis).index() }).collect()
+}
+
+/// Tells what moves remove, on lines along the axes that their spans are measured along.
 pub(super) fn account(
     stock: &TriDexel,
-    tasks: &[SpanTask],
+    (tasks, main): (&[SpanTask], &[usize]),
     swept: &[SweptPart],
     progress: &dyn Progress,
     mut each: impl FnMut(&Effect),
 ) {
     let lattice = *stock.lattice();
-    let axes = tasks.iter().map(|t| t.poses.poses[1].axis.abs());
-    let usual = Axis::nearest(axes.clone().sum()).index();
-    let main: Vec<usize> =
-        axes.map(|axis| if axis[usual] > FLAT { usual } else { Axis::nearest(axis).index() }).collect();
     let radius = tasks.iter().map(|t| t.tool.cutting.radius).fold(f64::INFINITY, f64::min);
     let apart = (radius / (LINES * lattice.step)).clamp(1.0, f64::from(TILE_EDGE)) as u32;
     let mut rest = swept;

@@ -3,6 +3,7 @@
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use glam::DVec3;
+use rayon::prelude::*;
 
 use super::super::swept::{CoverEnd, MOST_STRETCHES, NO_STRETCH, StockLine};
 use super::super::task::Batch;
@@ -14,7 +15,7 @@ use super::lanes::LANES;
 use super::near::SweptPart;
 use super::planes::Planes;
 use crate::stock::tile::{TILE_EDGE, Tile};
-use crate::stock::tri_dexel::LINE_OFFSET;
+use crate::stock::tri_dexel::{Grid, LINE_OFFSET};
 use crate::stock::{Axis, EndPoint, fixed, unfixed};
 
 /// Ends this near to the border of a cell lie on it [fixed steps]: both cells there shall agree.
@@ -35,8 +36,18 @@ pub(super) fn leaf(thinnest: f64, step: f64) -> u32 {
 /// A grid whose tiles are shared by the bricks along its lines.
 pub(super) struct Grids<'a> {
     /// Number of tiles across.
-    pub(super) across: [u32; 2],
-    pub(super) tiles: Vec<Mutex<&'a mut Tile>>,
+    across: [u32; 2],
+    tiles: Vec<Mutex<&'a mut Tile>>,
+}
+
+impl<'a> Grids<'a> {
+    /// The tiles of a stock's grids.
+    pub(super) fn share(grids: &'a mut [Grid; 3]) -> [Grids<'a>; 3] {
+        grids.each_mut().map(|grid| {
+            let across = grid.tiles_across();
+            Grids { across, tiles: grid.tiles.iter_mut().map(Mutex::new).collect() }
+        })
+    }
 }
 
 /// A move that has left an end: its index in the batch, and the end's place [mm].
@@ -46,6 +57,8 @@ pub(super) type Winner = (u32, [f64; 3]);
 struct Work<'a> {
     cells: &'a Cells,
     swept: &'a [SweptPart<'a>],
+    /// Directions of the lines that are cut, and the tiles of these.
+    axes: &'a [Axis],
     tiles: [Tile; 3],
     /// By tile what was taken out of its lines: index of the line, and both ends.
     taken: [Vec<(u16, [EndPoint; 2])>; 3],
@@ -76,21 +89,24 @@ struct Line {
     ends: [DVec3; 2],
 }
 
-/// Cuts a brick by the swept parts near it.
+/// Cuts the lines of a brick along some axes by the swept parts near it.
 pub(super) fn cut(
-    cells: &Cells,
-    grids: &[Grids; 3],
+    (cells, leaf): (&Cells, u32),
+    (grids, axes): (&[Grids; 3], &[Axis]),
     swept: &[SweptPart],
     brick: u32,
     near: &[u32],
-    leaf: u32,
 ) {
     let cell = cells.of_brick(brick);
-    let tiles = Axis::ALL.map(|axis| Tile::clone(&tile(grids, axis, &cell)));
+    let tiles = Axis::ALL.map(|axis| match axes.contains(&axis) {
+        true => Tile::clone(&tile(grids, axis, &cell)),
+        false => Tile::of(None),
+    });
     let taken = [const { Vec::new() }; 3];
     let mut work = Work {
         cells,
         swept,
+        axes,
         tiles,
         taken,
         planes: Planes::default(),
@@ -109,15 +125,23 @@ pub(super) fn cut(
     }
 }
 
-/// Takes all material out of the bricks along the lines of a tile that have none left; `had` tells which had some.
-pub(super) fn empty(cells: &Cells, grids: &[Grids; 3], axis: Axis, tile: usize, had: &[bool]) {
+/// Takes all material of some bricks out of the lines along some axes.
+pub(super) fn empty_all(cells: &Cells, (grids, axes): (&[Grids; 3], &[Axis]), gone: &[bool]) {
+    for axis in axes.iter().copied() {
+        let tiles = 0..grids[axis.index()].tiles.len();
+        tiles.into_par_iter().for_each(|tile| empty(cells, grids, (axis, tile), gone));
+    }
+}
+
+/// The same for the lines of a tile.
+fn empty(cells: &Cells, grids: &[Grids; 3], (axis, tile): (Axis, usize), gone: &[bool]) {
     let grid = &grids[axis.index()];
     let bricks: Vec<u32> =
         cells.along(axis, tile as u32 % grid.across[0], tile as u32 / grid.across[0]).collect();
     let mut tile = grid.tiles[tile].lock().unwrap_or_else(PoisonError::into_inner);
-    // Those next to one another at once, with those between them that never had any.
-    for run in bricks.chunk_by(|a, b| cells.has_material(*a) == cells.has_material(*b)) {
-        if cells.has_material(run[0]) || !run.iter().any(|brick| had[*brick as usize]) {
+    // Those next to one another at once.
+    for run in bricks.chunk_by(|a, b| gone[*a as usize] == gone[*b as usize]) {
+        if !gone[run[0] as usize] {
             continue;
         }
         let [first, last] = [run[0], run[run.len() - 1]].map(|brick| cells.of_brick(brick));
@@ -136,11 +160,16 @@ fn tile<'b, 'c>(grids: &'b [Grids<'c>; 3], axis: Axis, cell: &Cell) -> MutexGuar
     grid.tiles[tile as usize].lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// The moves of a batch that have left an end in a brick.
-pub(super) fn winners(cells: &Cells, grids: &[Grids; 3], brick: u32, batch: &Batch) -> Vec<Winner> {
+/// The moves of a batch that have left an end on the lines of a brick along some axes.
+pub(super) fn winners(
+    cells: &Cells,
+    (grids, axes): (&[Grids; 3], &[Axis]),
+    brick: u32,
+    batch: &Batch,
+) -> Vec<Winner> {
     let cell = cells.of_brick(brick);
     let mut winners: Vec<Winner> = Vec::new();
-    for axis in Axis::ALL {
+    for axis in axes.iter().copied() {
         let along = axis.index();
         let [low, high] = window(&cell, along);
         let tile = tile(grids, axis, &cell);
@@ -307,8 +336,8 @@ impl Work<'_> {
 
     /// The lines of a cell that have material in it.
     fn lines(&self, cell: &Cell) -> Vec<Line> {
-        let mut lines = Vec::with_capacity(3 * (self.leaf * self.leaf) as usize);
-        for axis in Axis::ALL {
+        let mut lines = Vec::with_capacity(self.axes.len() * (self.leaf * self.leaf) as usize);
+        for axis in self.axes.iter().copied() {
             let along = axis.index();
             let window = window(cell, along);
             each_line(self.cells, cell, axis, |line, start| {
@@ -344,7 +373,7 @@ impl Work<'_> {
 
     /// Takes all material out of a cell.
     fn empty(&mut self, cell: &Cell) {
-        for axis in Axis::ALL {
+        for axis in self.axes.iter().copied() {
             let ends = window(cell, axis.index()).map(border);
             each_line(self.cells, cell, axis, |line, _| {
                 self.take(axis.index(), line, ends);

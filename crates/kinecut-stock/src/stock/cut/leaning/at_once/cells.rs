@@ -69,12 +69,25 @@ impl Near {
 impl Cells {
     /// The bricks of a stock.
     pub(in super::super) fn new(stock: &TriDexel) -> Cells {
-        let lattice = *stock.lattice();
+        let cells = Cells::without_material(stock.lattice(), stock.bounds());
+        for grid in &stock.grids {
+            (0..grid.tiles.len()).into_par_iter().for_each(|tile| cells.fill(grid, tile));
+        }
+        // What its lines across do not know yet.
+        if let Some(owed) = &stock.owed {
+            owed.swallowed().for_each(|brick| cells.clear(brick));
+        }
+        cells
+    }
+
+    /// The bricks of a lattice over a box, none with material.
+    pub(super) fn without_material(lattice: &Lattice, bounds: Aabb) -> Cells {
+        let lattice = *lattice;
         let bricks = lattice.counts.map(|n| n.div_ceil(BRICK));
         let piles = bricks.map(|n| n.div_ceil(PILE));
         let filled = (0..piles.iter().product::<u32>()).map(|_| AtomicU64::new(0)).collect();
         let middles = [const { Vec::new() }; 3];
-        let mut cells = Cells { lattice, bounds: stock.bounds(), bricks, piles, middles, filled };
+        let mut cells = Cells { lattice, bounds, bricks, piles, middles, filled };
         cells.middles = std::array::from_fn(|k| {
             let middle = |i: u32| {
                 let [low, high] = [i, i + 1].map(|i| cells.border(k, i * BRICK));
@@ -82,10 +95,13 @@ impl Cells {
             };
             (0..bricks[k]).map(middle).collect()
         });
-        for grid in &stock.grids {
-            (0..grid.tiles.len()).into_par_iter().for_each(|tile| cells.fill(grid, tile));
-        }
         cells
+    }
+
+    /// Notes that a brick may have material.
+    pub(super) fn note(&self, brick: u32) {
+        let (pile, bit) = self.place(self.indices(brick));
+        self.filled[pile].fetch_or(1 << bit, Relaxed);
     }
 
     /// Notes the bricks in which the lines of a tile have material.

@@ -18,20 +18,24 @@ mod bundle;
 mod cells;
 mod lanes;
 mod near;
+mod owed;
 mod places;
 mod planes;
 mod shadow;
 
 use std::ops::Range;
-use std::sync::Mutex;
+use std::sync::Arc;
 
 use rayon::prelude::*;
 
-use self::account::account;
-use self::brick::{Grids, Winner};
+use self::account::{account, measured_along};
+use self::brick::Grids;
 pub(super) use self::cells::Cells;
+pub(in crate::stock) use self::owed::OwedAcross;
+pub(super) use self::owed::settle_near;
 use self::near::SweptPart;
 use super::super::effect::{Effect, Looked, Sum};
+use super::super::list::CutList;
 use super::task::{Batch, SpanTask};
 use crate::base::Progress;
 use crate::stock::{Axis, TriDexel};
@@ -64,29 +68,35 @@ pub(super) fn may_be_cut_at_once(cells: &Cells, batch: &Batch) -> Vec<bool> {
     all
 }
 
-/// Cuts a range of moves of a batch, and adds up what each does.
+/// Cuts a range of moves of a batch, of a list from some move on, and adds up what each does. Lines across the axis that all tools are
+/// near to are left for later.
 pub(super) fn cut_at_once(
     stock: &mut TriDexel,
     cells: &Cells,
-    batch: &Batch,
+    (batch, list, first): (&Batch, &Arc<CutList>, usize),
     moves: Range<usize>,
     sums: &mut [Sum],
     progress: &dyn Progress,
 ) {
     let tasks = batch.tasks_of(moves.clone());
     let mut seen = vec![false; moves.len()];
-    let swept: Vec<SweptPart> = tasks
-        .iter()
-        .flat_map(|task| {
-            task.tool.cutting.parts.iter().enumerate().map(|(i, part)| SweptPart::new(task, part, i))
-        })
-        .collect();
-    account(stock, tasks, &swept, progress, |effect| {
+    let swept = swept_parts(tasks);
+    let main = measured_along(tasks);
+    let usual = main.first().map(|of| Axis::ALL[*of]).filter(|of| main.iter().all(|k| *k == of.index()));
+    if usual.is_none_or(|usual| stock.owed.as_ref().is_some_and(|owed| owed.is_across(usual))) {
+        stock.settle(progress);
+    }
+    account(stock, (tasks, &main), &swept, progress, |effect| {
         let index = effect.index as usize;
         seen[index - moves.start] |= effect.first.is_some();
         sums[index].add(effect, 0);
     });
-    let winners = unite(stock, cells, batch, &swept, progress);
+    let axes = usual.as_ref().map_or(&Axis::ALL[..], std::slice::from_ref);
+    let bricks = cells.bricks_with_material();
+    let grids = Grids::share(&mut stock.grids);
+    let touched = unite((cells, &bricks), (&grids, axes), &swept, progress);
+    let winners = touched.par_iter().map(|brick| brick::winners(cells, (&grids, axes), *brick, batch));
+    let winners = winners.collect::<Vec<_>>().concat();
     for (index, point) in winners.into_iter().filter(|(index, _)| moves.contains(&(*index as usize))) {
         if !std::mem::replace(&mut seen[index as usize - moves.start], true) {
             // It has left an end, so it has taken something.
@@ -94,44 +104,47 @@ pub(super) fn cut_at_once(
             sums[index as usize].add(&Effect { index, removed: 1, first, ..Effect::default() }, 0);
         }
     }
+    if let Some(usual) = usual {
+        let owed = stock.owed.get_or_insert_with(|| OwedAcross::new(usual, cells));
+        owed.note_swallowed(bricks.iter().copied().filter(|brick| !cells.has_material(*brick)));
+        owed.owe(list, first + moves.start..first + moves.end, (tasks, moves.start));
+    }
 }
 
-/// Takes all that spans sweep out of a stock; tells the moves that have left an end, each with one.
+/// The convex parts of the tools of spans, one after another.
+fn swept_parts<'a>(tasks: &'a [SpanTask<'a>]) -> Vec<SweptPart<'a>> {
+    let parts = |task: &'a SpanTask<'a>| {
+        task.tool.cutting.parts.iter().enumerate().map(|(i, part)| SweptPart::new(task, part, i))
+    };
+    tasks.iter().flat_map(parts).collect()
+}
+
+/// Takes all that spans sweep out of lines along some axes, through bricks; tells those of them that something came near to and that
+/// may have material left.
 fn unite(
-    stock: &mut TriDexel,
-    cells: &Cells,
-    batch: &Batch,
+    (cells, bricks): (&Cells, &[u32]),
+    (grids, axes): (&[Grids; 3], &[Axis]),
     swept: &[SweptPart],
     progress: &dyn Progress,
-) -> Vec<Winner> {
+) -> Vec<u32> {
     let thinnest = swept.iter().map(|one| one.part.r1).fold(f64::INFINITY, f64::min);
     let leaf = brick::leaf(thinnest, cells.lattice().step);
-    let bricks = cells.bricks_with_material();
-    let grids = stock.grids.each_mut().map(|grid| {
-        let across = grid.tiles_across();
-        Grids { across, tiles: grid.tiles.iter_mut().map(Mutex::new).collect() }
-    });
     let mut from = 0;
     let mut touched = vec![false; bricks.len()];
     while from < swept.len() && !progress.cancelled() {
         let near = cells.near(swept, from, progress);
-        touched.par_iter_mut().zip(&bricks).for_each(|(touched, brick)| {
+        touched.par_iter_mut().zip(bricks).for_each(|(touched, brick)| {
             let list = near.of(*brick);
             if !list.is_empty() && !progress.cancelled() {
-                brick::cut(cells, &grids, swept, *brick, list, leaf);
+                brick::cut((cells, leaf), (grids, axes), swept, *brick, list);
                 *touched = true;
             }
         });
         from = near.end;
     }
-    let left = |brick: &u32| cells.has_material(*brick);
-    let mut had = vec![false; cells.count()];
-    bricks.iter().for_each(|brick| had[*brick as usize] = true);
-    for axis in Axis::ALL {
-        let tiles = 0..grids[axis.index()].tiles.len();
-        tiles.into_par_iter().for_each(|tile| brick::empty(cells, &grids, axis, tile, &had));
-    }
-    let touched = touched.par_iter().zip(&bricks).filter(|(touched, brick)| **touched && left(brick));
-    let winners = touched.map(|(_, brick)| brick::winners(cells, &grids, *brick, batch));
-    winners.collect::<Vec<_>>().concat()
+    let mut gone = vec![false; cells.count()];
+    bricks.iter().for_each(|brick| gone[*brick as usize] = !cells.has_material(*brick));
+    brick::empty_all(cells, (grids, axes), &gone);
+    let left = touched.iter().zip(bricks).filter(|(touched, brick)| **touched && cells.has_material(**brick));
+    left.map(|(_, brick)| *brick).collect()
 }
