@@ -16,6 +16,7 @@ mod look;
 mod nearest;
 mod rest;
 mod run;
+mod seed;
 mod span;
 mod swept;
 mod task;
