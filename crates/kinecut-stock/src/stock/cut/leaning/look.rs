@@ -108,7 +108,7 @@ impl Look<'_> {
     /// `past` across the normal and in the section: it is then off the plane by `past^2 / (2 A + past)`, A the distance from the middle of the
     /// tube. For places deeper on the line, which the tube bends away from less, the slope of the line has to make up for that.
     fn rounds_off(&self, pose: &Pose, normal: DVec3, place: DVec3, touch: Touch) -> f64 {
-        let Foot::Torus { radius, .. } = self.part.foot else { return 0.0 };
+        let Foot::Torus { radius, centre_radius, .. } = self.part.foot else { return 0.0 };
         if touch != Touch::Foot {
             return 0.0;
         }
@@ -123,6 +123,10 @@ impl Look<'_> {
         let past = section.dot(pose.velocity(place)).abs() - off;
         let along = self.line.along;
         let makes_up = normal[along].abs() * radius > section[along].abs() * speed;
-        if past > 0.0 && makes_up { past * past / (2.0 * (radius + speed) + past) } else { 0.0 }
+        // No farther than the foot is round: beyond its middle it goes on as the side, and as the flat end where it has one.
+        let axial = normal.dot(pose.axis);
+        let radial = (1.0 - axial * axial).max(0.0).sqrt();
+        let round = -axial * radius > speed && (centre_radius == 0.0 || radial * radius > speed);
+        if past > 0.0 && makes_up && round { past * past / (2.0 * (radius + speed) + past) } else { 0.0 }
     }
 }

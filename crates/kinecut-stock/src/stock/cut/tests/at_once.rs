@@ -17,7 +17,7 @@ use crate::sweep::ToolMotion;
 const CLOSE: i32 = 2;
 
 /// True if two lines are the same but for rounding.
-fn is_same(a: &[Interval], b: &[Interval]) -> bool {
+pub(super) fn is_same(a: &[Interval], b: &[Interval]) -> bool {
     let ends = |line: &[Interval]| -> Vec<i32> {
         // What is no thicker than the rounding may be there or not, and so may a gap.
         let mut ends: Vec<i32> = Vec::new();
@@ -34,7 +34,7 @@ fn is_same(a: &[Interval], b: &[Interval]) -> bool {
     a.len() == b.len() && a.iter().zip(&b).all(|(a, b)| (a - b).abs() <= CLOSE)
 }
 
-fn block() -> Aabb {
+pub(super) fn block() -> Aabb {
     Aabb { min: DVec3::new(-9.0, -8.0, -7.0), max: DVec3::new(9.3, 8.1, 0.2) }
 }
 
@@ -45,7 +45,7 @@ fn leaning(random: &mut Random, most: f64) -> DVec3 {
 }
 
 /// A chain of moves that lean or turn, through the block and out of it.
-fn chain(random: &mut Random, count: usize, most: f64, body: u32) -> Vec<CutMove> {
+pub(super) fn chain(random: &mut Random, count: usize, most: f64, body: u32) -> Vec<CutMove> {
     let place = |random: &mut Random| random.plane(10.0).extend(random.within(-6.0, 2.0));
     let (mut at, mut axis) = (place(random), leaning(random, most));
     let mut moves = Vec::new();

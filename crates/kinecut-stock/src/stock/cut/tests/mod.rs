@@ -9,5 +9,6 @@ mod hollow;
 mod in_two_ways;
 mod late;
 mod leaning;
+mod owed;
 pub(super) mod reference;
 mod sieved;

@@ -1,7 +1,7 @@
 //! Amounts that the moves of a run remove, in order, on some of the lines.
 //!
 //! Of the lines along the tool axis one in the middle of each square of n lines is taken, n up to 16 so that they are no more than a
-//! quarter of the radius of the run's thinnest tool apart, or all where the lines of the stock are no closer; each counts for the
+//! quarter of the radius of the run's thinnest tool apart, or as many as [`MOST_LINES`] for a span, or all where the lines of the stock are no closer; each counts for the
 //! lines of its square. Of a span, poses are taken that are a quarter of the radius apart or less. Such an amount is measured, not
 //! bounded. Neighbours are asked about together first, with one tangent plane for all of them.
 
@@ -28,6 +28,9 @@ use crate::stock::{Axis, CutId, DexelGrid, TriDexel, fixed, unfixed};
 
 /// Lines, and poses, to a radius of the tool.
 const LINES: f64 = 4.0;
+
+/// Lines that a span passes in the mean, beyond which they are farther apart: a long tool that leans passes many.
+const MOST_LINES: f64 = 128.0;
 
 /// Cosine of the angle to lines below which they are not those to measure a tool on: 53 degrees.
 const FLAT: f64 = 0.6;
@@ -97,7 +100,6 @@ pub(super) fn account(
 ) {
     let lattice = *stock.lattice();
     let radius = tasks.iter().map(|t| t.tool.cutting.radius).fold(f64::INFINITY, f64::min);
-    let apart = (radius / (LINES * lattice.step)).clamp(1.0, f64::from(TILE_EDGE)) as u32;
     let mut rest = swept;
     let own = |task: &SpanTask| {
         let own;
@@ -113,6 +115,9 @@ pub(super) fn account(
         let lines: Vec<TileLines> =
             (0..grid.tiles.len()).map(|t| TileLines::new(grid, &lattice, t)).collect();
         let shadows: Vec<Shadow> = tasks.iter().map(|t| Shadow::new(t, along, stock.bounds())).collect();
+        let area = shadows.iter().map(Shadow::area).sum::<f64>() / shadows.len() as f64;
+        let apart = (radius / LINES).max((area / MOST_LINES).sqrt()) / lattice.step;
+        let apart = apart.clamp(1.0, f64::from(TILE_EDGE)) as u32;
         let bins = bins(grid, &lines, &shadows);
         let work = bins.par_iter().zip(&lines).enumerate().filter(|(_, (bin, _))| !bin.is_empty());
         let done: Vec<Effects> = work
@@ -193,9 +198,10 @@ impl Group {
     fn pass(&mut self, along: usize, effects: &mut Effects, room: &mut Room) {
         let hull = self.hull;
         let bounds = |p: &Passing| [p.task.bounds.min[along], p.task.bounds.max[along]].map(fixed);
+        let heights = [hull.0, hull.1].map(unfixed);
         room.passing.retain(|p| {
             let [low, high] = bounds(p);
-            low < hull.1 && hull.0 < high
+            low < hull.1 && hull.0 < high && !p.shadow.passes_by(self.middle, self.half, heights)
         });
         let Some(first) = room.passing.first() else { return };
         // A place at the material where the tool comes from.

@@ -230,7 +230,7 @@ mod tests {
     use super::super::places::Places;
     use super::*;
     use crate::geom::{Arc, Curve, Line, Profile};
-    use crate::stock::TriDexel;
+    use crate::stock::{DexelGrid, TriDexel};
     use crate::sweep::ToolMotion;
     use pulp::Arch;
 
@@ -271,7 +271,7 @@ mod tests {
         let bodies = [ToolBody::new(profile.clone())];
         let moves = vec![CutMove::leaning(motion.clone(), curve, 0)];
         let list = CutList::new(&bodies, moves, &options, 0.25).unwrap();
-        let batch = Batch::new(&stock, &list, 0..1);
+        let batch = Batch::new((stock.lattice(), stock.bounds()), &list, 0..1);
         let cells = Cells::new(&stock);
         let (mut least, mut held, mut sifted) = (f64::INFINITY, 0, 0);
         for (task, part) in batch.tasks.iter().flat_map(|t| t.tool.cutting.parts.iter().map(move |p| (t, p)))
