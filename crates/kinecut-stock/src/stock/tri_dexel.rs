@@ -7,7 +7,8 @@
 //! the tool or of the stock runs exactly through the lattice.
 //!
 //! **Late lines.** Lines that moves of an upright tool take all above their underside from are cut when something asks for them
-//! (`cut/above/late.rs`, `cut/above/tops.rs`). Whoever reads lines does not see a difference.
+//! (`cut/above/late.rs`, `cut/above/tops.rs`), and so are those across the axis that the tools of a long leaning run are near to
+//! (`cut/leaning/at_once/owed.rs`). Whoever reads lines does not see a difference.
 
 use std::sync::OnceLock;
 use std::thread::{self, ScopedJoinHandle};
@@ -373,7 +374,8 @@ impl TriDexel {
         }
     }
 
-    /// Lets moves cut the lines that they have left for later: those across the axis of upright tools. Whoever reads these lines without
+    /// Lets moves cut the lines that they have left for later: those across the axis of upright tools, or the one that leaning tools are
+    /// near to. Whoever reads these lines without
     /// this waits for it then. When it is cancelled they are left for later still.
     pub fn settle(&mut self, progress: &dyn Progress) {
         self.settle_leaning(progress);

@@ -63,7 +63,7 @@ use crate::sweep::ToolMotion;
 pub(in crate::stock) use above::FromAbove;
 pub use axis::CutAxis;
 pub use face::SweptFace;
-pub(in crate::stock) use leaning::{OwedAcross, meets_at_rest};
+pub(in crate::stock) use leaning::{OwedAcross, may_meet_at_rest, meets_at_rest};
 pub use list::CutList;
 pub use run::{cut, cut_list};
 pub use stance::Stance;
@@ -201,8 +201,9 @@ pub struct Edge {
 ///
 /// In long runs of moves that are meant to cut, `removed`, `deepest` and `first_contact` are measured on some of the lines: no more
 /// than a quarter of the radius of the run's thinnest tool apart, or all where the lines of the stock are no closer; of tools that lean
-/// or turn along the axis of the stock that is nearest to most of the run's tool axes, for a tool within 53 degrees of it. A move
-/// between those lines that leaves a surface is told as removing one square of a step, [`FIXED_STEP`](crate::stock::FIXED_STEP)
+/// or turn along the axis of the stock that is nearest to most of the run's tool axes, for a tool within 53 degrees of it, and farther
+/// apart where a span of a long tool would pass more than 128 of them. A move
+/// between those lines that leaves a surface on lines along that axis is told as removing one square of a step, [`FIXED_STEP`](crate::stock::FIXED_STEP)
 /// deep; one that leaves none is told as removing nothing.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct MoveEffect {

@@ -138,7 +138,7 @@ pub(super) fn above<G: DexelGrid + ?Sized>(stock: &G, tip: DVec3, axis: DVec3) -
 
 #[cfg(test)]
 mod tests {
-    use super::super::{above, face_below, highest, tops, touches};
+    use super::super::{above, face_below, highest, may_touch, tops, touches};
     use super::*;
     use crate::geom::{Aabb, Profile};
     use crate::stock::TriDexel;
@@ -201,5 +201,30 @@ mod tests {
         // The upper edge of the wall at X0 Z0 is 15 above the tip: from the axis by 3 mm across it.
         let x = 20.0 - 15.0 * 30f64.to_radians().tan() - 3.0 / 30f64.to_radians().cos();
         assert!(!gap(x - 0.2) && gap(x + 0.2));
+    }
+
+    #[test]
+    fn what_touches_may_touch_and_what_is_far_may_not() {
+        let (mill, ball) =
+            (Profile::cylinder(6.0, 15.0).unwrap(), Profile::bull_nose(8.0, 4.0, 15.0).unwrap());
+        let (stock, mut touched, mut apart) = (block(), 0, 0);
+        for i in 0..3000u32 {
+            // Places all about the block, and directions, spread evenly.
+            let part = |irrational: f64, wide: f64| (f64::from(i) * irrational).fract() * wide;
+            let tip = DVec3::new(
+                part(0.414_213_56, 34.0) - 7.0,
+                part(0.732_050_8, 34.0) - 7.0,
+                part(0.236_067_98, 24.0) - 16.0,
+            );
+            let axis =
+                DVec3::new(part(0.618_033_99, 2.0) - 1.0, part(0.324_717_96, 2.0) - 1.0, 1.1).normalize();
+            let parts = [(if i % 2 == 0 { &mill } else { &ball }, f64::from(i % 3) - 1.0)];
+            let touches = touches(&stock, &parts, tip, axis, 0.05);
+            let may = may_touch(&stock, &parts, tip, axis, 0.05);
+            assert!(!touches || may, "{tip} {axis}");
+            touched += u32::from(touches);
+            apart += u32::from(!may);
+        }
+        assert!(touched > 500 && apart > 300, "{touched} {apart}");
     }
 }

@@ -56,7 +56,7 @@ pub fn face_below<G: DexelGrid + ?Sized>(
 
 /// False only if no line along the axis, in a tool at rest at `tip` or next to it, has material at the heights of the tool: then
 /// nothing but a wall thinner than the lines are apart can touch it. That is known sooner than [`touches`], and no line has to be cut for
-/// it. True for a tool that leans, of which nothing is known sooner.
+/// it. For a tool that leans the lines are those along the axis of the stock that is nearest to its own.
 pub fn may_touch<G: DexelGrid + ?Sized>(
     stock: &G,
     parts: &[(&Profile, f64)],
@@ -64,7 +64,10 @@ pub fn may_touch<G: DexelGrid + ?Sized>(
     axis: DVec3,
     margin: f64,
 ) -> bool {
-    CutAxis::of(axis).is_none_or(|along| upright::may_touch(stock, parts, tip, along, margin))
+    match CutAxis::of(axis) {
+        Some(along) => upright::may_touch(stock, parts, tip, along, margin),
+        None => super::cut::may_meet_at_rest(stock, parts, tip, axis, margin),
+    }
 }
 
 /// True if a tool at rest at `tip` touches material: if one of its parts, with a `margin` [mm] on all sides, overlaps

@@ -1,7 +1,8 @@
 //! Moves of a tool that leans or turns: on all three grids alike, line by line.
 //!
 //! A move becomes spans (`span.rs`); a convex part of the tool covers a stretch of a line over a span (`swept.rs`), found from
-//! chords at single poses (`chord.rs`). A tile of lines takes all spans in order (`tiles.rs`); long runs of moves of which only the
+//! chords at single poses (`chord.rs`), the first of them where Newton's steps lead (`seed.rs`). A tile of lines takes all spans in
+//! order (`tiles.rs`); long runs of moves of which only the
 //! outcome counts are cut at once (`at_once`). What may lie between the lines is noted (`edge.rs`). An edge that leaves a core is
 //! cut as it is on a move along its axis (`hollow.rs`), else as filled.
 
@@ -23,5 +24,5 @@ mod task;
 mod tiles;
 
 pub(in crate::stock) use at_once::OwedAcross;
-pub(in crate::stock) use rest::meets_at_rest;
+pub(in crate::stock) use rest::{may_meet_at_rest, meets_at_rest};
 pub(super) use run::cut_leaning;

@@ -79,7 +79,47 @@ pub(in crate::stock) fn meets_at_rest<G: DexelGrid + ?Sized>(
             })
         })
     };
-    body.parts.iter().any(|part| Axis::ALL.into_iter().any(|along| on_lines(part, along)))
+    // Those first that the tool is nearest to: they are cut in any case, and mostly say enough.
+    let nearest = Axis::nearest(axis);
+    let axes = [nearest, nearest.others().0, nearest.others().1];
+    axes.into_iter().any(|along| body.parts.iter().any(|part| on_lines(part, along)))
+}
+
+/// False only if no line along the axis nearest to the tool's, in the tool made larger by a margin and the diagonal of four lines, has
+/// material: then nothing but a wall thinner than the lines are apart can touch it.
+pub(in crate::stock) fn may_meet_at_rest<G: DexelGrid + ?Sized>(
+    stock: &G,
+    parts: &[(&Profile, f64)],
+    tip: DVec3,
+    axis: DVec3,
+    margin: f64,
+) -> bool {
+    let lattice = stock.lattice();
+    let body = RevolvedParts::new(parts.iter().copied()).shrunk(-margin - SQRT_2 * lattice.step);
+    let pose = Pose { tip, axis, tip_rate: DVec3::ZERO, axis_rate: DVec3::ZERO };
+    let along = Axis::nearest(axis);
+    let (a, b) = along.others();
+    let touches = |part: &ConvexPart| {
+        let ends = [part.z0, part.top].map(|z| tip + axis * z);
+        let bounds = Aabb::of_points(ends).grown(part.r1);
+        let range = |of: Axis| {
+            let k = of.index();
+            let index = |x: f64| (x - LINE_OFFSET - lattice.origin[k]) / lattice.step;
+            let count = f64::from(lattice.counts[k]);
+            let first = index(bounds.min[k]).ceil().clamp(0.0, count);
+            first as u32..(index(bounds.max[k]).floor() + 1.0).clamp(first, count) as u32
+        };
+        range(b).any(|j| {
+            range(a).any(|i| {
+                let mut start = DVec3::ZERO;
+                start[a.index()] = lattice.coordinate(a, i) + LINE_OFFSET;
+                start[b.index()] = lattice.coordinate(b, j) + LINE_OFFSET;
+                let chord = LineFrom::new(start, along.index(), &pose).chord(part);
+                chord.is_some_and(|c| stock.has_material(along, [i, j], [c.lo, c.hi]))
+            })
+        })
+    };
+    body.parts.iter().any(touches)
 }
 
 /// The point of a part that lies furthest in a direction; of a flat side that one next to `near`.

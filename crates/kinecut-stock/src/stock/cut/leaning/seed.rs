@@ -4,7 +4,7 @@
 //! are found in a few steps. It is a guess: whether it is the furthest end is asked by bounds afterwards (`furthest.rs`).
 
 use super::chord::{LineFrom, curved_gauge_at};
-use super::look::{Look, Met};
+use super::look::{Look, Mets};
 use super::swept::SpanPoses;
 
 /// Steps after which the time is taken as it is.
@@ -20,14 +20,33 @@ const LONG: f64 = 0.4;
 const LEAST_SLOPE: f64 = 0.02;
 
 impl Look<'_> {
-    /// A look at about the time at which the end that lies deeper in the part is carried furthest; `None` where the steps lead
-    /// nowhere or the line is not met then.
-    pub(super) fn at_furthest(&self) -> Option<Met> {
-        let (along, [low, high]) = (self.line.along, self.line.material);
-        let from = LineFrom::new(self.line.start, along, &self.of.poses[1]);
+    /// Looks at about the times at which the ends of the line in the part are carried furthest, those that lie in the material; none where
+    /// the steps lead nowhere or the line is not met then.
+    pub(super) fn at_furthest(&self) -> Mets<2> {
+        let mut mets = Mets::new();
+        let [low, high] = self.line.material;
+        let from = LineFrom::new(self.line.start, self.line.along, &self.of.poses[1]);
         let [a, b] = [low, high].map(|s| from.gauge(self.part, s).value);
-        let (mut s, into) = if a < b { (low, 1.0) } else { (high, -1.0) };
-        let mut t = 0.0;
+        // From the end of the material that lies deeper in the part.
+        let (start, into) = if a < b { (low, 1.0) } else { (high, -1.0) };
+        let Some(first) = self.follow(start, 0.0, into).and_then(|t| self.at(t)) else { return mets };
+        mets.add(first);
+        let (other, is_inside) = if into > 0.0 {
+            (first.chord.lo, first.chord.lo > low)
+        } else {
+            (first.chord.hi, first.chord.hi < high)
+        };
+        if is_inside
+            && let Some(second) = self.follow(other, first.t, -into).and_then(|t| self.at(t))
+        {
+            mets.add(second);
+        }
+        mets
+    }
+
+    /// The time to which Newton's steps lead from a place on the line and a time, along the line in one direction.
+    fn follow(&self, mut s: f64, mut t: f64, into: f64) -> Option<f64> {
+        let (along, [low, high]) = (self.line.along, self.line.material);
         for _ in 0..STEPS {
             let pose = self.of.span.at(t);
             let mut place = self.line.start;
@@ -54,6 +73,6 @@ impl Look<'_> {
             }
             s = (s - into * gauge.value / slope).clamp(low, high);
         }
-        self.at(t)
+        Some(t)
     }
 }

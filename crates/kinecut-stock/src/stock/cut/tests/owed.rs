@@ -50,7 +50,10 @@ fn lines_are_cut_when_they_are_read_and_not_before() {
                 for (i, j) in (0..n).flat_map(|j| (0..m).map(move |i| (i, j))) {
                     let whole = singly.line(axis, sieve.whole_index(a, i), sieve.whole_index(b, j));
                     let line = some.line(axis, i, j);
-                    assert!(is_same(line, whole), "{what}, every {every}: {axis:?} {i} {j}: {line:?} {whole:?}");
+                    assert!(
+                        is_same(line, whole),
+                        "{what}, every {every}: {axis:?} {i} {j}: {line:?} {whole:?}"
+                    );
                 }
             }
         }
@@ -99,7 +102,10 @@ fn what_comes_after_finds_the_lines_as_they_are() {
                 if is_looked_at && leans {
                     let met = |e: &MoveEffect| (e.first_contact.is_some(), e.deepest, e.widest);
                     let ((a, b, c), (d, e, f)) = (met(one), met(other));
-                    assert!(a == d && (b - e).abs() < 1e-4 && (c - f).abs() < 1e-4, "{round} {i}: {one:?} {other:?}");
+                    assert!(
+                        a == d && (b - e).abs() < 1e-4 && (c - f).abs() < 1e-4,
+                        "{round} {i}: {one:?} {other:?}"
+                    );
                 }
             }
             if round % 5 == 4 {

@@ -7,6 +7,9 @@
 //! (`lanes.rs`). Each stretch of a line is cut as it is in order, by the same functions, so that the lines are the same up to the
 //! rounding of an end or two; but a line that lies in a flat face, to within 2 nm, may be taken in order and be left here.
 //!
+//! Where all tools are near to one axis of the stock, the lines along it are cut alone; those across it are cut when somebody reads them
+//! (`owed.rs`).
+//!
 //! A run holds moves of tools without a core that are meant to cut, and whose shank and holder stay away from all material there is before it.
 //! The amount that a move removes depends on the order: it is measured on some of the lines (`account.rs`).
 
@@ -31,9 +34,9 @@ use rayon::prelude::*;
 use self::account::{account, measured_along};
 use self::brick::Grids;
 pub(super) use self::cells::Cells;
+use self::near::SweptPart;
 pub(in crate::stock) use self::owed::OwedAcross;
 pub(super) use self::owed::settle_near;
-use self::near::SweptPart;
 use super::super::effect::{Effect, Looked, Sum};
 use super::super::list::CutList;
 use super::task::{Batch, SpanTask};

@@ -76,7 +76,12 @@ impl OwedAcross {
     }
 
     /// Notes a range of moves of a list that were cut; `tasks` are their spans, which count moves from `first` on.
-    pub(super) fn owe(&mut self, list: &Arc<CutList>, moves: Range<usize>, (tasks, first): (&[SpanTask], usize)) {
+    pub(super) fn owe(
+        &mut self,
+        list: &Arc<CutList>,
+        moves: Range<usize>,
+        (tasks, first): (&[SpanTask], usize),
+    ) {
         let mut boxes = vec![Aabb::EMPTY; moves.len().div_ceil(BLOCK)];
         for task in tasks {
             let block = &mut boxes[(task.index as usize - first) / BLOCK];
@@ -108,7 +113,8 @@ impl OwedAcross {
         let grids = Grids::share(grids);
         let is_behind = |brick: &u32| (self.paid[*brick as usize] as usize) < self.debts.len();
         let behind: Vec<u32> = bricks.iter().copied().filter(is_behind).collect();
-        let mut next = behind.iter().map(|brick| self.paid[*brick as usize] as usize).min().unwrap_or(usize::MAX);
+        let mut next =
+            behind.iter().map(|brick| self.paid[*brick as usize] as usize).min().unwrap_or(usize::MAX);
         while next < self.debts.len() && !progress.cancelled() {
             let cells = Cells::without_material(lattice, bounds);
             let open = || behind.iter().filter(|brick| !self.swallowed[**brick as usize]);
@@ -127,7 +133,9 @@ impl OwedAcross {
                 next += 1;
             }
             // To cut a brick twice does no harm.
-            open().filter(|brick| (self.paid[**brick as usize] as usize) < next).for_each(|brick| cells.note(*brick));
+            open()
+                .filter(|brick| (self.paid[**brick as usize] as usize) < next)
+                .for_each(|brick| cells.note(*brick));
             let swept: Vec<SweptPart> = batches.iter().flat_map(|batch| swept_parts(&batch.tasks)).collect();
             let bricks = cells.bricks_with_material();
             unite((&cells, &bricks), (&grids, &axes), &swept, progress);
