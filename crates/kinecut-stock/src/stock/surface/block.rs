@@ -40,10 +40,6 @@ struct Ways {
 }
 
 impl Ways {
-    fn none(self) -> bool {
-        !(0..3).any(|i| self.leaving[i] || self.entering[i])
-    }
-
     fn one_each(self) -> bool {
         !(0..3).any(|i| self.leaving[i] && self.entering[i])
     }
@@ -104,13 +100,13 @@ impl<'a, G: DexelGrid + ?Sized> Block<'a, G> {
     }
 
     fn node(&mut self, cube: Cube, tree: &mut Tree) -> Node {
-        let ways = self.ways(cube);
-        if ways.none() {
+        if self.is_alike(cube) {
             return Node::Empty;
         }
         if cube.size == 1 {
             return self.cell(cube.low, tree);
         }
+        let ways = self.ways(cube);
         let graph = self.graph(cube, ways);
         if let Some(flat) = graph.and_then(|(axis, leaving)| self.flat(cube, axis, leaving)) {
             if cube.size == BLOCK {
@@ -163,6 +159,16 @@ impl<'a, G: DexelGrid + ?Sized> Block<'a, G> {
             tree.vertices.push(fit_cell(&self.points, low, low + 1.0, &mut self.clusters));
         }
         if loops.count == 1 { Node::Leaf(first) } else { Node::Cell(first) }
+    }
+
+    /// Whether all points of a cube are material, or all are void: then nothing crosses it.
+    fn is_alike(&self, cube: Cube) -> bool {
+        let ([x, y, z], size) = (cube.low, cube.size);
+        let all = ((2 << size) - 1) << x;
+        let first = self.rows.row(y, z) & all;
+        let is_like = |row: &u32| row & all == first;
+        let mut layers = (z..=z + size).map(|z| self.rows.layer(y, z, size as usize + 1));
+        (first == 0 || first == all) && layers.all(|rows| rows.iter().all(is_like))
     }
 
     /// Directions of all crossings in a cube, its border included.

@@ -99,19 +99,26 @@ impl<G: DexelGrid + ?Sized> Maker<'_, G> {
         let around = [(1, 1), (0, 1), (0, 0), (1, 0)];
         let mut ring = [0; 4];
         // Leaves are cubes: one that holds two opposite cells holds all four.
-        let mut opposite = p;
-        opposite[u.index()] -= 1;
-        opposite[v.index()] -= 1;
-        if let (Node::Leaf(a), Node::Leaf(b)) = (self.forest.leaf(p), self.forest.leaf(opposite))
+        let cell_at = |(du, dv): (u32, u32)| {
+            let mut cell = p;
+            cell[u.index()] -= du;
+            cell[v.index()] -= dv;
+            cell
+        };
+        let (here, opposite) = (self.forest.leaf(p), self.forest.leaf(cell_at((1, 1))));
+        if let (Node::Leaf(a), Node::Leaf(b)) = (here, opposite)
             && a == b
         {
             return;
         }
         for (n, (du, dv)) in around.into_iter().enumerate() {
-            let mut cell = p;
-            cell[u.index()] -= du;
-            cell[v.index()] -= dv;
-            ring[n] = match self.forest.leaf(cell) {
+            let cell = cell_at((du, dv));
+            let leaf = match (du, dv) {
+                (0, 0) => here,
+                (1, 1) => opposite,
+                _ => self.forest.leaf(cell),
+            };
+            ring[n] = match leaf {
                 Node::Leaf(vertex) => vertex,
                 Node::Cell(vertex) => vertex + u32::from(loops(self.signs, cell).of_edge[edge(axis, du, dv)]),
                 // A cell around a crossed edge has surface in it.

@@ -27,8 +27,9 @@ impl Signs {
         let counts = lines.counts;
         let width = width(counts[0].into()) as usize;
         let [_, ny, nz] = counts.map(|n| n as usize);
+        // By all threads: the first write to memory is what it costs.
         let words: Vec<AtomicU64> =
-            std::iter::repeat_with(AtomicU64::default).take(width * ny * nz).collect();
+            (0..width * ny * nz).into_par_iter().map(|_| AtomicU64::default()).collect();
         let signs = Signs { counts, width, words };
         // The lines along Z, one Y after the other.
         (0..counts[1]).into_par_iter().for_each_init(

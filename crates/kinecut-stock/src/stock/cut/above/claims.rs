@@ -49,13 +49,13 @@ impl Patch {
                 // One way after the other along a row.
                 for (r, columns) in along.into_iter().enumerate() {
                     for c in bits(columns) {
-                        self.claim_way(layers, (r0 + r, c0 + c, 0), (index, &sweep), &mut claims[0]);
+                        self.claim_way(layers, (r0 + r, c0 + c, 0), index, &mut claims[0]);
                     }
                 }
                 let columns = across.into_iter().fold(0, |all, columns| all | columns);
                 for c in bits(columns) {
                     for r in (0..BLOCK).filter(|r| across[*r] >> c & 1 == 1) {
-                        self.claim_way(layers, (r0 + r, c0 + c, 1), (index, &sweep), &mut claims[1]);
+                        self.claim_way(layers, (r0 + r, c0 + c, 1), index, &mut claims[1]);
                     }
                 }
             }
@@ -66,7 +66,13 @@ impl Patch {
     /// Bounds on the ways along a direction to the lines of a block, from the heights of a part; by row a bit for each that is below
     /// its ceiling.
     #[inline(always)]
-    fn bound_ways(&mut self, (c0, r0): (usize, usize), k: usize, layers: &Layers) -> [u8; BLOCK] {
+    fn bound_ways(
+        &mut self,
+        (c0, r0): (usize, usize),
+        k: usize,
+        (sweep, rim): (&Sweep, f64),
+        layers: &Layers,
+    ) -> [u8; BLOCK] {
         let back = if k == 0 { 1 } else { HEIGHTS };
         let mut rows = [0; BLOCK];
         for r in r0..r0 + BLOCK {
@@ -75,15 +81,41 @@ impl Patch {
             let (before, from) = (row_at(heights, at - 2 * back), row_at(heights, at - back));
             let (to, behind) = (row_at(heights, at), row_at(heights, at + back));
             let ceilings = row_at(&self.ceilings[k][..], start);
-            let mut lows = [0.0; BLOCK];
+            let (mut lows, mut known) = ([0.0; BLOCK], [0.0; BLOCK]);
             for c in 0..BLOCK {
                 let low = most(convex(before[c], from[c]), convex(behind[c], to[c]));
-                lows[c] = low;
+                known[c] = low;
+                lows[c] = if low == f64::NEG_INFINITY { rim } else { low };
             }
-            rows[r - r0] = claimed(&lows, &ceilings, layers);
+            let mut row = claimed(&lows, &ceilings, layers);
+            let unknown = row & endless(&known);
+            if unknown != 0 {
+                let (x, y, half) = self.middles_of_ways((c0, r), k);
+                row &= !unknown;
+                if unknown & sweep.reached(&x, &y, half + ROUNDING) != 0 {
+                    let bounds = sweep.bounds(&x, &y, half);
+                    for c in 0..BLOCK {
+                        lows[c] = if known[c] == f64::NEG_INFINITY { bounds[c] } else { known[c] };
+                    }
+                    row = claimed(&lows, &ceilings, layers);
+                }
+            }
+            rows[r - r0] = row;
             put_row(&mut self.lows[k][..], start, lows);
         }
         rows
+    }
+
+    /// Middles of the ways along a direction to the lines of a row of a block, and half their length.
+    #[inline(always)]
+    fn middles_of_ways(&self, (c0, r): (usize, usize), k: usize) -> ([f64; BLOCK], [f64; BLOCK], f64) {
+        let half = 0.5 * self.step;
+        let (dx, dy) = if k == 0 { (half, 0.0) } else { (0.0, half) };
+        let mut x = row_at(&self.x, c0);
+        for x in &mut x {
+            *x -= dx;
+        }
+        (x, [self.y[r] - dy; BLOCK], half)
     }
 
     /// The same by discs about the ways.
@@ -95,17 +127,12 @@ impl Patch {
         sweep: &Sweep,
         layers: &Layers,
     ) -> [u8; BLOCK] {
-        let half = 0.5 * self.step;
-        let (dx, dy) = if k == 0 { (half, 0.0) } else { (0.0, half) };
-        let mut x = row_at(&self.x, c0);
-        for x in &mut x {
-            *x -= dx;
-        }
         let mut rows = [0; BLOCK];
         for r in r0..r0 + BLOCK {
             let start = r * SIDE + c0;
             let ceilings = row_at(&self.ceilings[k][..], start);
-            let lows = sweep.bounds(&x, &[self.y[r] - dy; BLOCK], half);
+            let (x, y, half) = self.middles_of_ways((c0, r), k);
+            let lows = sweep.bounds(&x, &y, half);
             rows[r - r0] = claimed(&lows, &ceilings, layers);
             put_row(&mut self.lows[k][..], start, lows);
         }
@@ -118,20 +145,13 @@ impl Patch {
         &self,
         layers: &Layers,
         (r, c, k): (usize, usize, usize),
-        (index, sweep): (u32, &Sweep),
+        index: u32,
         claims: &mut Vec<Claim>,
     ) {
         let (low, ceiling) = (self.lows[k][r * SIDE + c], self.ceilings[k][r * SIDE + c]);
         if low - ROUNDING >= ceiling + 2.0 * ROUNDING || ceiling == f64::NEG_INFINITY {
             return;
         }
-        let low = if low == f64::NEG_INFINITY {
-            let half = 0.5 * self.step;
-            let (dx, dy) = if k == 0 { (half, 0.0) } else { (0.0, half) };
-            sweep.bounds(&[self.x[c] - dx], &[self.y[r] - dy], half)[0]
-        } else {
-            low
-        };
         if low < f64::INFINITY {
             let layers = layers.between(low, ceiling);
             if layers.0 < layers.1 {
@@ -169,8 +189,11 @@ impl NullaryFnOnce for Bound<'_, '_> {
         let mut claimed = [[[0; BLOCK]; 2]; BLOCKS];
         if sweep.is_convex() {
             patch.raise(sweep, blocks);
+            // Where a bound is not known the part does not pass one of the lines about the way, two steps from its far end at most.
+            let sweep = (sweep, sweep.rim(2.0 * patch.step));
             for (corner, claimed) in blocks.corners().zip(&mut claimed) {
-                *claimed = [patch.bound_ways(corner, 0, layers), patch.bound_ways(corner, 1, layers)];
+                *claimed =
+                    [patch.bound_ways(corner, 0, sweep, layers), patch.bound_ways(corner, 1, sweep, layers)];
             }
         } else {
             for (corner, claimed) in blocks.corners().zip(&mut claimed) {
@@ -195,8 +218,18 @@ fn claimed(lows: &[f64; BLOCK], ceilings: &[f64; BLOCK], layers: &Layers) -> u8 
     claimed
 }
 
-/// Bound from below of a convex function on the way behind two of its values at equal distances; low without end where the
-/// nearer one is infinite.
+/// A bit for each bound that is low without end.
+#[inline(always)]
+fn endless(lows: &[f64; BLOCK]) -> u8 {
+    let mut endless = 0;
+    for c in 0..BLOCK {
+        endless |= u8::from(lows[c] == f64::NEG_INFINITY) << c;
+    }
+    endless
+}
+
+/// Bound from below of a convex function on the way behind two of its values at equal distances; low without end where one of them
+/// is infinite.
 #[inline(always)]
 fn convex(before: f64, here: f64) -> f64 {
     let beyond = least(here, 2.0 * here - before);

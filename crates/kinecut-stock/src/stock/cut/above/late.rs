@@ -16,10 +16,10 @@ use super::super::task::Task;
 use super::super::upright::tasks_of;
 use super::FromAbove;
 use super::ceilings::KeptCeilings;
-use super::claims::Claim;
 use super::field::{Field, OWN};
 use super::layers::Layers;
-use super::patch::{Known, Patch};
+use super::owed::Owed;
+use super::patch::Known;
 use super::sides::{clear, cut_claims, direction};
 use super::sweep::Sweep;
 use super::tops::{self, Kept};
@@ -288,53 +288,21 @@ impl FromAbove {
         let frame = ToolFrame::new(self.axis);
         let along = frame.axes[2];
         let layers = Layers::new(lattice, &frame);
-        let mut next = open.inside().map(|patch| open.paid[patch]).min().unwrap_or(usize::MAX);
-        while next < self.late.count && !progress.cancelled() {
-            let (tasks, end) = self.late.tasks(next, &frame, field, open);
-            next = end;
-            let mut claims = claims(field, (open, ceilings), &tasks, &layers, progress);
-            for grid in grids.iter_mut().filter(|grid| grid.axis != along) {
-                let claims = std::mem::take(&mut claims[direction(grid.axis, &frame)]);
-                cut_claims(grid, (lattice, &frame), (&tasks, claims), progress);
-            }
+        let first = open.inside().map(|patch| open.paid[patch]).min().unwrap_or(usize::MAX);
+        let owed = |next: usize| {
+            (next < self.late.count)
+                .then(|| Owed::new(&self.late, next, &frame, (field, open, ceilings.len())))
+        };
+        let mut next = owed(first);
+        while let Some(some) = next.take().filter(|_| !progress.cancelled()) {
+            let cut = || {
+                let claims = some.claims(field, ceilings, &layers, progress);
+                let across = grids.par_iter_mut().filter(|grid| grid.axis != along);
+                across.for_each(|grid| cut_claims(grid, (lattice, &frame), (&some.tasks, &claims), progress));
+            };
+            (_, next) = rayon::join(cut, || owed(some.end));
         }
     }
-}
-
-/// Claims of tasks on the ways of open patches of a field below their ceilings, by direction.
-fn claims(
-    field: &Field,
-    (open, ceilings): (&Open, &[Known]),
-    tasks: &[Task],
-    layers: &Layers,
-    progress: &dyn Progress,
-) -> [Vec<Claim>; 2] {
-    let mut bins: Vec<Vec<u32>> = vec![Vec::new(); ceilings.len()];
-    field.each_near(tasks, |patch, i| {
-        if open.wants(patch, tasks[i as usize].index as usize) {
-            bins[patch].push(i);
-        }
-    });
-    let work = bins.par_iter().enumerate().filter(|(_, bin)| !bin.is_empty());
-    let all: Vec<[Vec<Claim>; 2]> = work
-        .map(|(p, bin)| {
-            let mut claims = [Vec::new(), Vec::new()];
-            let mut patch = Patch::new(field, p, ceilings[p].as_deref());
-            patch.keep_covers(true);
-            for i in bin {
-                if progress.cancelled() {
-                    break;
-                }
-                // A watched task was clear, and has met nothing.
-                let task = &tasks[*i as usize];
-                if !task.watch {
-                    patch.claim(layers, *i, task, &mut claims);
-                }
-            }
-            claims
-        })
-        .collect();
-    [0, 1].map(|k| all.iter().flat_map(|claims| &claims[k]).copied().collect())
 }
 
 /// Patches that are paid.
@@ -367,7 +335,7 @@ impl Open {
     }
 
     /// Whether a move is owed on the ways of a patch.
-    fn wants(&self, patch: usize, index: usize) -> bool {
+    pub(super) fn wants(&self, patch: usize, index: usize) -> bool {
         let place = [patch % self.patches[0], patch / self.patches[0]];
         self.paid[patch] <= index && (0..2).all(|k| self.rectangle[k].contains(&place[k]))
     }
@@ -394,7 +362,13 @@ impl Late {
 
     /// Tasks of the moves from one on that cut, and may reach open patches, as many as there is room for, with the numbers of their
     /// moves; and the first move after them.
-    fn tasks(&self, from: usize, frame: &ToolFrame, field: &Field, open: &Open) -> (Vec<Task<'_>>, usize) {
+    pub(super) fn tasks(
+        &self,
+        from: usize,
+        frame: &ToolFrame,
+        field: &Field,
+        open: &Open,
+    ) -> (Vec<Task<'_>>, usize) {
         let mut tasks = Vec::new();
         let start = self.debts.partition_point(|debt| debt.first + debt.moves.len() <= from);
         let (u, v) = frame.axes[2].others();

@@ -11,15 +11,18 @@
 //!
 //! All lines are cut late, by all moves since the last time together: where a move is looked at line by line those near it, and all
 //! when something asks for them. Of the lines along the axis a height and a move are kept (`tops.rs`); for those across it, the lower
-//! the ceilings have become, the less is left to do (`late.rs`).
+//! the ceilings have become, the less is left to do (`late.rs`): so many moves at once (`owed.rs`), which claim lines by patch
+//! (`gathered.rs`).
 
 mod at_once;
 mod ceilings;
 mod claims;
 mod column;
 mod field;
+mod gathered;
 mod late;
 mod layers;
+mod owed;
 mod patch;
 mod round;
 mod sides;

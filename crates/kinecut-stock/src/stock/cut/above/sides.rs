@@ -11,6 +11,7 @@ use super::super::strip::Strip;
 use super::super::task::Task;
 use super::claims::Claim;
 use super::field::OWN;
+use super::gathered::Gathered;
 use super::late::Open;
 use super::layers::Layers;
 use super::patch::{Known, SIDE};
@@ -27,23 +28,18 @@ const CLEAR: i32 = 3;
 pub(super) fn cut_claims(
     grid: &mut Grid,
     (lattice, frame): (&Lattice, &ToolFrame),
-    (tasks, claims): (&[Task], Vec<Claim>),
+    (tasks, claims): (&[Task], &Gathered),
     progress: &dyn Progress,
 ) {
-    let axis = grid.axis;
-    let strip_of = |claim: &Claim| (claim.row / TILE_EDGE) as usize;
-    let Some(first) = claims.iter().map(strip_of).min() else { return };
-    let last = claims.iter().map(strip_of).max().unwrap_or(first);
-    let mut of_strip: Vec<Vec<Claim>> = vec![Vec::new(); last + 1 - first];
-    for claim in claims {
-        of_strip[strip_of(&claim) - first].push(claim);
-    }
+    let (axis, edge) = (grid.axis, TILE_EDGE as usize);
+    let k = direction(axis, frame);
     let (rows, heights) = strip_lines(grid, lattice, frame);
-    let some = strips(grid, frame, (&rows, &heights), first..last + 1);
-    some.into_par_iter().zip(of_strip).for_each(|(mut strip, mut claims)| {
+    let reached = claims.rows(k);
+    let some = reached.start / edge..reached.end.min(rows.len()).div_ceil(edge);
+    let work = strips(grid, frame, (&rows, &heights), some.clone()).into_par_iter().zip(some);
+    work.for_each(|(mut strip, s)| {
         if !progress.cancelled() {
-            claims.sort_unstable();
-            cut_in_strip(&mut strip, axis, tasks, &claims);
+            cut_in_strip(&mut strip, axis, tasks, &claims.on_rows(k, &(s * edge..(s + 1) * edge)));
         }
     });
 }

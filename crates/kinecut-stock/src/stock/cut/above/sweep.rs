@@ -11,6 +11,7 @@ use super::super::body::{ConvexPart, Foot};
 use super::super::piece::MovePiece;
 use super::super::plan::Plan;
 use super::super::task::Task;
+use super::patch::ROUNDING;
 use super::round::Round;
 
 /// Lines along an edge of a block.
@@ -197,6 +198,29 @@ impl<'a> Sweep<'a> {
             bounds[i] = if d > r1 { f64::INFINITY } else { bound };
         }
         bounds
+    }
+
+    /// Bound from below on the part within a distance of lines that it does not pass, on a straight path.
+    pub(super) fn rim(&self, distance: f64) -> f64 {
+        /// Slope beyond which a height may be infinite over a line that is passed: where a ball is lowest is known to seven digits.
+        const STEEP: f64 = 1000.0;
+        let rho = self.part.r1 - distance - ROUNDING;
+        let is_known = self.straight.is_some_and(|path| path.slope.abs() < STEEP);
+        if is_known && rho > 0.0 { self.low + self.part.height(rho) } else { f64::NEG_INFINITY }
+    }
+
+    /// A bit for each disc about a middle that the part may reach on a straight path.
+    #[inline(always)]
+    pub(super) fn reached<const N: usize>(&self, x: &[f64; N], y: &[f64; N], radius: f64) -> u8 {
+        let Some(path) = &self.straight else { return u8::MAX };
+        let reach = self.part.r1 + radius;
+        let mut reached = 0;
+        for i in 0..N {
+            let (along, beside) = path.place(x[i], y[i]);
+            let off = along - most(0.0, least(along, path.length));
+            reached |= u8::from(off * off + beside * beside <= reach * reach) << i;
+        }
+        reached
     }
 
     /// For each of some middles a plane that no point of what is swept lies below: its height over the middle, and its slopes along x
@@ -551,9 +575,9 @@ mod tests {
     }
 
     /// Planes against heights of random moves and tools at random places: none lies above, and near to where they are asked for they
-    /// say more than the least height.
+    /// say more than the least height. So for the rim, near places that are not passed, and for the discs that are reached.
     #[test]
-    fn no_tool_goes_below_its_planes() {
+    fn no_tool_goes_below_its_planes_and_rim() {
         use super::super::super::axis::ToolFrame;
         use super::super::super::tests::reference::Random;
         use super::super::super::upright::tasks_of;
@@ -570,7 +594,7 @@ mod tests {
             Profile::new(vec![cone, side]).unwrap(),
         ];
         let mut random = Random(41);
-        let (mut tight, mut asked) = (0, 0);
+        let (mut tight, mut asked, mut beyond) = (0, 0, 0);
         for round in 0..kinecut_cases::cases(200, 4_000) {
             let axis = CutAxis::ALL[round as usize % 6];
             let frame = ToolFrame::new(axis);
@@ -597,6 +621,15 @@ mod tests {
                 let own = sweep.height(over).0;
                 let plane = height + DVec2::new(x, y).dot(off);
                 assert!(own >= plane - 1e-9, "round {round}, {line:?}: {own} below {plane}");
+                let apart = DVec2::new(random.within(-1.0, 1.0), random.within(-1.0, 1.0));
+                let (rim, beside) = (sweep.rim(apart.length()), sweep.height(over + apart).0);
+                assert!(
+                    beside < f64::INFINITY || own >= rim - 1e-9,
+                    "round {round}, {line:?}: {own} below {rim}"
+                );
+                beyond += u32::from(beside == f64::INFINITY && own < rim + 1.0);
+                let reached = sweep.reached(&[middle[0]; 1], &[middle[1]; 1], off.length() + ROUNDING);
+                assert!(own == f64::INFINITY || reached == 1, "round {round}, {line:?}: {over}");
                 if i == 0 && own < f64::INFINITY {
                     asked += 1;
                     tight += u32::from(own - plane < 0.05 * size);
@@ -604,6 +637,7 @@ mod tests {
             }
         }
         assert!(2 * tight > asked && asked > 20, "{tight} of {asked}");
+        assert!(beyond > 20, "{beyond}");
     }
 
     #[test]
