@@ -110,7 +110,9 @@ pub(super) fn cut(patch: &mut Patch, group: &[u32], tasks: &[Task]) {
         let index = f64::from(one.index);
         let mut open = patch.open_to(&one.bounds, index);
         if let Some(planes) = planes.filter(|_| !open.is_empty()) {
-            open = patch.open_by_planes(planes, open, |block| patch.slack(block, index));
+            let slack = |block| patch.slack(block, index);
+            open = patch.open_by_planes(planes, open, slack);
+            open = patch.open_by_lines(planes, open, slack);
         }
         if !open.is_empty() {
             patch.sink(&one.sweep(), open, index, false);
