@@ -22,12 +22,14 @@ const MOST: usize = 7;
 const BESIDE: [isize; 4] = [0, 1, -(SIDE as isize), 1 - SIDE as isize];
 
 /// A whole number that grows with a height, one from each number to the next.
+#[inline(always)]
 fn ordered(height: f32) -> i32 {
     let bits = height.to_bits() as i32;
     if bits < 0 { bits ^ i32::MAX } else { bits }
 }
 
 /// The height of a whole number, as [`ordered`] has it.
+#[inline(always)]
 fn height(ordered: i32) -> f32 {
     f32::from_bits((if ordered < 0 { ordered ^ i32::MAX } else { ordered }) as u32)
 }
@@ -52,7 +54,11 @@ fn by_other(other: &[i32; LINES], at: usize, beside: isize) -> i32 {
 impl PackedCeilings {
     /// Packs the ceilings of a patch.
     pub(super) fn of(ceilings: &PatchCeilings) -> PackedCeilings {
-        let [along, up] = ceilings.each_ref().map(|of| of.map(ordered));
+        // Not by `map`: of so many it makes copies.
+        let [mut along, mut up] = [[0; LINES]; 2];
+        for at in 0..LINES {
+            (along[at], up[at]) = (ordered(ceilings[0][at]), ordered(ceilings[1][at]));
+        }
         // The place beside at which most ceilings are the same.
         let same = |beside: isize| {
             let (far, back) = (beside.max(0) as usize, (-beside).max(0) as usize);
@@ -84,7 +90,13 @@ impl PackedCeilings {
         for at in 0..LINES {
             up[at] = by_other(along, at, beside).wrapping_add(take(&head[1..], LINES + at, &mut rest));
         }
-        all.map(|of| of.map(height))
+        let mut ceilings = [[0.0; LINES]; 2];
+        for (ceilings, all) in ceilings.iter_mut().zip(&all) {
+            for (ceiling, ordered) in ceilings.iter_mut().zip(all) {
+                *ceiling = height(*ordered);
+            }
+        }
+        ceilings
     }
 }
 

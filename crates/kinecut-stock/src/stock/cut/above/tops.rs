@@ -56,12 +56,6 @@ struct Plane {
 }
 
 impl Plane {
-    /// Height over a line.
-    #[inline(always)]
-    fn at(&self, line: usize) -> i64 {
-        self.over(line % EDGE, line / EDGE)
-    }
-
     /// Height over the line of a column and a row.
     #[inline(always)]
     fn over(&self, column: usize, row: usize) -> i64 {
@@ -90,8 +84,16 @@ impl Tops {
     /// The height above which nothing is left on an own line; `None` where it is as it is in the grid.
     #[inline]
     pub(super) fn top(&self, line: usize) -> Option<i32> {
-        // It was one.
-        (self.by.get(line) > 0).then(|| (self.plane.at(line) + i64::from(self.above.get(line))) as i32)
+        self.top_of(line % EDGE, line / EDGE)
+    }
+
+    /// The same for the own line of a column and a row.
+    #[inline]
+    pub(super) fn top_of(&self, column: usize, row: usize) -> Option<i32> {
+        let line = row * EDGE + column;
+        // It was a whole number of this type.
+        let top = || (self.plane.over(column, row) + i64::from(self.above.get(line))) as i32;
+        (self.by.get(line) > 0).then(top)
     }
 
     /// The piece of a move that went down to an own line; `None` as for its height.

@@ -207,7 +207,7 @@ impl Patch {
                 let (l, a, b) = (r * SIDE + c, self.first[0] + c as i64, self.first[1] + r as i64);
                 if let Some(line) = field.line(a, b) {
                     let kept = match tops {
-                        Some(tops) => tops.top((r - 1) * OWN as usize + c - 1),
+                        Some(tops) => tops.top_of(c - 1, r - 1),
                         None => field.kept_top(a, b),
                     };
                     [self.bottom[l], self.top[l]] = field.ends(line, kept);
