@@ -61,6 +61,15 @@ impl Skimmed {
         }
     }
 
+    /// What is known after the moves of both.
+    pub(super) fn with(self, other: Skimmed) -> Skimmed {
+        let strip = |k: usize, side: usize| {
+            let (a, b) = (self.0[k][side], other.0[k][side]);
+            Strip { heights: hull(a.heights, b.heights), along: hull(a.along, b.along) }
+        };
+        Skimmed([0, 1].map(|k| [0, 1].map(|side| strip(k, side))))
+    }
+
     /// Most volume by which ledges in the strips may be off [mm^3]: narrower than the lines are apart, they end anywhere between two
     /// lines.
     pub(super) fn ledges(&self, lattice: &Lattice, stock: Aabb) -> f64 {

@@ -4,12 +4,15 @@ use std::f64::consts::TAU;
 use std::ops::Range;
 use std::sync::Arc;
 
+use rayon::prelude::*;
+
 use super::leaning::cut_leaning;
 use super::list::CutList;
 use super::upright::cut_upright;
 use super::{CutMove, CutOptions, MoveEffect, Stance, ToolBody};
 use crate::base::{Code, Error, Finding, Progress, Result};
 use crate::geom::CurveKind;
+use crate::stock::skimmed::Skimmed;
 use crate::stock::{DexelGrid, TriDexel};
 use crate::sweep::ToolMotion;
 
@@ -149,14 +152,18 @@ pub(super) fn cut_as(
     }
     stock.take_back();
     let (lattice, bounds) = (*stock.lattice(), stock.bounds());
-    for i in range.clone().filter(|i| list.moves[*i].removes) {
-        let inside = bounds.grown(-lattice.step);
-        list.taken(i, inside).for_each(|part| stock.skimmed.note(&lattice, bounds, part));
-    }
+    let inside = bounds.grown(-lattice.step);
+    let note = |mut skimmed: Skimmed, i: usize| {
+        list.taken(i, inside).for_each(|part| skimmed.note(&lattice, bounds, part));
+        skimmed
+    };
     let mut effects = Vec::with_capacity(range.len());
     progress.stage("cut", range.len() as u64);
     // By one of the threads that share the work: none has to be woken for each of thousands of short runs.
     rayon::scope(|_| {
+        let removing = range.clone().into_par_iter().with_min_len(BATCH).filter(|i| list.moves[*i].removes);
+        let skimmed = removing.fold(|| Skimmed::WHOLE, note).reduce(|| Skimmed::WHOLE, Skimmed::with);
+        stock.skimmed = stock.skimmed.with(skimmed);
         for stretch in list.stretches(range) {
             match list.moves[stretch.start].stance.axis() {
                 Some(axis) => cut_upright(stock, (axis, order), list, stretch, &mut effects, progress)?,

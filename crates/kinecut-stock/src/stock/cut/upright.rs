@@ -44,7 +44,11 @@ impl<'a> Batch<'a> {
         frame: &ToolFrame,
         free: impl Fn(usize) -> bool,
     ) -> Batch<'a> {
-        let mut batch = Batch { tasks: Vec::new(), errors: Vec::new(), filled: Vec::new() };
+        let mut batch = Batch {
+            tasks: Vec::with_capacity(range.len().min(MOST_TASKS)),
+            errors: Vec::with_capacity(range.len()),
+            filled: Vec::with_capacity(range.len()),
+        };
         for i in range.clone() {
             if batch.tasks.len() >= MOST_TASKS {
                 break;

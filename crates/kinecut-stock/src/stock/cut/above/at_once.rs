@@ -31,7 +31,7 @@ pub(in crate::stock::cut) fn stride(tasks: &[Task], step: f64) -> i64 {
 }
 
 /// Measures what tasks remove, one after another, on the lines of a sparse field.
-pub(super) fn measure(field: &Field, tasks: &[Task], progress: &dyn Progress) -> Vec<Done> {
+pub(super) fn measure(field: &Field, tasks: &[Task], progress: &dyn Progress) -> Vec<Vec<Done>> {
     let bins = field.bins(tasks);
     let one = |(p, bin): (usize, &Vec<u32>)| {
         let mut patch = Patch::new(field, p, None).with_lines(field);
@@ -50,7 +50,7 @@ pub(super) fn measure(field: &Field, tasks: &[Task], progress: &dyn Progress) ->
         }
         all
     };
-    bins.par_iter().enumerate().filter(|(_, bin)| !bin.is_empty()).flat_map_iter(one).collect()
+    bins.par_iter().enumerate().filter(|(_, bin)| !bin.is_empty()).map(one).collect()
 }
 
 /// Whether only the outcome of a task counts in a patch with material up to a height: it takes all above its underside, or is known to
@@ -110,7 +110,9 @@ pub(super) fn cut(patch: &mut Patch, group: &[u32], tasks: &[Task]) {
         let index = f64::from(one.index);
         let mut open = patch.open_to(&one.bounds, index);
         if let Some(planes) = planes.filter(|_| !open.is_empty()) {
-            open = patch.open_by_planes(planes, open, |block| patch.slack(block, index));
+            let slack = |block| patch.slack(block, index);
+            open = patch.open_by_planes(planes, open, slack);
+            open = patch.open_by_lines(planes, open, slack);
         }
         if !open.is_empty() {
             patch.sink(&one.sweep(), open, index, false);

@@ -4,6 +4,7 @@ use std::ops::{Range, RangeInclusive};
 
 use glam::DVec2;
 use pulp::Arch;
+use rayon::prelude::*;
 
 use super::super::axis::ToolFrame;
 use super::super::task::Task;
@@ -167,9 +168,23 @@ impl<'a> Field<'a> {
 
     /// For each patch the tasks that may reach it, in order.
     pub(super) fn bins(&self, tasks: &[Task]) -> Vec<Vec<u32>> {
+        /// Tasks that are looked at together, which bounds the memory of it, and those that one thread takes of them.
+        const WAVE: usize = 16 * PART;
+        const PART: usize = 512;
         let patches = self.patches();
         let mut bins = vec![Vec::new(); patches[0] * patches[1]];
-        self.each_near(tasks, |patch, task| bins[patch].push(task));
+        for (wave, tasks) in tasks.chunks(WAVE).enumerate() {
+            let near = |(part, tasks): (usize, &[Task])| {
+                let first = (wave * WAVE + part * PART) as u32;
+                let mut near: Vec<(u32, u32)> = Vec::new();
+                self.each_near(tasks, |patch, task| near.push((patch as u32, first + task)));
+                near
+            };
+            let near: Vec<Vec<(u32, u32)>> = tasks.par_chunks(PART).enumerate().map(near).collect();
+            for (patch, task) in near.into_iter().flatten() {
+                bins[patch as usize].push(task);
+            }
+        }
         bins
     }
 

@@ -17,6 +17,7 @@ use super::super::upright::tasks_of;
 use super::FromAbove;
 use super::ceilings::KeptCeilings;
 use super::field::{Field, OWN};
+use super::known::KnownCeilings;
 use super::layers::Layers;
 use super::owed::Owed;
 use super::patch::Known;
@@ -59,7 +60,7 @@ impl FromAbove {
         let all = patches[0] * patches[1];
         FromAbove {
             axis,
-            ceilings: vec![None; all],
+            ceilings: KnownCeilings::none(all),
             tops: vec![None; all],
             behind: false,
             across: patches[0],
@@ -145,7 +146,7 @@ impl FromAbove {
         let late = &mut self.late;
         late.debts.clear();
         late.paid.fill(late.count);
-        late.cleared.fill(self.ceilings.clone());
+        late.cleared.fill(self.ceilings.to_vec());
         self.owe_nothing_along();
     }
 

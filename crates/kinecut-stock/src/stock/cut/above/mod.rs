@@ -12,7 +12,8 @@
 //! All lines are cut late, by all moves since the last time together: where a move is looked at line by line those near it, and all
 //! when something asks for them. Of the lines along the axis a height and a move are kept (`tops.rs`); for those across it, the lower
 //! the ceilings have become, the less is left to do (`late.rs`): so many moves at once (`owed.rs`), which claim lines by patch
-//! (`gathered.rs`).
+//! (`gathered.rs`). What is kept is packed: heights count from a plane and moves from a list by patch (`narrow.rs`, `movers.rs`), ceilings
+//! from their neighbours (`packed.rs`) until they are read (`known.rs`).
 
 mod at_once;
 mod ceilings;
@@ -20,9 +21,13 @@ mod claims;
 mod column;
 mod field;
 mod gathered;
+mod known;
 mod late;
 mod layers;
+mod movers;
+mod narrow;
 mod owed;
+mod packed;
 mod patch;
 mod round;
 mod sides;
@@ -30,14 +35,15 @@ mod sweep;
 mod tops;
 
 use std::collections::BTreeMap;
-use std::sync::Arc;
 use std::sync::atomic::{AtomicU32, Ordering::Relaxed};
 
 use rayon::prelude::*;
 
 use self::field::Field;
+use self::known::{KnownCeilings, NewCeilings};
 use self::late::Late;
-use self::patch::{Known, Patch, PatchCeilings};
+use self::movers::Mover;
+use self::patch::Patch;
 use self::tops::Tops;
 use super::CutAxis;
 use super::axis::ToolFrame;
@@ -53,7 +59,7 @@ pub(super) use self::late::settle_near;
 pub(in crate::stock) struct FromAbove {
     axis: CutAxis,
     /// By patch, heights above which nothing is left on the ways between lines; `None` where they are as high as the stock.
-    ceilings: Vec<Known>,
+    ceilings: KnownCeilings,
     /// By patch, the heights of lines along the axis that are to be cut.
     tops: Vec<Option<Box<Tops>>>,
     /// There may be some.
@@ -78,10 +84,10 @@ pub(in crate::stock::cut) struct Done {
 
 /// The outcome of a run in a patch.
 struct Outcome {
-    /// Heights of the lines and the tasks that went down to them.
+    /// All lines that are cut late: by tasks, and before.
     tops: Box<Tops>,
     done: Vec<Done>,
-    ceilings: Arc<PatchCeilings>,
+    ceilings: NewCeilings,
 }
 
 /// Cuts tasks, in order, up to the first move that has to be looked at line by line; returns its index, and tells by `each` what
@@ -101,11 +107,14 @@ pub(super) fn cut_from_above(
     let mut above = taken.unwrap_or_else(|| FromAbove::new(axis, shape.patches()));
     let field = Field::new(&stock.grids[along], &lattice, frame, stock.bounds(), Some(above.kept()));
     let bins = field.bins(tasks);
+    // The moves of the tasks are owed next.
+    let (first, pieces) = (above.late.count() as u32, tops::pieces(tasks));
+    let of = |task: u32| (first + tasks[task as usize].index, pieces[task as usize]);
     let run = |patches: &mut dyn Iterator<Item = usize>, limit: &AtomicU32| -> Vec<(usize, Outcome)> {
         let patches: Vec<usize> = patches.collect();
         let one = |patch: usize| {
-            let (bin, known) = (&bins[patch], above.ceilings[patch].as_deref());
-            Some((patch, pass(&field, (patch, known), (bin, tasks, stride.is_some()), limit, progress)?))
+            let work = (&bins[patch][..], tasks, stride.is_some());
+            Some((patch, pass((&field, &above), patch, work, &of, limit, progress)?))
         };
         patches.into_par_iter().filter_map(one).collect()
     };
@@ -134,18 +143,16 @@ pub(super) fn cut_from_above(
     }
     if let Some(stride) = stride {
         let end = tasks.partition_point(|t| t.index < stopped);
-        at_once::measure(&field.sparse(stride), &tasks[..end], progress).iter().for_each(&mut each);
+        let all = at_once::measure(&field.sparse(stride), &tasks[..end], progress);
+        all.iter().flatten().for_each(&mut each);
     }
     for done in outcomes.iter().flatten().flat_map(|o| &o.done) {
         each(done);
     }
-    // The moves of the tasks are owed next.
-    let (first, pieces) = (above.late.count() as u32, tops::pieces(tasks));
-    for ((ceilings, tops), outcome) in above.ceilings.iter_mut().zip(&mut above.tops).zip(outcomes) {
+    for (patch, outcome) in outcomes.into_iter().enumerate() {
         if let Some(outcome) = outcome {
-            *ceilings = Some(outcome.ceilings);
-            let of = |task: u32| (first + tasks[task as usize].index, pieces[task as usize]);
-            outcome.tops.add_to(tops, of);
+            above.ceilings.set(patch, outcome.ceilings);
+            above.tops[patch] = Some(outcome.tops);
             above.behind = true;
         }
     }
@@ -162,25 +169,27 @@ pub(super) fn are_clear(stock: &TriDexel, (axis, frame): (CutAxis, &ToolFrame), 
     let mut near: BTreeMap<usize, Vec<u32>> = BTreeMap::new();
     field.each_near(tasks, |patch, task| near.entry(patch).or_default().push(task));
     let is_clear = |(patch, bin): (&usize, &Vec<u32>)| {
-        let known = above.and_then(|above| above.ceilings[*patch].as_deref());
-        let patch = Patch::new(&field, *patch, known).with_lines(&field);
+        let known = above.and_then(|above| above.ceilings.of(*patch));
+        let patch = Patch::new(&field, *patch, known.as_deref()).with_lines(&field);
         !bin.iter().any(|task| patch.is_unclear(&tasks[*task as usize]))
     };
     near.iter().all(is_clear)
 }
 
 /// Takes the tasks of a bin over a patch, up to a limit of moves that is lowered to a move which has to be looked at line by
-/// line: then there is no outcome, nor when it was cancelled.
+/// line: then there is no outcome, nor when it was cancelled. `of` is the number of a task's move, and its piece.
 fn pass(
-    field: &Field,
-    (patch, known): (usize, Option<&PatchCeilings>),
+    (field, above): (&Field, &FromAbove),
+    number: usize,
     (bin, tasks, at_once): (&[u32], &[Task], bool),
+    of: &dyn Fn(u32) -> Mover,
     limit: &AtomicU32,
     progress: &dyn Progress,
 ) -> Option<Outcome> {
     /// Tasks between two looks whether the caller still waits: a fraction of a millisecond.
     const LOOK: usize = 64;
-    let mut patch = Patch::new(field, patch, known).with_lines(field);
+    let known = above.ceilings.of(number);
+    let mut patch = Patch::new(field, number, known.as_deref()).with_lines(field);
     let mut all = Vec::new();
     let (mut next, mut looked) = (0, 0);
     while next < bin.len() {
@@ -220,6 +229,7 @@ fn pass(
     if at_once {
         all = patch.left(field, tasks);
     }
-    let ceilings = Arc::new(patch.kept_ceilings());
-    Some(Outcome { tops: patch.cut_tops(), done: all, ceilings })
+    let ceilings = above.ceilings.form(patch.kept_ceilings());
+    let tops = Box::new(patch.cut_tops(above.tops[number].as_deref(), of));
+    Some(Outcome { tops, done: all, ceilings })
 }

@@ -14,7 +14,8 @@ use super::super::tile_axial::cut_above;
 use super::super::upright::tasks_of;
 use super::field::OWN;
 use super::late::Late;
-use super::patch::NONE;
+use super::movers::{Mover, Movers};
+use super::narrow::Narrow;
 use crate::base::Progress;
 use crate::geom::CurveKind;
 use crate::stock::Lattice;
@@ -22,46 +23,125 @@ use crate::stock::sieve::Sieve;
 use crate::stock::tile::TILE_EDGE;
 use crate::stock::tri_dexel::Grid;
 
+/// Own lines along an edge of a patch.
+const EDGE: usize = OWN as usize;
+
 /// Lines of a patch that are its own.
 pub(super) const OWN_LINES: usize = (OWN * OWN) as usize;
 
-/// The own lines of a patch, row by row.
+/// The own lines of a patch, row by row, as far as they are cut: the heights in the tool frame above which nothing is left
+/// [fixed steps], and the pieces of moves that went down to them.
+///
+/// A height is counted from a plane: a slope then takes two bytes a line, a piece mostly one.
 #[derive(Clone, Debug)]
 pub(in crate::stock) struct Tops {
-    /// Heights in the tool frame above which nothing is left [fixed steps].
-    pub(super) at: [i32; OWN_LINES],
-    /// Numbers of the moves that went down to them, among those that are owed; [`NONE`] where the line is as it is in the grid.
-    pub(super) by: [u32; OWN_LINES],
-    /// The pieces of these moves; [`MANY`] where that is not kept.
-    pub(super) piece: [u16; OWN_LINES],
+    plane: Plane,
+    /// By line, its height above the plane.
+    above: Narrow,
+    /// By line, the index of its mover and one; 0 where a line is as it is in the grid.
+    by: Narrow,
+    /// Numbers of moves, among those that are owed, and of their pieces; [`MANY`] where that is not kept.
+    movers: Box<[Mover]>,
 }
 
 /// A piece of a move that has more than are counted.
 const MANY: u16 = u16::MAX;
 
-impl Tops {
-    /// All lines are as they are in the grid.
-    pub(super) const UNCUT: Tops =
-        Tops { at: [i32::MAX; OWN_LINES], by: [NONE; OWN_LINES], piece: [MANY; OWN_LINES] };
+/// Heights over rows and columns [fixed steps].
+#[derive(Clone, Copy, Debug)]
+struct Plane {
+    base: i64,
+    /// From one column to the next, and from one row to the next.
+    slopes: [i64; 2],
+}
 
-    /// The height above which nothing is left on an own line; `None` where it is as it is in the grid.
-    pub(super) fn top(&self, line: usize) -> Option<i32> {
-        (self.by[line] != NONE).then_some(self.at[line])
+impl Plane {
+    /// Height over the line of a column and a row.
+    #[inline(always)]
+    fn over(&self, column: usize, row: usize) -> i64 {
+        self.base + self.slopes[0] * column as i64 + self.slopes[1] * row as i64
     }
 
-    /// Adds lines that tasks have cut since to those that are kept; `of` is the number of a task's move, and its piece.
-    pub(super) fn add_to(mut self: Box<Tops>, kept: &mut Option<Box<Tops>>, of: impl Fn(u32) -> (u32, u16)) {
-        for line in 0..OWN_LINES {
-            if self.by[line] == NONE {
-                continue;
-            }
-            (self.by[line], self.piece[line]) = of(self.by[line]);
-            if let Some(kept) = kept {
-                kept.at[line] = self.at[line];
-                (kept.by[line], kept.piece[line]) = (self.by[line], self.piece[line]);
+    /// The highest plane with these slopes that no height lies below, and how far above it they reach.
+    fn below(heights: &[i32; OWN_LINES], by: &[u32; OWN_LINES], slopes: [i64; 2]) -> (Plane, i64) {
+        let plane = Plane { base: 0, slopes };
+        let (mut low, mut high) = ([i64::MAX; EDGE], [i64::MIN; EDGE]);
+        for (row, (heights, by)) in heights.chunks_exact(EDGE).zip(by.chunks_exact(EDGE)).enumerate() {
+            for column in 0..EDGE {
+                let above = i64::from(heights[column]) - plane.over(column, row);
+                let is_cut = by[column] > 0;
+                low[column] = low[column].min(if is_cut { above } else { i64::MAX });
+                high[column] = high[column].max(if is_cut { above } else { i64::MIN });
             }
         }
-        kept.get_or_insert(self);
+        let low = low.into_iter().fold(i64::MAX, i64::min);
+        let high = high.into_iter().fold(i64::MIN, i64::max);
+        if low > high { (plane, 0) } else { (Plane { base: low, slopes }, high - low) }
+    }
+}
+
+impl Tops {
+    /// The height above which nothing is left on an own line; `None` where it is as it is in the grid.
+    #[inline]
+    pub(super) fn top(&self, line: usize) -> Option<i32> {
+        self.top_of(line % EDGE, line / EDGE)
+    }
+
+    /// The same for the own line of a column and a row.
+    #[inline]
+    pub(super) fn top_of(&self, column: usize, row: usize) -> Option<i32> {
+        let line = row * EDGE + column;
+        // It was a whole number of this type.
+        let top = || (self.plane.over(column, row) + i64::from(self.above.get(line))) as i32;
+        (self.by.get(line) > 0).then(top)
+    }
+
+    /// The piece of a move that went down to an own line; `None` as for its height.
+    fn mover(&self, line: usize) -> Option<Mover> {
+        let by = self.by.get(line).checked_sub(1)?;
+        Some(self.movers[by as usize])
+    }
+
+    /// Lines by what is known of each: its height, and who went down to it.
+    pub(super) fn of(lines: impl Fn(usize) -> Option<(i32, Mover)>) -> Tops {
+        let (mut heights, mut by) = ([0; OWN_LINES], [0; OWN_LINES]);
+        let mut movers = Movers::new();
+        for line in 0..OWN_LINES {
+            if let Some((height, mover)) = lines(line) {
+                heights[line] = height;
+                by[line] = u32::from(movers.index(mover)) + 1;
+            }
+        }
+        let is_cut = |line: usize| by[line] > 0;
+        // Slopes from one border to the other, where they are known.
+        let last = EDGE - 1;
+        let [a, b, c, d] = [0, last, last * EDGE, OWN_LINES - 1];
+        let slope = |from: [usize; 2], to: [usize; 2]| {
+            let sum = |of: [usize; 2]| of.iter().map(|line| i64::from(heights[*line])).sum::<i64>();
+            (sum(to) - sum(from)) / (2 * last as i64)
+        };
+        let corners = [a, b, c, d].into_iter().all(is_cut);
+        let slopes = if corners { [slope([a, c], [b, d]), slope([a, b], [c, d])] } else { [0; 2] };
+        let (mut plane, reach) = Plane::below(&heights, &by, slopes);
+        if reach > i64::from(u16::MAX) {
+            // Above a level plane they reach no farther than four bytes.
+            let level = Plane::below(&heights, &by, [0; 2]);
+            plane = if level.1 <= reach { level.0 } else { plane };
+        }
+        let mut above = [0; OWN_LINES];
+        for (row, above) in above.chunks_exact_mut(EDGE).enumerate() {
+            for (column, above) in above.iter_mut().enumerate() {
+                let line = row * EDGE + column;
+                let height = i64::from(heights[line]) - plane.over(column, row);
+                *above = if by[line] > 0 { height as u32 } else { 0 };
+            }
+        }
+        Tops { plane, above: Narrow::of(&above), by: Narrow::of(&by), movers: movers.into_all() }
+    }
+
+    /// What is known of an own line.
+    pub(super) fn line(&self, line: usize) -> Option<(i32, Mover)> {
+        self.top(line).zip(self.mover(line))
     }
 }
 
@@ -133,7 +213,7 @@ pub(super) fn cut_behind(
     // Moves of many pieces are taken apart once, the others where they are met.
     let mut curved: Vec<u32> = Vec::new();
     for (_, tops) in tops.iter().enumerate().filter(|(p, _)| inside(*p)) {
-        let by = tops.iter().flat_map(|tops| tops.by).filter(|by| *by != NONE);
+        let by = tops.iter().flat_map(|tops| &tops.movers).map(|(by, _)| *by);
         curved.extend(by.filter(|by| late.is_curved(*by)));
         curved.sort_unstable();
         curved.dedup();
@@ -157,10 +237,7 @@ pub(super) fn cut_behind(
                 let p = b / own * across + a / own;
                 let Some(tops) = tops[p].as_ref().filter(|_| inside(p)) else { continue };
                 let line = b % own * own + a % own;
-                let (by, piece) = (tops.by[line], tops.piece[line]);
-                if by == NONE {
-                    continue;
-                }
+                let Some((by, piece)) = tops.mover(line) else { continue };
                 let tasks = match curved.get(&by) {
                     Some(tasks) => tasks,
                     None => moves.entry(by).or_insert_with(|| late.tasks_of_move(by, frame)),
@@ -192,5 +269,30 @@ impl Late {
             tasks_of(list, at, frame, number, &mut tasks);
         }
         tasks
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn heights_and_movers_come_back() {
+        let wide = |line: usize| [i32::MIN, i32::MAX, 0, 17][line % 4];
+        let slope = |line: usize| 400_000 - 1900 * (line % 31) as i32 + 1200 * (line / 31) as i32;
+        let heights: [&dyn Fn(usize) -> i32; 3] = [&wide, &slope, &|_| -5];
+        for (k, height) in heights.into_iter().enumerate() {
+            for every in [1, 7] {
+                let line = |line: usize| {
+                    line.is_multiple_of(every).then(|| (height(line), (line as u32 / 40, (line % 2) as u16)))
+                };
+                let tops = Tops::of(line);
+                for l in 0..OWN_LINES {
+                    assert_eq!(tops.line(l), line(l), "{k} {every} {l}");
+                }
+            }
+        }
+        assert!(matches!(Tops::of(|l| Some((slope(l), (0, 0)))).above, Narrow::One(_)));
+        assert!((0..OWN_LINES).all(|l| Tops::of(|_| None).line(l).is_none()));
     }
 }

@@ -38,6 +38,55 @@ impl Patch {
         Blocks(blocks.0 & mask)
     }
 
+    /// Those of some blocks on a line or way of which a part may come down to what is there, with some slack, by planes that it stays
+    /// above.
+    pub(in crate::stock::cut::above) fn open_by_lines(
+        &self,
+        planes: &Planes,
+        blocks: Blocks,
+        slack: impl Fn(usize) -> f64,
+    ) -> Blocks {
+        let mut mask = 0;
+        for b in (0..BLOCKS).filter(|b| blocks.0 >> b & 1 == 1) {
+            let [height, x, y] = [planes[0][b], planes[1][b], planes[2][b]];
+            let plane = Cover { height: height - slack(b), slopes: [x, y] };
+            mask |= u32::from(self.arch.dispatch(Dips { patch: self, block: b, plane })) << b;
+        }
+        Blocks(mask)
+    }
+
+    /// Whether a plane comes down to a line of a block, or to the ceiling of a way to or from one.
+    #[inline(always)]
+    fn dips(&self, block: usize, Cover { height, slopes: [sx, sy] }: Cover) -> bool {
+        let ((c0, r0), step) = (corner(block), self.step);
+        let middle = 0.5 * (BLOCK - 1) as f64;
+        let mut across = [0.0; BLOCK];
+        for c in 0..BLOCK {
+            across[c] = height + sx * (c as f64 - middle) * step;
+        }
+        let mut any = [false; BLOCK];
+        for r in 0..BLOCK {
+            let start = (r0 + r) * SIDE + c0;
+            let row = |of: &[f64; LINES]| row_at(&of[..], start);
+            let (top, along, up) = (row(&self.top), row(&self.ceilings[0]), row(&self.ceilings[1]));
+            let off = sy * (r as f64 - middle) * step;
+            for c in 0..BLOCK {
+                any[c] |= across[c] + off < most(top[c] * FIXED_STEP, most(along[c], up[c]));
+            }
+            if c0 + BLOCK < SIDE {
+                any[0] |= across[BLOCK - 1] + off < self.ceilings[0][start + BLOCK];
+            }
+        }
+        if r0 + BLOCK < SIDE {
+            let next = row_at(&self.ceilings[1][..], (r0 + BLOCK) * SIDE + c0);
+            let off = sy * middle * step;
+            for c in 0..BLOCK {
+                any[c] |= across[c] + off < next[c];
+            }
+        }
+        any.into_iter().fold(false, |any, one| any | one)
+    }
+
     /// Depth to which a part may come down below the cover of some block, about [mm].
     pub(in crate::stock::cut::above) fn depth(&self, [heights, ..]: &Planes, blocks: Blocks) -> f64 {
         let Some(covers) = &self.covers else { return 0.0 };
@@ -120,6 +169,22 @@ impl NullaryFnOnce for Tangents<'_, '_> {
     fn call(self) -> [[f64; BLOCKS]; 3] {
         let Tangents { patch, sweep } = self;
         sweep.planes(&patch.middles[0], &patch.middles[1])
+    }
+}
+
+/// Whether a plane comes down to what is in a block.
+struct Dips<'a> {
+    patch: &'a Patch,
+    block: usize,
+    plane: Cover,
+}
+
+impl NullaryFnOnce for Dips<'_> {
+    type Output = bool;
+
+    #[inline(always)]
+    fn call(self) -> bool {
+        self.patch.dips(self.block, self.plane)
     }
 }
 

@@ -21,6 +21,7 @@ use super::super::effect::Looked;
 use super::super::task::Task;
 use super::Done;
 use super::field::{Field, OWN};
+use super::movers::Mover;
 use super::sweep::{BLOCK, BlockOf, Sweep, most};
 use super::tops::Tops;
 use crate::stock::FIXED_STEP;
@@ -32,7 +33,7 @@ const ACROSS: usize = SIDE / BLOCK;
 /// Blocks of a patch.
 pub(super) const BLOCKS: usize = ACROSS * ACROSS;
 /// Lines of a patch, as computed.
-const LINES: usize = SIDE * SIDE;
+pub(super) const LINES: usize = SIDE * SIDE;
 /// Heights along an edge: two more before the first line, and one behind the last, are as of no line.
 pub(super) const HEIGHTS: usize = SIDE + 3;
 
@@ -41,9 +42,6 @@ pub(super) const ROUNDING: f64 = 2.0 * FIXED_STEP;
 
 /// The task of a line that none has cut.
 const NO_TASK: f64 = -1.0;
-
-/// The number of no move.
-pub(super) const NONE: u32 = u32::MAX;
 
 /// Ceilings of a patch as they are kept between calls: along the first direction across the tool axis and the second, each of
 /// the way to a line from its neighbour before [mm]; rounded upwards.
@@ -209,7 +207,7 @@ impl Patch {
                 let (l, a, b) = (r * SIDE + c, self.first[0] + c as i64, self.first[1] + r as i64);
                 if let Some(line) = field.line(a, b) {
                     let kept = match tops {
-                        Some(tops) => tops.top((r - 1) * OWN as usize + c - 1),
+                        Some(tops) => tops.top_of(c - 1, r - 1),
                         None => field.kept_top(a, b),
                     };
                     [self.bottom[l], self.top[l]] = field.ends(line, kept);
@@ -420,19 +418,15 @@ impl Patch {
         }
     }
 
-    /// The heights of the own lines that a task has cut, and the tasks.
-    pub(super) fn cut_tops(&self) -> Box<Tops> {
-        let mut tops = Box::new(Tops::UNCUT);
-        for r in 1..SIDE {
-            for c in 1..SIDE {
-                let (l, own) = (r * SIDE + c, (r - 1) * OWN as usize + c - 1);
-                if self.task[l] != NO_TASK {
-                    tops.at[own] = self.top[l] as i32;
-                    tops.by[own] = self.task[l] as u32;
-                }
+    /// The own lines that have been cut: those of tasks, of whose moves `of` tells the number and the piece, else as they were kept.
+    pub(super) fn cut_tops(&self, kept: Option<&Tops>, of: &dyn Fn(u32) -> Mover) -> Tops {
+        Tops::of(|own| {
+            let l = own + own / OWN as usize + 1 + SIDE;
+            if self.task[l] == NO_TASK {
+                return kept?.line(own);
             }
-        }
-        tops
+            Some((self.top[l] as i32, of(self.task[l] as u32)))
+        })
     }
 }
 
