@@ -216,8 +216,8 @@ mod tests {
                 part(0.732_050_8, 34.0) - 7.0,
                 part(0.236_067_98, 24.0) - 16.0,
             );
-            let axis =
-                DVec3::new(part(0.618_033_99, 2.0) - 1.0, part(0.324_717_96, 2.0) - 1.0, 1.1).normalize();
+            let axis = DVec3::new(part(0.618_033_99, 2.0) - 1.0, part(0.324_717_96, 2.0) - 1.0, 1.1)
+                .normalize_or(DVec3::Z);
             let parts = [(if i % 2 == 0 { &mill } else { &ball }, f64::from(i % 3) - 1.0)];
             let touches = touches(&stock, &parts, tip, axis, 0.05);
             let may = may_touch(&stock, &parts, tip, axis, 0.05);

@@ -36,9 +36,7 @@ impl Look<'_> {
         } else {
             (first.chord.hi, first.chord.hi < high)
         };
-        if is_inside
-            && let Some(second) = self.follow(other, first.t, -into).and_then(|t| self.at(t))
-        {
+        if is_inside && let Some(second) = self.follow(other, first.t, -into).and_then(|t| self.at(t)) {
             mets.add(second);
         }
         mets
@@ -56,9 +54,8 @@ impl Look<'_> {
             let velocity = pose.velocity(from_tip);
             let rate = -gauge.normal.dot(velocity);
             let bends = curves.map(|c| c.dot(velocity));
-            let second = bends[0] * bends[0]
-                + bends[1] * bends[1]
-                + SpanPoses::curved(&pose, gauge.normal, from_tip);
+            let second =
+                bends[0] * bends[0] + bends[1] * bends[1] + SpanPoses::curved(&pose, gauge.normal, from_tip);
             // Where the gauge goes on falling, to the end of the time.
             let step = if second > 0.0 { -rate / second } else { -LONG.copysign(rate) };
             let next = (t + step.clamp(-LONG, LONG)).clamp(-0.5, 0.5);
