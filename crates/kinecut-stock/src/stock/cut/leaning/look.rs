@@ -1,8 +1,6 @@
 //! A line and a convex part of a tool at single times of a span.
 
-use glam::DVec3;
-
-use super::super::body::{ConvexPart, Foot, Touch};
+use super::super::body::{ConvexPart, Touch};
 use super::chord::{Chord, LineFrom};
 use super::span::Pose;
 use super::swept::{PARTS, SpanPoses, StockLine};
@@ -91,7 +89,6 @@ impl Look<'_> {
             let slant = n[self.line.along];
             let place = from.point(s);
             let [_, nearer] = self.of.nearer(pose, n, place, self.part);
-            let nearer = nearer - self.rounds_off(pose, n, place, touch);
             let bend = self.of.bend_at(self.part, place.length()).min(0.25 * nearer);
             (n.dot(pose.velocity(place)) / slant, slant.abs(), bend)
         };
@@ -99,34 +96,5 @@ impl Look<'_> {
         let lo = end(chord.lo, chord.lo_at, chord.lo <= low);
         let hi = end(chord.hi, chord.hi_at, chord.hi >= high);
         Some(Met { t, chord, rates: [lo.0, hi.0], slant: [lo.1, hi.1], bends: [lo.2, hi.2] })
-    }
-
-    /// Way by which a round foot keeps farther from a place on it than its tangent plane says, half of what it is at most of the time
-    /// before or after, with the square of the time [mm].
-    ///
-    /// The foot lies in the straight tube that touches it there, square to its section. A place goes past this on a way with the part
-    /// `past` across the normal and in the section: it is then off the plane by `past^2 / (2 A + past)`, A the distance from the middle of the
-    /// tube. For places deeper on the line, which the tube bends away from less, the slope of the line has to make up for that.
-    fn rounds_off(&self, pose: &Pose, normal: DVec3, place: DVec3, touch: Touch) -> f64 {
-        let Foot::Torus { radius, centre_radius, .. } = self.part.foot else { return 0.0 };
-        if touch != Touch::Foot {
-            return 0.0;
-        }
-        let around = normal.cross(pose.axis).normalize_or_zero();
-        let section = normal.cross(around);
-        let [way, turns] = self.of.rates;
-        let far = place.length() + 2.0 * self.part.r1;
-        // Most by which the way past differs from a steady one, and goes along the normal.
-        let [tip, by_reach] = self.of.unsteady;
-        let off = 0.5 * turns * (turns * far + 2.0 * way) + 8.0 * (tip + by_reach * far);
-        let speed = way + turns * far + off;
-        let past = section.dot(pose.velocity(place)).abs() - off;
-        let along = self.line.along;
-        let makes_up = normal[along].abs() * radius > section[along].abs() * speed;
-        // No farther than the foot is round: beyond its middle it goes on as the side, and as the flat end where it has one.
-        let axial = normal.dot(pose.axis);
-        let radial = (1.0 - axial * axial).max(0.0).sqrt();
-        let round = -axial * radius > speed && (centre_radius == 0.0 || radial * radius > speed);
-        if past > 0.0 && makes_up && round { past * past / (2.0 * (radius + speed) + past) } else { 0.0 }
     }
 }

@@ -1,8 +1,7 @@
 //! Moves of a tool that leans or turns: on all three grids alike, line by line.
 //!
 //! A move becomes spans (`span.rs`); a convex part of the tool covers a stretch of a line over a span (`swept.rs`), found from
-//! chords at single poses (`chord.rs`), the first of them where Newton's steps lead (`seed.rs`). A tile of lines takes all spans in
-//! order (`tiles.rs`); long runs of moves of which only the
+//! chords at single poses (`chord.rs`). A tile of lines takes all spans in order (`tiles.rs`); long runs of moves of which only the
 //! outcome counts are cut at once (`at_once`). What may lie between the lines is noted (`edge.rs`). An edge that leaves a core is
 //! cut as it is on a move along its axis (`hollow.rs`), else as filled.
 
@@ -17,7 +16,6 @@ mod look;
 mod nearest;
 mod rest;
 mod run;
-mod seed;
 mod span;
 mod swept;
 mod task;

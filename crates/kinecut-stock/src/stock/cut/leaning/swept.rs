@@ -188,12 +188,6 @@ impl SpanPoses {
 impl Look<'_> {
     /// Tells what the line loses, from so many looks.
     fn by_looks<const COUNT: usize>(&self, found: &mut dyn FnMut([CoverEnd; 2])) {
-        if COUNT == TIMES.len() {
-            let mets = self.at_furthest();
-            if !mets.list().is_empty() {
-                return self.told(mets.list(), [-0.5, 0.5], PARTS, found);
-            }
-        }
         let time = |i: usize| i as f64 / (COUNT - 1) as f64 - 0.5;
         let looks: [Option<Met>; COUNT] = std::array::from_fn(|i| match COUNT {
             3 => self.at_pose(TIMES[i], &self.of.poses[i]),
