@@ -61,7 +61,7 @@ impl Skimmed {
         }
     }
 
-    /// What is known after the moves of both.
+    /// Knowledge after the moves of both.
     pub(super) fn with(self, other: Skimmed) -> Skimmed {
         let strip = |k: usize, side: usize| {
             let (a, b) = (self.0[k][side], other.0[k][side]);

@@ -139,7 +139,7 @@ impl Tops {
         Tops { plane, above: Narrow::of(&above), by: Narrow::of(&by), movers: movers.into_all() }
     }
 
-    /// What is known of an own line.
+    /// Height and mover of an own line, if it has some.
     pub(super) fn line(&self, line: usize) -> Option<(i32, Mover)> {
         self.top(line).zip(self.mover(line))
     }

@@ -1,6 +1,7 @@
 //! A leaning tool at rest near material.
 
 use std::f64::consts::SQRT_2;
+use std::ops::Range;
 
 use glam::DVec3;
 
@@ -10,7 +11,7 @@ use super::chord::LineFrom;
 use super::span::Pose;
 use crate::geom::{Aabb, Profile};
 use crate::stock::tri_dexel::LINE_OFFSET;
-use crate::stock::{Axis, DexelGrid, EndPoint, fixed, unfixed};
+use crate::stock::{Axis, DexelGrid, EndPoint, Lattice, fixed, unfixed};
 
 /// True if parts of a tool, made larger by a margin on all sides, overlap material on a line, or reach by no more than twice the
 /// margin into the plane of a line's end that is no farther than the diagonal of four lines from there.
@@ -37,14 +38,7 @@ pub(in crate::stock) fn meets_at_rest<G: DexelGrid + ?Sized>(
         let ends = [part.z0, part.top].map(|z| tip + axis * z);
         let bounds = Aabb::of_points(ends).grown(part.r1 + far);
         let (a, b) = along.others();
-        let range = |axis: Axis| {
-            let k = axis.index();
-            let index = |x: f64| (x - LINE_OFFSET - lattice.origin[k]) / lattice.step;
-            let count = f64::from(lattice.counts[k]);
-            let first = index(bounds.min[k]).ceil().clamp(0.0, count);
-            let end = (index(bounds.max[k]).floor() + 1.0).clamp(first, count);
-            first as u32..end as u32
-        };
+        let range = |axis: Axis| lines_within(lattice, axis, bounds);
         // Across the lines and the axis, which they pass at no more than the radius.
         let across = DVec3::AXES[along.index()].cross(axis).normalize_or_zero();
         let [from, to] = [bounds.min, bounds.max].map(|p| p[along.index()]);
@@ -102,13 +96,7 @@ pub(in crate::stock) fn may_meet_at_rest<G: DexelGrid + ?Sized>(
     let touches = |part: &ConvexPart| {
         let ends = [part.z0, part.top].map(|z| tip + axis * z);
         let bounds = Aabb::of_points(ends).grown(part.r1);
-        let range = |of: Axis| {
-            let k = of.index();
-            let index = |x: f64| (x - LINE_OFFSET - lattice.origin[k]) / lattice.step;
-            let count = f64::from(lattice.counts[k]);
-            let first = index(bounds.min[k]).ceil().clamp(0.0, count);
-            first as u32..(index(bounds.max[k]).floor() + 1.0).clamp(first, count) as u32
-        };
+        let range = |axis: Axis| lines_within(lattice, axis, bounds);
         range(b).any(|j| {
             range(a).any(|i| {
                 let mut start = DVec3::ZERO;
@@ -120,6 +108,16 @@ pub(in crate::stock) fn may_meet_at_rest<G: DexelGrid + ?Sized>(
         })
     };
     body.parts.iter().any(touches)
+}
+
+/// Indices of the lines whose coordinates along an axis lie within a box.
+fn lines_within(lattice: &Lattice, axis: Axis, bounds: Aabb) -> Range<u32> {
+    let k = axis.index();
+    let index = |x: f64| (x - LINE_OFFSET - lattice.origin[k]) / lattice.step;
+    let count = f64::from(lattice.counts[k]);
+    let first = index(bounds.min[k]).ceil().clamp(0.0, count);
+    let end = (index(bounds.max[k]).floor() + 1.0).clamp(first, count);
+    first as u32..end as u32
 }
 
 /// The point of a part that lies furthest in a direction; of a flat side that one next to `near`.

@@ -1,9 +1,10 @@
 //! Amounts that the moves of a run remove, in order, on some of the lines.
 //!
-//! Of the lines along the tool axis one in the middle of each square of n lines is taken, n up to 16 so that they are no more than a
-//! quarter of the radius of the run's thinnest tool apart, or as many as [`MOST_LINES`] for a span, or all where the lines of the stock are no closer; each counts for the
-//! lines of its square. Of a span, poses are taken that are a quarter of the radius apart or less. Such an amount is measured, not
-//! bounded. Neighbours are asked about together first, with one tangent plane for all of them.
+//! Of the lines along the tool axis one in the middle of each square of n lines is taken, n up to 16. The squares are no wider than a
+//! quarter of the radius of the run's thinnest tool, but for a long tool that leans, whose spans pass [`MOST_LINES`] of them in the mean at
+//! most; where the lines of the stock are no closer, all are taken. Each counts for the lines of its square. Of a span, poses are taken that
+//! are a quarter of the radius apart or less. An amount found so is measured, not bounded. Neighbours are asked about together first, with
+//! one tangent plane for all of them.
 
 use std::ops::Range;
 

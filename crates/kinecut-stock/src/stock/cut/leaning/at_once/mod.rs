@@ -7,7 +7,7 @@
 //! (`lanes.rs`). Each stretch of a line is cut as it is in order, by the same functions, so that the lines are the same up to the
 //! rounding of an end or two; but a line that lies in a flat face, to within 2 nm, may be taken in order and be left here.
 //!
-//! Where all tools are near to one axis of the stock, the lines along it are cut alone; those across it are cut when somebody reads them
+//! The lines along one axis of the stock are cut alone where all tools are near to it; those across it are cut when somebody reads them
 //! (`owed.rs`).
 //!
 //! A run holds moves of tools without a core that are meant to cut, and whose shank and holder stay away from all material there is before it.

@@ -1,7 +1,7 @@
 //! Lines across the axis that leaning tools are near to: runs that are cut at once cut them when somebody reads them, brick by brick.
 //!
-//! What moves take together does not depend on their order, so that a brick may be cut by all of them at any time later. Where a
-//! move has to be looked at line by line, the bricks that its tool passes are cut first.
+//! Moves together take the same in any order, so that a brick may be cut by all of them at any time later. Before a move is looked at
+//! line by line, the bricks that its tool passes are cut.
 
 use std::ops::Range;
 use std::sync::Arc;
