@@ -34,7 +34,7 @@ fn one(simulated: &Simulated<'_>, work: &Work<'_>) -> Option<Finding> {
     for done in &work.done {
         let depth = match setup.table {
             Some(table) => table - lowest(work.tool, done.segment, &to_work, near),
-            None => depth_below(done.segment, stock, near) - allowed,
+            None => depth_below(done.segment, stock, near, allowed) - allowed,
         };
         if depth > ROUNDING {
             blocks.push(done.segment.item);
@@ -80,8 +80,8 @@ fn places(segment: &Segment) -> impl Iterator<Item = (DVec3, DVec3)> + '_ {
     (0..=STEPS).map(move |i| segment.tool_at(f64::from(i) / f64::from(STEPS)))
 }
 
-/// Depth of the tip below the side of the stock that the tool points to [mm].
-fn depth_below(segment: &Segment, stock: Aabb, near: Aabb) -> f64 {
+/// Depth of the tip below the side of the stock that the tool points to [mm]; or a greater number that is no more than `allowed`.
+fn depth_below(segment: &Segment, stock: Aabb, near: Aabb, allowed: f64) -> f64 {
     let under = |axis: DVec3| -highest(stock, -axis);
     if segment.turning.is_none() {
         let axis = segment.axis;
@@ -89,6 +89,12 @@ fn depth_below(segment: &Segment, stock: Aabb, near: Aabb) -> f64 {
         if most <= 0.0 {
             return most;
         }
+    }
+    // Whatever its axis, the tip is no deeper than it is far from the stock.
+    let tips = segment.curve.bounds();
+    let far = (stock.min - tips.min).max(tips.max - stock.max).max(DVec3::ZERO).length();
+    if far <= allowed {
+        return far;
     }
     let beside = places(segment).filter(|(tip, axis)| passes(*tip, *axis, near));
     beside.map(|(tip, axis)| under(axis) - tip.dot(axis)).fold(f64::NEG_INFINITY, f64::max)
