@@ -269,7 +269,8 @@ impl TriDexel {
     }
 
     /// Some of its lines, those of a coarser lattice: every so manieth along each axis, with all moves cut. The lines that are left out
-    /// are cut no further for that.
+    /// are cut no further for that. Lines across the axis of leaning tools that are behind are cut only between points of the coarser lattice
+    /// at which the lines along it are unlike; elsewhere they have material as those do.
     ///
     /// ```
     /// # use kinecut_stock as kinecut;
@@ -312,7 +313,7 @@ impl TriDexel {
         }
         let (whole, whole_along) = (OnceLock::new(), OnceLock::new());
         let (bounds, skimmed) = (self.bounds, Skimmed::UNKNOWN);
-        let owed = across.map(|owed| owed.anew(&lattice, bounds));
+        let owed = across.map(|owed| owed.anew(&mut grids, &lattice, bounds));
         let mut some = TriDexel { lattice, bounds, grids, above: None, owed, whole, whole_along, skimmed };
         some.settle(progress);
         some

@@ -36,7 +36,7 @@ pub(super) fn cut_claims(
     let (rows, heights) = strip_lines(grid, lattice, frame);
     let reached = claims.rows(k);
     let some = reached.start / edge..reached.end.min(rows.len()).div_ceil(edge);
-    let work = strips(grid, frame, (&rows, &heights), some.clone()).into_par_iter().zip(some);
+    let work = strips(grid, frame, (&rows, &heights), some.clone()).into_par_iter().zip(some).with_max_len(1);
     work.for_each(|(mut strip, s)| {
         if !progress.cancelled() {
             cut_in_strip(&mut strip, axis, tasks, &claims.on_rows(k, &(s * edge..(s + 1) * edge)));
@@ -73,7 +73,7 @@ pub(super) fn clear(
     let inside = (0..rows.len()).filter(|row| bands.contains(&band_of(*row)));
     let (first, last) = (inside.clone().min().unwrap_or(0), inside.max().unwrap_or(0));
     let some = first / edge..(last + 1).div_ceil(edge);
-    let work = strips(grid, frame, (&rows, &heights), some.clone()).into_par_iter().zip(some);
+    let work = strips(grid, frame, (&rows, &heights), some.clone()).into_par_iter().zip(some).with_max_len(1);
     work.for_each(|(mut strip, s)| {
         let mut clear = Clear { layers: &layers, ends: &ends, starts: vec![0; layers.count()], open: 0..0 };
         let mut ways = Vec::new();

@@ -11,7 +11,7 @@ use crate::geom::Line;
 use crate::stock::cut::run::{Order, cut_as};
 use crate::stock::cut::{CutAxis, CutList, CutMove, CutOptions, MoveEffect, Stance, ToolBody, cut_list};
 use crate::stock::sieve::Sieve;
-use crate::stock::{Axis, DexelGrid, TriDexel};
+use crate::stock::{Axis, DexelGrid, Interval, TriDexel, fixed};
 
 /// A stock that leaning moves have cut, with the lines across owed.
 fn owing(round: usize, random: &mut Random) -> (TriDexel, TriDexel) {
@@ -25,9 +25,62 @@ fn owing(round: usize, random: &mut Random) -> (TriDexel, TriDexel) {
     (late, singly)
 }
 
+/// Parts of intervals between two coordinates.
+fn between(line: &[Interval], [low, high]: [i32; 2]) -> Vec<Interval> {
+    let clip = |i: &Interval| {
+        let [mut lo, mut hi] = [i.lo, i.hi];
+        (lo.at, hi.at) = (lo.at.max(low), hi.at.min(high));
+        Interval { lo, hi }
+    };
+    line.iter().map(clip).filter(|i| i.lo.at < i.hi.at).collect()
+}
+
+/// Some lines of a stock: those along Z are the same, and those across between points at which lines along Z are unlike; elsewhere they
+/// have material as those do. Tells how many stretches were compared.
+fn compare_sieved(some: &TriDexel, whole: &TriDexel, every: u32, what: &str) -> usize {
+    let (lattice, sieve) = (*some.lattice(), Sieve::new(whole.lattice(), every));
+    let index = |axis: Axis, i: u32| sieve.whole_index(axis, i);
+    let has = |line: &[Interval], at: i32| line.iter().any(|i| i.lo.at <= at && at < i.hi.at);
+    let mut compared = 0;
+    for axis in Axis::ALL {
+        let (a, b) = axis.others();
+        let [m, n, count] = [a, b, axis].map(|of| lattice.counts[of.index()]);
+        for (i, j) in (0..n).flat_map(|j| (0..m).map(move |i| (i, j))) {
+            let whole_line = whole.line(axis, index(a, i), index(b, j));
+            let line = some.line(axis, i, j);
+            let what = format!("{what}, every {every}: {axis:?} {i} {j}: {line:?} {whole_line:?}");
+            if axis == Axis::Z {
+                assert!(is_same(line, whole_line), "{what}");
+                continue;
+            }
+            let place = |k: u32| fixed(lattice.coordinate(axis, k));
+            let filled: Vec<bool> = (0..count)
+                .map(|k| {
+                    let mut at = [0; 3];
+                    (at[axis.index()], at[a.index()], at[b.index()]) = (k, i, j);
+                    has(some.line(Axis::Z, at[0], at[1]), fixed(lattice.coordinate(Axis::Z, at[2])))
+                })
+                .collect();
+            for k in 0..count as usize {
+                let window = [k as u32, k as u32 + 1].map(place);
+                if filled.get(k + 1).is_some_and(|next| *next != filled[k]) {
+                    compared += 1;
+                    let [own, all] = [line, whole_line].map(|line| between(line, window));
+                    assert!(is_same(&own, &all), "{what}: {window:?}");
+                }
+                if (k.saturating_sub(1)..=(k + 1).min(filled.len() - 1)).all(|n| filled[n] == filled[k]) {
+                    assert_eq!(has(line, place(k as u32)), filled[k], "{what}: {k}");
+                }
+            }
+        }
+    }
+    compared
+}
+
 #[test]
 fn lines_are_cut_when_they_are_read_and_not_before() {
     let mut random = Random(91);
+    let mut compared = 0;
     for round in 0..kinecut_cases::cases(7, 140) as usize {
         let (late, singly) = owing(round, &mut random);
         let what = format!("round {round}");
@@ -43,19 +96,7 @@ fn lines_are_cut_when_they_are_read_and_not_before() {
         compare_lines([&settled, &singly], &format!("{what}, settled"), is_same);
         // Some of them, without the others.
         for every in [2, 3] {
-            let (some, sieve) = (late.sieved(every, &Silent), Sieve::new(late.lattice(), every));
-            for axis in Axis::ALL {
-                let (a, b) = axis.others();
-                let [m, n] = [a, b].map(|of| some.lattice().counts[of.index()]);
-                for (i, j) in (0..n).flat_map(|j| (0..m).map(move |i| (i, j))) {
-                    let whole = singly.line(axis, sieve.whole_index(a, i), sieve.whole_index(b, j));
-                    let line = some.line(axis, i, j);
-                    assert!(
-                        is_same(line, whole),
-                        "{what}, every {every}: {axis:?} {i} {j}: {line:?} {whole:?}"
-                    );
-                }
-            }
+            compared += compare_sieved(&late.sieved(every, &Silent), &singly, every, &what);
         }
         assert!(late.owed.is_some() && is_whole(Axis::Y));
         // Read, which leaves them owed until more is cut.
@@ -65,6 +106,7 @@ fn lines_are_cut_when_they_are_read_and_not_before() {
         assert!(read.owed.is_none());
         compare_lines([&read, &singly], &format!("{what}, taken back"), is_same);
     }
+    assert!(compared > 2000, "{compared}");
 }
 
 /// Moves of all kinds one after another: leaning ones near Z and near X, upright ones, ones that are looked at in order.

@@ -120,7 +120,8 @@ pub(super) fn account(
         let apart = (radius / LINES).max((area / MOST_LINES).sqrt()) / lattice.step;
         let apart = apart.clamp(1.0, f64::from(TILE_EDGE)) as u32;
         let bins = bins(grid, &lines, &shadows);
-        let work = bins.par_iter().zip(&lines).enumerate().filter(|(_, (bin, _))| !bin.is_empty());
+        let work =
+            bins.par_iter().zip(&lines).enumerate().with_max_len(4).filter(|(_, (bin, _))| !bin.is_empty());
         let done: Vec<Effects> = work
             .map(|(tile, (bin, lines))| {
                 let (mut effects, mut room) = (Effects::default(), Room::default());

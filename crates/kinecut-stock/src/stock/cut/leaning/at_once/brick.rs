@@ -193,6 +193,9 @@ pub(super) fn winners(
 impl Work<'_> {
     /// Divides a cell until it is swallowed, or small enough to be cut.
     fn divide(&mut self, cell: &Cell, size: u32, near: &mut Bundle) {
+        if !self.axes.iter().any(|axis| self.cells.wants(cell, *axis)) {
+            return;
+        }
         near.ask(self.swept, cell.centre, cell.radius);
         let mut some = std::mem::take(&mut self.some);
         some.clear();
@@ -337,7 +340,7 @@ impl Work<'_> {
     /// The lines of a cell that have material in it.
     fn lines(&self, cell: &Cell) -> Vec<Line> {
         let mut lines = Vec::with_capacity(self.axes.len() * (self.leaf * self.leaf) as usize);
-        for axis in self.axes.iter().copied() {
+        for axis in self.axes.iter().copied().filter(|axis| self.cells.wants(cell, *axis)) {
             let along = axis.index();
             let window = window(cell, along);
             each_line(self.cells, cell, axis, |line, start| {

@@ -1,10 +1,12 @@
 //! The stock in bricks of 16 x 16 x 16 lines, in piles of 4 x 4 x 4 bricks, and the cells that a brick is divided into.
 
+use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering::Relaxed};
 
 use glam::DVec3;
 use rayon::prelude::*;
 
+use super::borders::Borders;
 use super::near::SweptPart;
 use super::places::Places;
 use crate::base::Progress;
@@ -43,6 +45,8 @@ pub(in super::super) struct Cells {
     middles: [Vec<[f64; 2]>; 3],
     /// By pile: a bit for each brick that may have material.
     filled: Vec<AtomicU64>,
+    /// Where ends of lines are wanted; without it everywhere.
+    borders: Option<Arc<Borders>>,
 }
 
 /// For each brick the swept parts near it, in their order.
@@ -87,7 +91,7 @@ impl Cells {
         let piles = bricks.map(|n| n.div_ceil(PILE));
         let filled = (0..piles.iter().product::<u32>()).map(|_| AtomicU64::new(0)).collect();
         let middles = [const { Vec::new() }; 3];
-        let mut cells = Cells { lattice, bounds, bricks, piles, middles, filled };
+        let mut cells = Cells { lattice, bounds, bricks, piles, middles, filled, borders: None };
         cells.middles = std::array::from_fn(|k| {
             let middle = |i: u32| {
                 let [low, high] = [i, i + 1].map(|i| cells.border(k, i * BRICK));
@@ -96,6 +100,16 @@ impl Cells {
             (0..bricks[k]).map(middle).collect()
         });
         cells
+    }
+
+    /// The same where ends of lines are wanted only between some points.
+    pub(super) fn within(lattice: &Lattice, bounds: Aabb, borders: Option<&Arc<Borders>>) -> Cells {
+        Cells { borders: borders.cloned(), ..Cells::without_material(lattice, bounds) }
+    }
+
+    /// Whether ends of lines along an axis are wanted in a cell.
+    pub(super) fn wants(&self, cell: &Cell, axis: Axis) -> bool {
+        self.borders.as_ref().is_none_or(|borders| borders.wants(cell, axis))
     }
 
     /// Notes that a brick may have material.
@@ -281,7 +295,7 @@ impl Cells {
                 }
                 found
             };
-            let found: Vec<Found> = some.par_chunks(CHUNK).enumerate().map(chunk).collect();
+            let found: Vec<Found> = some.par_chunks(CHUNK).enumerate().with_max_len(1).map(chunk).collect();
             for Found { pairs: some, swallowed } in found {
                 count += some.len();
                 pairs.push(some);

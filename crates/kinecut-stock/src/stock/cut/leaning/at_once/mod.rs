@@ -16,6 +16,7 @@
 mod about;
 mod account;
 mod away;
+mod borders;
 mod brick;
 mod bundle;
 mod cells;
@@ -63,7 +64,7 @@ pub(super) fn may_be_cut_at_once(cells: &Cells, batch: &Batch) -> Vec<bool> {
         let cuts = task.one.removes && !task.one.watch && task.tool.hollow.is_none();
         cuts && keeps_off(Looked::Shank) && keeps_off(Looked::Holder)
     };
-    let spans: Vec<bool> = batch.tasks.par_iter().map(able).collect();
+    let spans: Vec<bool> = batch.tasks.par_iter().with_max_len(64).map(able).collect();
     let mut all = vec![true; batch.moves.len()];
     for (task, able) in batch.tasks.iter().zip(spans) {
         all[task.index as usize] &= able;
@@ -136,7 +137,7 @@ fn unite(
     let mut touched = vec![false; bricks.len()];
     while from < swept.len() && !progress.cancelled() {
         let near = cells.near(swept, from, progress);
-        touched.par_iter_mut().zip(bricks).for_each(|(touched, brick)| {
+        touched.par_iter_mut().zip(bricks).with_max_len(4).for_each(|(touched, brick)| {
             let list = near.of(*brick);
             if !list.is_empty() && !progress.cancelled() {
                 brick::cut((cells, leaf), (grids, axes), swept, *brick, list);

@@ -11,6 +11,7 @@ use rayon::prelude::*;
 use super::super::super::effect::Looked;
 use super::super::super::list::CutList;
 use super::super::task::{Batch, SpanTask};
+use super::borders::Borders;
 use super::brick::{self, Grids};
 use super::cells::Cells;
 use super::near::SweptPart;
@@ -45,19 +46,33 @@ pub(in crate::stock) struct OwedAcross {
     paid: Vec<u32>,
     /// By brick: nothing is left in it.
     swallowed: Vec<bool>,
+    /// Where ends of the lines across are wanted; without it everywhere.
+    borders: Option<Arc<Borders>>,
 }
 
 impl OwedAcross {
     /// No moves yet; `cells` are those of the stock.
     pub(super) fn new(axis: Axis, cells: &Cells) -> OwedAcross {
         let count = cells.count();
-        OwedAcross { axis, debts: Vec::new(), paid: vec![0; count], swallowed: vec![false; count] }
+        let (paid, swallowed) = (vec![0; count], vec![false; count]);
+        OwedAcross { axis, debts: Vec::new(), paid, swallowed, borders: None }
     }
 
-    /// The same moves for a stock over another lattice, none of whose lines are known to be cut.
-    pub(in crate::stock) fn anew(&self, lattice: &Lattice, bounds: Aabb) -> OwedAcross {
+    /// The same moves for the grids of a stock over another lattice, none of whose lines across are known to be cut. They are to be cut
+    /// only between points of the lattice at which the lines along the axis begin or end; between others they get material as those say.
+    pub(in crate::stock) fn anew(
+        &self,
+        grids: &mut [Grid; 3],
+        lattice: &Lattice,
+        bounds: Aabb,
+    ) -> OwedAcross {
+        let borders = Borders::new(&grids[self.axis.index()], lattice);
+        grids
+            .iter_mut()
+            .filter(|grid| self.is_across(grid.axis))
+            .for_each(|grid| borders.clear(grid, lattice));
         let fresh = OwedAcross::new(self.axis, &Cells::without_material(lattice, bounds));
-        OwedAcross { debts: self.debts.clone(), ..fresh }
+        OwedAcross { debts: self.debts.clone(), borders: Some(Arc::new(borders)), ..fresh }
     }
 
     /// Whether lines along an axis are behind.
@@ -116,8 +131,10 @@ impl OwedAcross {
         let mut next =
             behind.iter().map(|brick| self.paid[*brick as usize] as usize).min().unwrap_or(usize::MAX);
         while next < self.debts.len() && !progress.cancelled() {
-            let cells = Cells::without_material(lattice, bounds);
-            let open = || behind.iter().filter(|brick| !self.swallowed[**brick as usize]);
+            let cells = Cells::within(lattice, bounds, self.borders.as_ref());
+            let is_wanted = |brick: u32| axes.iter().any(|axis| cells.wants(&cells.of_brick(brick), *axis));
+            let open =
+                || behind.iter().filter(|brick| !self.swallowed[**brick as usize] && is_wanted(**brick));
             let around = open().fold(Aabb::EMPTY, |all, brick| {
                 let cell = cells.of_brick(*brick);
                 all.union(Aabb { min: cell.low, max: cell.high })
