@@ -5,8 +5,8 @@ use std::path::{Path, PathBuf};
 use clap::ValueEnum;
 use kinecut::base::{Error, FileKind};
 use kinecut::job::{
-    GivenFile, GivenJob, InspectWants, ProgramWants, RunWants, SectionPlane, StockWants, given_alone,
-    given_with_job,
+    GivenFile, GivenJob, GivenStock, InspectWants, ProgramWants, RunWants, SectionPlane, StockWants,
+    given_alone, given_with_job,
 };
 use kinecut::nc::{Control, PostSettings};
 use kinecut::operations::OrientationName;
@@ -166,7 +166,12 @@ struct ProgramOf {
 
 impl ProgramOf {
     /// The job about the program.
-    fn given(&self, control: Option<&String>, stock: Option<[f64; 6]>, cut: bool) -> Result<GivenJob, Error> {
+    fn given(
+        &self,
+        control: Option<&String>,
+        stock: Option<&RawStock>,
+        cut: bool,
+    ) -> Result<GivenJob, Error> {
         let name = self.program.display().to_string();
         let bytes = files::bytes(&self.program, FileKind::Program)?;
         let program = GivenFile { name: &name, bytes: &bytes };
@@ -176,7 +181,7 @@ impl ProgramOf {
         };
         let mut wants = ProgramWants {
             control: control.cloned(),
-            stock,
+            stock: stock.map(RawStock::given).transpose()?,
             position: self.position,
             tool: self.tool,
             setup: self.setup,
@@ -192,6 +197,33 @@ impl ProgramOf {
     }
 }
 
+/// Raw stock as an option names it.
+#[derive(Clone, Debug)]
+enum RawStock {
+    /// A block between two corners.
+    Block([f64; 6]),
+    /// A file.
+    Mesh(PathBuf),
+}
+
+impl RawStock {
+    fn parse(text: &str) -> Result<RawStock, String> {
+        if text.to_ascii_lowercase().ends_with(".stl") {
+            return Ok(RawStock::Mesh(PathBuf::from(text)));
+        }
+        corners(text).map(RawStock::Block).map_err(|help| format!("{help}, or the name of an STL file"))
+    }
+
+    fn given(&self) -> Result<GivenStock, Error> {
+        Ok(match self {
+            RawStock::Block(corners) => GivenStock::Block(*corners),
+            RawStock::Mesh(path) => {
+                GivenStock::Mesh(path.display().to_string(), files::bytes(path, FileKind::Mesh)?)
+            }
+        })
+    }
+}
+
 /// A control that is not told by the file.
 #[derive(Debug, clap::Args)]
 struct RunBy {
@@ -204,15 +236,16 @@ struct RunBy {
 #[command(after_help = "Examples:
   kinecut simulate O1234.nc --job job.toml --out out
   kinecut simulate part.ngc --stock \"-5,-5,-20,105,65,0\" --tools tools.toml --out out
+  kinecut simulate part.ngc --stock casting.stl --tools tools.toml --out out
   kinecut simulate job.toml --out out    a job whose setup says program = { file = \"O1234.nc\" }")]
 pub(crate) struct Simulate {
     #[command(flatten)]
     of: ProgramOf,
     #[command(flatten)]
     by: RunBy,
-    /// Raw stock: least and greatest corner of a block in coordinates of the work offset, mm
-    #[arg(long, value_name = "X0,Y0,Z0,X1,Y1,Z1", value_parser = corners, allow_hyphen_values = true, conflicts_with = "job")]
-    stock: Option<[f64; 6]>,
+    /// Raw stock in coordinates of the work offset, mm: least and greatest corner of a block, or the name of a closed STL mesh
+    #[arg(long, value_name = "X0,Y0,Z0,X1,Y1,Z1|FILE.stl", value_parser = RawStock::parse, allow_hyphen_values = true, conflicts_with = "job")]
+    stock: Option<RawStock>,
     #[command(flatten)]
     cut: Stock,
     #[command(flatten)]
@@ -226,7 +259,7 @@ impl Simulate {
         let done = if path.extension().is_some_and(|e| e.eq_ignore_ascii_case("toml")) {
             run::simulate_job(path, &self.cut.wants(), &self.results.files(), files::read(), &Bar::new())?
         } else {
-            let mut given = self.of.given(self.by.control.as_ref(), self.stock, true)?;
+            let mut given = self.of.given(self.by.control.as_ref(), self.stock.as_ref(), true)?;
             given.simulated(&self.cut.wants())?;
             run::simulate_given(given, &self.results.files(), &Bar::new())?
         };

@@ -71,6 +71,39 @@ fn a_program_is_simulated_without_a_job_and_findings_exit_1() {
 }
 
 #[test]
+fn a_part_that_was_cut_is_the_stock_of_the_next_program() {
+    let folder = folder("next");
+    let cut = |stock: &str, out: &str| {
+        let args = [
+            "simulate",
+            "P.nc",
+            "--control",
+            "fanuc",
+            "--tools",
+            "tools.toml",
+            "--step",
+            "1",
+            "--mesh",
+            "stl",
+        ];
+        kinecut(&folder, &[&args[..], &["--stock", stock, "--out", out]].concat())
+    };
+    let removed = |out: &str| {
+        let plan = std::fs::read_to_string(folder.join(out).join("plan.json")).unwrap();
+        serde_json::from_str::<serde_json::Value>(&plan).unwrap()["removed_volume"].as_f64().unwrap()
+    };
+    assert_eq!(cut(STOCK, "out").status.code(), Some(0));
+    let again = cut("out/part.stl", "again");
+    assert_eq!(again.status.code(), Some(0), "{}", text(&again.stderr));
+    // The program has nothing left to cut but what the mesh lies outside of the tool's round.
+    assert!(removed("again") < 0.01 * removed("out"), "{} {}", removed("again"), removed("out"));
+    assert_eq!(kinecut(&folder, &["verify", "again"]).status.code(), Some(0));
+    std::fs::write(folder.join("out/part.stl"), "solid other").unwrap();
+    assert_eq!(kinecut(&folder, &["verify", "again"]).status.code(), Some(1));
+    std::fs::remove_dir_all(folder).unwrap();
+}
+
+#[test]
 fn wrong_input_exits_2_and_says_what_to_do() {
     let folder = folder("wrong");
     std::fs::write(folder.join("bad.nc"), "G0 X1.\nG1 Q7.\n").unwrap();
@@ -82,6 +115,8 @@ fn wrong_input_exits_2_and_says_what_to_do() {
         (&["simulate", "P.nc", "--control", "fanuc", "--tools", "tools.toml"], "--stock"),
         (&["simulate", "P.nc", "--control", "fanuc", "--stock", STOCK], "not among the tools"),
         (&["simulate", "P.nc", "--control", "fanuc", "--stock", "0,0,0,1,nan,1"], "six numbers"),
+        (&["simulate", "P.nc", "--control", "fanuc", "--stock", "blank.step"], "STL file"),
+        (&["simulate", "P.nc", "--control", "fanuc", "--stock", "missing.stl"], "missing.stl"),
         (
             &["simulate", "P.nc", "--control", "fanuc", "--stock", "0,0,0,1,1,0", "--tools", "tools.toml"],
             "exceed",

@@ -42,8 +42,8 @@ mod wrong_type;
 pub use budget::Budget;
 pub use check::{Design, Job, JobProgram, JobSetup, check};
 pub use external::{
-    ExternalProgram, GivenFile, GivenJob, ProgramWants, Unfollowed, control_of, control_of_name, given_alone,
-    given_with_job,
+    ExternalProgram, GivenFile, GivenJob, GivenStock, ProgramWants, Unfollowed, control_of, control_of_name,
+    given_alone, given_with_job,
 };
 pub use inspect::{InspectWants, Inspection, SectionPlane};
 pub use items::TextItems;

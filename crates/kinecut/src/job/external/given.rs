@@ -10,7 +10,7 @@ use super::super::file::{
 use super::super::read::read_table;
 use super::super::wants::StockWants;
 use super::super::{JobText, Subject, json_text, parts, sha256};
-use crate::base::{Code, Error, FileId, FileKind, Finding, Loader, Result, Sources};
+use crate::base::{Code, Error, FileId, FileKind, Finding, Loader, MemoryLoader, Result, Sources};
 use crate::machine::Machine;
 use crate::nc::Control;
 use crate::tool::Holder;
@@ -24,6 +24,15 @@ pub struct GivenFile<'a> {
     pub bytes: &'a [u8],
 }
 
+/// Raw stock that is given with a program, in coordinates of the work offset [mm].
+#[derive(Clone, Debug)]
+pub enum GivenStock {
+    /// A block: its least and greatest corner.
+    Block([f64; 6]),
+    /// A closed STL mesh: the name of its file, and its bytes.
+    Mesh(String, Vec<u8>),
+}
+
 /// Settings that are given with a program.
 #[derive(Clone, Debug, Default)]
 pub struct ProgramWants {
@@ -31,8 +40,8 @@ pub struct ProgramWants {
     pub control: Option<String>,
     /// The machine.
     pub machine: Option<Machine>,
-    /// Least and greatest corner of a block as raw stock, in coordinates of the work offset [mm].
-    pub stock: Option<[f64; 6]>,
+    /// The raw stock.
+    pub stock: Option<GivenStock>,
     /// Name and text of a file with `[[tool]]` and `[[holder]]`; a job file is one.
     pub tools: Option<(String, String)>,
     /// Machine position of the work zero [mm].
@@ -109,15 +118,18 @@ struct ToolsFile {
     tools: Vec<ToolTable>,
 }
 
-/// Serves one file from memory and the others from elsewhere.
+/// Serves some files from memory and the others from elsewhere.
 struct With<'a> {
-    file: GivenFile<'a>,
+    files: Vec<GivenFile<'a>>,
     others: &'a dyn Loader,
 }
 
 impl Loader for With<'_> {
     fn read_as(&self, path: &str, kind: FileKind) -> Result<Vec<u8>> {
-        if path == self.file.name { Ok(self.file.bytes.to_vec()) } else { self.others.read_as(path, kind) }
+        match self.files.iter().find(|file| file.name == path) {
+            Some(file) => Ok(file.bytes.to_vec()),
+            None => self.others.read_as(path, kind),
+        }
     }
 }
 
@@ -182,7 +194,7 @@ pub fn given_with_job(
     });
     file.setups = vec![setup];
     file.title = Some(title(program.name));
-    let all = With { file: program, others: loader };
+    let all = With { files: vec![program], others: loader };
     let job = check(&file, "program", &all).map_err(|e| job_text.locate(&sources, e))?;
     let mut subjects =
         vec![of_file("given program", program.name, program.bytes), of_file("job", name, text.as_bytes())];
@@ -194,17 +206,25 @@ pub fn given_with_job(
 /// The job about a program without a job file. `needs_stock`: whether it is to be cut.
 ///
 /// # Errors
-/// `KC0104` when there is no stock although it is to be cut; those of the tools.
+/// `KC0104` when there is no stock although it is to be cut; those of the tools, and of a mesh as stock.
 pub fn given_alone(program: GivenFile<'_>, wants: &ProgramWants, needs_stock: bool) -> Result<GivenJob> {
     let control = control_of(wants.control.as_deref(), None, program.name)?;
-    let stock = match wants.stock {
-        Some([a, b, c, d, e, f]) => BoxTable { min: [a, b, c], max: [d, e, f] },
+    let block = |[a, b, c, d, e, f]: [f64; 6]| StockTable::Box(BoxTable { min: [a, b, c], max: [d, e, f] });
+    let mut files = vec![program];
+    let stock = match &wants.stock {
+        Some(GivenStock::Block(corners)) => block(*corners),
+        Some(GivenStock::Mesh(name, bytes)) => {
+            files.push(GivenFile { name, bytes });
+            StockTable::Mesh(name.clone())
+        }
         None if needs_stock => {
             return Err(Finding::error(Code::JOB_REFERENCE, "there is no stock to cut")
-                .help("give it: --stock \"x0,y0,z0,x1,y1,z1\", or a job file: --job")
+                .help(
+                    "give it: --stock \"x0,y0,z0,x1,y1,z1\" or the name of an STL file, or a job file: --job",
+                )
                 .into());
         }
-        None => BoxTable { min: [0.0; 3], max: [1.0; 3] },
+        None => block([0.0, 0.0, 0.0, 1.0, 1.0, 1.0]),
     };
     let mut subjects = vec![of_file("given program", program.name, program.bytes)];
     let tools = match &wants.tools {
@@ -218,11 +238,9 @@ pub fn given_alone(program: GivenFile<'_>, wants: &ProgramWants, needs_stock: bo
             })?
         }
     };
-    let stock = StockTable::Box(stock);
-    subjects.push(Subject {
-        role: "stock".to_owned(),
-        file: None,
-        sha256: sha256(json_text(&stock).as_bytes()),
+    subjects.push(match &wants.stock {
+        Some(GivenStock::Mesh(name, bytes)) => of_file("stock", name, bytes),
+        _ => Subject { role: "stock".to_owned(), file: None, sha256: sha256(json_text(&stock).as_bytes()) },
     });
     let file = JobFile {
         format: 1,
@@ -244,8 +262,7 @@ pub fn given_alone(program: GivenFile<'_>, wants: &ProgramWants, needs_stock: bo
             })
         }],
     };
-    let nothing = crate::base::MemoryLoader::default();
-    let all = With { file: program, others: &nothing };
+    let all = With { files, others: &MemoryLoader::default() };
     let mut job = check(&file, "program", &all)?;
     if let Some(machine) = &wants.machine {
         super::super::check::machine::three_translations(machine)?;

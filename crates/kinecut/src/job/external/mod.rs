@@ -12,7 +12,7 @@ mod shown;
 
 pub(crate) use follow::{Followed, at_block, follow};
 pub use given::{
-    GivenFile, GivenJob, ProgramWants, control_of, control_of_name, given_alone, given_with_job,
+    GivenFile, GivenJob, GivenStock, ProgramWants, control_of, control_of_name, given_alone, given_with_job,
 };
 pub(crate) use magazine::Missing;
 pub(crate) use setup::external_setup;

@@ -60,6 +60,7 @@ pub fn verify(verdict: &Path, job: Option<&Path>) -> Result<VerdictCheck> {
         unknown: Vec::new(),
         unchanged: Vec::new(),
     };
+    let has_job = verdict.subjects.iter().any(|s| s.role == "job");
     for subject in &verdict.subjects {
         let Some(name) = &subject.file else { continue };
         match subject.role.as_str() {
@@ -76,7 +77,7 @@ pub fn verify(verdict: &Path, job: Option<&Path>) -> Result<VerdictCheck> {
             "program" | "output" => answer.note(subject, beside.read(name)),
             // A file named on a command line lies at its own path, not in the verdict's folder.
             "given program" => answer.note(subject, here(name)),
-            "tools" if !verdict.subjects.iter().any(|s| s.role == "job") => answer.note(subject, here(name)),
+            "tools" | "stock" if !has_job => answer.note(subject, here(name)),
             _ => {}
         }
     }

@@ -5,8 +5,8 @@ use glam::{DVec2, DVec3};
 use kinecut::base::{Code, Silent};
 use kinecut::job::inspect::{CutBy, Place};
 use kinecut::job::{
-    GivenFile, GivenJob, InspectWants, Inspection, Outcome, PartSurface, ProgramWants, StockWants,
-    given_alone, report, simulate_given,
+    GivenFile, GivenJob, GivenStock, InspectWants, Inspection, Outcome, PartSurface, ProgramWants,
+    StockWants, given_alone, report, simulate_given,
 };
 
 /// A slot 8 mm wide and 3 mm deep along X at Y 15, and a drilled hole through the block at X 30, Y 5.
@@ -27,7 +27,7 @@ fn given(program: &str, tools: &str, step: Option<f64>) -> GivenJob {
     let program = GivenFile { name: "P.ngc", bytes: program.as_bytes() };
     let wants = ProgramWants {
         step,
-        stock: Some([0.0, 0.0, -10.0, 40.0, 30.0, 0.0]),
+        stock: Some(GivenStock::Block([0.0, 0.0, -10.0, 40.0, 30.0, 0.0])),
         tools: Some(("tools.toml".to_owned(), tools.to_owned())),
         ..ProgramWants::default()
     };

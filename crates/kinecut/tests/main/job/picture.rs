@@ -2,8 +2,8 @@
 
 use kinecut::base::{Code, MemoryLoader, Silent};
 use kinecut::job::{
-    GivenFile, InspectWants, Inspection, Outcome, PartSurface, ProgramWants, RunWants, StockWants,
-    given_alone, report, run_with, simulate_given,
+    GivenFile, GivenStock, InspectWants, Inspection, Outcome, PartSurface, ProgramWants, RunWants,
+    StockWants, given_alone, report, run_with, simulate_given,
 };
 
 /// A slot 8 mm wide and 3 mm deep, and a hole of 4 mm through the block.
@@ -16,7 +16,7 @@ fn simulated(step: f64, surface: PartSurface) -> Outcome {
     let program = GivenFile { name: "P.ngc", bytes: PROGRAM.as_bytes() };
     let wants = ProgramWants {
         step: Some(step),
-        stock: Some([0.0, 0.0, -10.0, 40.0, 30.0, 0.0]),
+        stock: Some(GivenStock::Block([0.0, 0.0, -10.0, 40.0, 30.0, 0.0])),
         tools: Some(("tools.toml".to_owned(), TOOLS.to_owned())),
         ..ProgramWants::default()
     };

@@ -3,9 +3,13 @@
 use std::f64::consts::PI;
 
 use kinecut::base::{Code, MemoryLoader, Severity, Silent};
+use kinecut::geom::{Aabb, write_stl};
 use kinecut::job::{
-    GivenFile, ProgramWants, StockWants, given_alone, given_with_job, plan_json, run, simulate_given,
+    GivenFile, GivenStock, ProgramWants, StockWants, given_alone, given_with_job, plan_json, run,
+    simulate_given,
 };
+use kinecut::stock::TriDexel;
+use kinecut::stock::surface::{SurfaceOptions, surface};
 use kinecut::verbs::Answer as _;
 use kinecut::verbs::check::program_sheet;
 
@@ -122,7 +126,7 @@ fn a_program_given_by_itself_is_cut_with_what_is_said_beside_it() {
     let program = GivenFile { name: "dir/P.ngc", bytes: LINUXCNC.as_bytes() };
     let tools = job("fanuc", "").replace("[[setup]]\noffset = \"G54\"\n", "");
     let wants = ProgramWants {
-        stock: Some([0.0, 0.0, -12.0, 60.0, 40.0, 0.0]),
+        stock: Some(GivenStock::Block([0.0, 0.0, -12.0, 60.0, 40.0, 0.0])),
         tools: Some(("tools.toml".to_owned(), tools)),
         ..ProgramWants::default()
     };
@@ -138,8 +142,39 @@ fn a_program_given_by_itself_is_cut_with_what_is_said_beside_it() {
     assert_eq!(roles, ["given program", "tools", "stock"]);
     let no_stock = ProgramWants { stock: None, ..wants.clone() };
     assert!(given_alone(program, &no_stock, true).unwrap_err().to_string().contains("--stock"));
-    let flat = ProgramWants { stock: Some([0.0, 0.0, 0.0, 60.0, 40.0, 0.0]), ..wants };
+    let flat = ProgramWants { stock: Some(GivenStock::Block([0.0, 0.0, 0.0, 60.0, 40.0, 0.0])), ..wants };
     assert_eq!(given_alone(program, &flat, true).unwrap_err().code(), Code::JOB_VALUE);
+}
+
+#[test]
+fn a_program_given_by_itself_is_cut_out_of_a_mesh() {
+    let program = GivenFile { name: "P.ngc", bytes: LINUXCNC.as_bytes() };
+    let tools = job("fanuc", "").replace("[[setup]]\noffset = \"G54\"\n", "");
+    let with = |stock: GivenStock| ProgramWants {
+        stock: Some(stock),
+        tools: Some(("tools.toml".to_owned(), tools.clone())),
+        ..ProgramWants::default()
+    };
+    let corners = Aabb { min: [0.0, 0.0, -12.0].into(), max: [60.0, 40.0, 0.0].into() };
+    let stl = write_stl(
+        &surface(&TriDexel::from_box(corners, 4.0).unwrap(), &SurfaceOptions::default(), &Silent).unwrap(),
+    );
+    let wants = with(GivenStock::Mesh("blank.stl".to_owned(), stl.clone()));
+    let mut given = given_alone(program, &wants, true).unwrap();
+    given.simulated(&StockWants { step: Some(0.5), ..StockWants::default() }).unwrap();
+    let outcome = simulate_given(given, &Silent).unwrap();
+    assert!(outcome.verdict.is_safe() && (removed(&outcome) / (SLOT + HOLES) - 1.0).abs() < 1e-2);
+    let stock = outcome.verdict.subjects.iter().find(|s| s.role == "stock").unwrap();
+    assert_eq!(stock.file.as_deref(), Some("blank.stl"));
+    // A mesh that does not close.
+    let mut open = stl;
+    open.truncate(open.len() - 50);
+    let count = u32::from_le_bytes(open[80..84].try_into().unwrap()) - 1;
+    open[80..84].copy_from_slice(&count.to_le_bytes());
+    let error =
+        given_alone(program, &with(GivenStock::Mesh("blank.stl".to_owned(), open)), true).unwrap_err();
+    assert_eq!(error.code(), Code::MESH_OPEN);
+    assert!(error.to_string().contains("blank.stl"), "{error}");
 }
 
 #[test]
