@@ -2,6 +2,8 @@
 
 use std::ops::Range;
 
+use glam::DVec3;
+
 use super::super::body::bounds;
 use super::super::list::CutList;
 use super::super::task::{Tool, beside};
@@ -17,6 +19,9 @@ const MOST: usize = 20_000;
 
 /// Least travel of a tool in a span [mm].
 const LEAST_TRAVEL: f64 = 0.02;
+
+/// Distance below which two tips are one, and two axes [mm].
+const SAME: f64 = 1e-6;
 
 /// A span of a move with its tool.
 pub(super) struct SpanTask<'a> {
@@ -37,6 +42,15 @@ pub(super) struct SpanTask<'a> {
     /// The tool as its edge is, where that leaves a core and moves along its axis.
     pub(super) plunge: Option<Plunge<'a>>,
     pub(super) clearance: f64,
+}
+
+impl SpanTask<'_> {
+    /// True if it begins with the tool as another ends.
+    pub(super) fn goes_on(&self, before: &SpanTask) -> bool {
+        let ([start, ..], [.., end]) = (&self.poses.poses, &before.poses.poses);
+        let near = |a: DVec3, b: DVec3| a.distance_squared(b) < SAME * SAME;
+        std::ptr::eq(self.tool, before.tool) && near(start.tip, end.tip) && near(start.axis, end.axis)
+    }
 }
 
 /// Moves made ready.

@@ -3,8 +3,8 @@
 //! Of the lines along the tool axis one in the middle of each square of n lines is taken, n up to 16. The squares are no wider than a
 //! quarter of the radius of the run's thinnest tool, but for a long tool that leans, whose spans pass [`MOST_LINES`] of them in the mean at
 //! most; where the lines of the stock are no closer, all are taken. Each counts for the lines of its square. Of a span, poses are taken that
-//! are a quarter of the radius apart or less. An amount found so is measured, not bounded. Neighbours are asked about together first, with
-//! one tangent plane for all of them.
+//! are a quarter of the radius apart or less, and not the first where the span before ends there. An amount found so is measured, not bounded.
+//! Neighbours are asked about together first, with one tangent plane for all of them.
 
 use std::ops::Range;
 
@@ -19,7 +19,7 @@ use super::super::chord::LineFrom;
 use super::super::task::SpanTask;
 use super::about::about;
 use super::bundle::Shape;
-use super::lanes::{LANES, WAY, put};
+use super::lanes::{LANES, WAY, Ways, put};
 use super::near::{Beside, SweptPart};
 use super::shadow::{Shadow, bins, plan};
 use crate::base::Progress;
@@ -36,8 +36,8 @@ const MOST_LINES: f64 = 128.0;
 /// Cosine of the angle to lines below which they are not those to measure a tool on: 53 degrees.
 const FLAT: f64 = 0.6;
 
-/// Most poses of a span.
-const MOST_POSES: usize = 17;
+/// Most stretches between poses of a span.
+const MOST_POSES: usize = 16;
 
 /// A line on which is measured.
 struct Sample {
@@ -66,16 +66,22 @@ struct Passing<'a> {
     task: &'a SpanTask<'a>,
     parts: &'a [SweptPart<'a>],
     shadow: &'a Shadow,
+    /// The span before ends where it begins.
+    goes_on: bool,
     /// The lines are those that the span is measured on.
     is_main: bool,
+    /// Its place among the spans that are taken together.
+    lane: usize,
     /// Its planes beside the lines.
     planes: Range<usize>,
 }
 
 /// Room for the spans that pass a group, and for the stretches of a line.
-#[derive(Default)]
 struct Room<'a> {
     arch: Arch,
+    /// The only part of all spans that are taken together, if that is one, and the ways of it.
+    alike: Option<Shape>,
+    ways: Ways,
     passing: Vec<Passing<'a>>,
     planes: Vec<Beside>,
     chords: Vec<(i32, i32)>,
@@ -108,6 +114,7 @@ pub(super) fn account(
         own
     };
     let parts: Vec<&[SweptPart]> = tasks.iter().map(own).collect();
+    let goes_on: Vec<bool> = (0..tasks.len()).map(|i| i > 0 && tasks[i].goes_on(&tasks[i - 1])).collect();
     for grid in &stock.grids {
         let along = grid.axis.index();
         if !main.contains(&along) {
@@ -124,21 +131,24 @@ pub(super) fn account(
             bins.par_iter().zip(&lines).enumerate().with_max_len(4).filter(|(_, (bin, _))| !bin.is_empty());
         let done: Vec<Effects> = work
             .map(|(tile, (bin, lines))| {
-                let (mut effects, mut room) = (Effects::default(), Room::default());
+                let (mut effects, mut room) = (Effects::default(), Room::new());
                 let mut groups = groups(grid, tile, lines, apart);
                 for some in bin.chunks(LANES) {
                     if groups.is_empty() || progress.cancelled() {
                         break;
                     }
+                    room.take(some.iter().map(|i| parts[*i as usize]));
                     for group in &mut groups {
                         room.passing.clear();
-                        let all = some.iter().map(|i| *i as usize);
-                        let near = all.filter(|i| shadows[*i].is_near(group.middle, group.half));
-                        let passing = |i: usize| Passing {
+                        let all = some.iter().map(|i| *i as usize).enumerate();
+                        let near = all.filter(|(_, i)| shadows[*i].is_near(group.middle, group.half));
+                        let passing = |(lane, i): (usize, usize)| Passing {
                             task: &tasks[i],
                             parts: parts[i],
                             shadow: &shadows[i],
+                            goes_on: goes_on[i],
                             is_main: main[i] == along,
+                            lane,
                             planes: 0..0,
                         };
                         room.passing.extend(near.map(passing));
@@ -220,7 +230,7 @@ impl Group {
                 if sample.is_reached(&room.planes[one.planes.clone()], anchor, along)
                     && one.shadow.is_near(plan(sample.start, along), 0.0)
                 {
-                    changed |= sample.pass(one.task, along, one.is_main.then_some(&mut *effects), room);
+                    changed |= sample.pass(one, along, effects, room);
                 }
             }
             if changed {
@@ -231,7 +241,32 @@ impl Group {
     }
 }
 
-impl Room<'_> {
+impl<'a> Room<'a> {
+    fn new() -> Room<'a> {
+        Room {
+            arch: Arch::default(),
+            alike: None,
+            ways: [[0.0; LANES]; WAY],
+            passing: Vec::new(),
+            planes: Vec::new(),
+            chords: Vec::new(),
+            covered: Vec::new(),
+            contact: Vec::new(),
+        }
+    }
+
+    /// Takes the parts of spans together, [`LANES`] of them or fewer.
+    fn take(&mut self, spans: impl Iterator<Item = &'a [SweptPart<'a>]> + Clone) {
+        let part = spans.clone().next().and_then(|parts| parts.first()).map(|first| first.part);
+        let is_alike = |parts: &[SweptPart]| {
+            parts.len() == 1 && part.is_some_and(|part| std::ptr::eq(parts[0].part, part))
+        };
+        self.alike = part.and_then(Shape::of).filter(|_| spans.clone().all(is_alike));
+        if self.alike.is_some() {
+            spans.enumerate().for_each(|(lane, parts)| put(&mut self.ways, lane, &parts[0]));
+        }
+    }
+
     /// Sets the planes of the spans about a place.
     fn look(&mut self, place: DVec3, radius: f64) {
         self.planes.clear();
@@ -240,19 +275,18 @@ impl Room<'_> {
             one.planes = from..from + one.parts.len();
             self.planes.extend(one.parts.iter().map(|_| Beside::default()));
         }
-        let parts = self.passing.iter().flat_map(|one| one.parts);
-        let Some(part) = parts.clone().next().map(|first| first.part) else { return };
-        let shape = Shape::of(part).filter(|_| parts.clone().all(|one| std::ptr::eq(one.part, part)));
-        let Some(shape) = shape else {
-            self.planes.iter_mut().zip(parts).for_each(|(plane, part)| *plane = part.beside(place, radius));
-            return;
-        };
-        let (mut ways, mut rest) = ([[0.0; LANES]; WAY], parts);
-        for planes in self.planes.chunks_mut(LANES) {
-            rest.by_ref().take(planes.len()).enumerate().for_each(|(lane, part)| put(&mut ways, lane, part));
-            let about = about(self.arch, shape, &ways, place.to_array(), radius);
-            for (lane, plane) in planes.iter_mut().enumerate() {
-                *plane = Beside::of(&about, lane);
+        match self.alike {
+            Some(shape) => {
+                let about = about(self.arch, shape, &self.ways, place.to_array(), radius);
+                let planes = self.planes.iter_mut().zip(&self.passing);
+                planes.for_each(|(plane, one)| *plane = Beside::of(&about, one.lane));
+            }
+            None => {
+                let parts = self.passing.iter().flat_map(|one| one.parts);
+                self.planes
+                    .iter_mut()
+                    .zip(parts)
+                    .for_each(|(plane, part)| *plane = part.beside(place, radius));
             }
         }
     }
@@ -273,21 +307,16 @@ impl Sample {
     }
 
     /// Takes a span past the line; tells what it does there if that is asked for. True if that changed it.
-    fn pass(
-        &mut self,
-        task: &SpanTask,
-        along: usize,
-        effects: Option<&mut Effects>,
-        room: &mut Room,
-    ) -> bool {
+    fn pass(&mut self, passing: &Passing, along: usize, effects: &mut Effects, room: &mut Room) -> bool {
         let Room { chords, covered, contact, .. } = room;
-        cover(&task.tool.cutting, task, self.start, along, chords, covered);
+        let task = passing.task;
+        cover(&task.tool.cutting, passing, (self.start, along), chords, covered);
         let removed: i64 = covered.iter().map(|c| length(&self.material, *c)).sum();
         if removed == 0 {
             return false;
         }
-        if let Some(effects) = effects {
-            cover(&task.tool.contact, task, self.start, along, chords, contact);
+        if passing.is_main {
+            cover(&task.tool.contact, passing, (self.start, along), chords, contact);
             let met: i64 = contact.iter().map(|c| length(&self.material, *c)).sum();
             let effect = effects.of(task.index);
             effect.removed += removed * self.lines;
@@ -316,19 +345,21 @@ impl Sample {
 /// The stretches of a line that a body covers in a span, without those between; sorted, and apart from each other [fixed steps].
 fn cover(
     body: &RevolvedParts,
-    task: &SpanTask,
-    start: DVec3,
-    along: usize,
+    passing: &Passing,
+    (start, along): (DVec3, usize),
     chords: &mut Vec<(i32, i32)>,
     covered: &mut Vec<(i32, i32)>,
 ) {
-    let wanted = 2.0 * LINES * task.poses.span.stray(body.radius) / body.radius + 1.0;
-    let count = (wanted.ceil() as usize).clamp(3, MOST_POSES);
+    let poses = &passing.task.poses;
+    let wanted = 2.0 * LINES * poses.span.stray(body.radius) / body.radius;
+    let count = (wanted.ceil() as usize).clamp(1, MOST_POSES);
     chords.clear();
-    for i in 0..count {
-        let pose = match count {
-            3 => task.poses.poses[i],
-            _ => task.poses.span.at(i as f64 / (count - 1) as f64 - 0.5),
+    for i in usize::from(passing.goes_on)..=count {
+        let pose = match (i, count) {
+            (0, _) => poses.poses[0],
+            (1, 2) => poses.poses[1],
+            _ if i == count => poses.poses[2],
+            _ => poses.span.at(i as f64 / count as f64 - 0.5),
         };
         let from = LineFrom::new(start, along, &pose);
         let of = |part| from.chord(part).map(|chord| (fixed(chord.lo), fixed(chord.hi)));
