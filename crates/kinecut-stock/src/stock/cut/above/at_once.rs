@@ -50,7 +50,7 @@ pub(super) fn measure(field: &Field, tasks: &[Task], progress: &dyn Progress) ->
         }
         all
     };
-    bins.par_iter().enumerate().with_max_len(4).filter(|(_, bin)| !bin.is_empty()).map(one).collect()
+    bins.par_iter().enumerate().with_max_len(1).filter(|(_, bin)| !bin.is_empty()).map(one).collect()
 }
 
 /// Whether only the outcome of a task counts in a patch with material up to a height: it takes all above its underside, or is known to

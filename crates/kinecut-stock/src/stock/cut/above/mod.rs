@@ -116,7 +116,7 @@ pub(super) fn cut_from_above(
             let work = (&bins[patch][..], tasks, stride.is_some());
             Some((patch, pass((&field, &above), patch, work, &of, limit, progress)?))
         };
-        patches.into_par_iter().with_max_len(4).filter_map(one).collect()
+        patches.into_par_iter().with_max_len(1).filter_map(one).collect()
     };
     let limit = AtomicU32::new(u32::MAX);
     let mut outcomes: Vec<Option<Outcome>> = Vec::new();

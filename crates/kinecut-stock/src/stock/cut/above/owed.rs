@@ -65,7 +65,7 @@ impl<'a> Owed<'a> {
             }
             claims
         };
-        let of_patches = self.bins.par_iter().enumerate().with_max_len(4).map(of_patch).collect();
+        let of_patches = self.bins.par_iter().enumerate().with_max_len(1).map(of_patch).collect();
         Gathered { of_patches, across: field.patches()[0] }
     }
 }

@@ -221,7 +221,7 @@ pub(super) fn cut_behind(
     let curved: BTreeMap<u32, Vec<Task>> =
         curved.into_par_iter().map(|by| (by, late.tasks_of_move(by, frame))).collect();
     let stopped = AtomicBool::new(false);
-    let work = grid.tiles.par_iter_mut().enumerate().with_max_len(4).filter(|(t, _)| is_reached(*t));
+    let work = grid.tiles.par_iter_mut().enumerate().with_max_len(1).filter(|(t, _)| is_reached(*t));
     work.for_each(|(t, tile)| {
         if progress.cancelled() {
             stopped.store(true, Relaxed);
