@@ -41,8 +41,9 @@ pub(in super::super) struct Cells {
     /// Number of bricks, and of piles.
     bricks: [u32; 3],
     piles: [u32; 3],
-    /// Middles and half widths of the bricks along each coordinate [mm].
+    /// Middles and half widths of the bricks, and of the piles, along each coordinate [mm].
     middles: [Vec<[f64; 2]>; 3],
+    middles_of_piles: [Vec<[f64; 2]>; 3],
     /// By pile: a bit for each brick that may have material.
     filled: Vec<AtomicU64>,
     /// Where ends of lines are wanted; without it everywhere.
@@ -55,6 +56,19 @@ pub(super) struct Near {
     pub(super) end: usize,
     starts: Vec<usize>,
     list: Vec<u32>,
+}
+
+/// Room for what is asked of a swept part at once: piles, and the bricks of one.
+#[derive(Default)]
+pub(super) struct Room {
+    piles: Places,
+    bricks: Places,
+}
+
+/// Middle and half a diagonal of a box by its indices, from the middles and half widths along each coordinate.
+fn round_box(indices: [u32; 3], middles: &[Vec<[f64; 2]>; 3]) -> [f64; 4] {
+    let [x, y, z] = std::array::from_fn(|k| middles[k][indices[k] as usize]);
+    [x[0], y[0], z[0], (x[1] * x[1] + y[1] * y[1] + z[1] * z[1]).sqrt()]
 }
 
 /// What some swept parts find: pairs of brick and part, and bricks that are swallowed.
@@ -90,15 +104,20 @@ impl Cells {
         let bricks = lattice.counts.map(|n| n.div_ceil(BRICK));
         let piles = bricks.map(|n| n.div_ceil(PILE));
         let filled = (0..piles.iter().product::<u32>()).map(|_| AtomicU64::new(0)).collect();
-        let middles = [const { Vec::new() }; 3];
-        let mut cells = Cells { lattice, bounds, bricks, piles, middles, filled, borders: None };
-        cells.middles = std::array::from_fn(|k| {
-            let middle = |i: u32| {
-                let [low, high] = [i, i + 1].map(|i| cells.border(k, i * BRICK));
-                [0.5 * (low + high), 0.5 * (high - low)]
-            };
-            (0..bricks[k]).map(middle).collect()
-        });
+        let none = [const { Vec::new() }; 3];
+        let (middles, middles_of_piles) = (none.clone(), none);
+        let mut cells =
+            Cells { lattice, bounds, bricks, piles, middles, middles_of_piles, filled, borders: None };
+        let middles = |edge: u32, counts: [u32; 3]| {
+            std::array::from_fn(|k| {
+                let middle = |i: u32| {
+                    let [low, high] = [i, i + 1].map(|i| cells.border(k, i * edge));
+                    [0.5 * (low + high), 0.5 * (high - low)]
+                };
+                (0..counts[k]).map(middle).collect()
+            })
+        };
+        (cells.middles, cells.middles_of_piles) = (middles(BRICK, bricks), middles(BRICK * PILE, piles));
         cells
     }
 
@@ -230,11 +249,22 @@ impl Cells {
     }
 
     /// Calls for each brick that may have material and that a swept part may reach, with a bound on its reach beyond the middle [mm].
-    pub(super) fn each_near(&self, swept: &SweptPart, mut found: impl FnMut(u32, f64)) {
+    pub(super) fn each_near(&self, room: &mut Room, swept: &SweptPart, mut found: impl FnMut(u32, f64)) {
         if !swept.bounds.meets(self.bounds) {
             return;
         }
-        let mut places = Places::default();
+        let Room { piles, bricks } = room;
+        piles.clear();
+        let mut of_piles = |piles: &mut Places| {
+            piles.ask(swept);
+            piles.each_reached(&mut |pile, _| {
+                bricks.clear();
+                self.each_brick(pile, |brick, numbers| bricks.add(brick, numbers));
+                bricks.ask(swept);
+                bricks.each_reached(&mut found);
+            });
+            piles.clear();
+        };
         let edge = BRICK * PILE;
         let from: [u32; 3] = std::array::from_fn(|k| self.index(k, swept.bounds.min[k]) / edge);
         let to: [u32; 3] = std::array::from_fn(|k| self.index(k, swept.bounds.max[k]) / edge);
@@ -242,24 +272,37 @@ impl Cells {
             for y in from[1]..=to[1] {
                 for x in from[0]..=to[0] {
                     let pile = (z * self.piles[1] + y) * self.piles[0] + x;
-                    let mut filled = self.filled[pile as usize].load(Relaxed);
-                    if filled == 0 || !swept.reaches(&self.cell([x, y, z].map(|i| i * edge), edge)) {
+                    if self.filled[pile as usize].load(Relaxed) == 0 {
                         continue;
                     }
-                    places.clear();
-                    while filled != 0 {
-                        let bit = filled.trailing_zeros();
-                        filled &= filled - 1;
-                        let [i, j, k] = [bit % PILE, bit / PILE % PILE, bit / (PILE * PILE)];
-                        let brick = [x * PILE + i, y * PILE + j, z * PILE + k];
-                        let [x, y, z] = std::array::from_fn(|k| self.middles[k][brick[k] as usize]);
-                        let radius = (x[1] * x[1] + y[1] * y[1] + z[1] * z[1]).sqrt();
-                        places.add(self.number(brick), [x[0], y[0], z[0], radius]);
+                    if piles.is_full() {
+                        of_piles(piles);
                     }
-                    places.ask(swept);
-                    places.each_reached(&mut found);
+                    piles.add(pile, round_box([x, y, z], &self.middles_of_piles));
                 }
             }
+        }
+        of_piles(piles);
+    }
+
+    /// Calls for each brick of a pile that may have material, with its middle and half the diagonal of the largest of them.
+    fn each_brick(&self, pile: u32, mut each: impl FnMut(u32, [f64; 4])) {
+        let [across, deep, _] = self.piles;
+        let first = [pile % across, pile / across % deep, pile / (across * deep)].map(|i| i * PILE);
+        let middles: [&[[f64; 2]]; 3] = std::array::from_fn(|k| {
+            let all = &self.middles[k];
+            &all[first[k] as usize..all.len().min((first[k] + PILE) as usize)]
+        });
+        let widest = middles.map(|some| some.iter().fold(0.0, |most: f64, [_, half]| most.max(*half)));
+        let radius = DVec3::from_array(widest).length();
+        let number = self.number(first);
+        let mut filled = self.filled[pile as usize].load(Relaxed);
+        while filled != 0 {
+            let bit = filled.trailing_zeros();
+            filled &= filled - 1;
+            let [i, j, k] = [bit % PILE, bit / PILE % PILE, bit / (PILE * PILE)];
+            let [x, y, z] = [middles[0][i as usize], middles[1][j as usize], middles[2][k as usize]];
+            each(number + self.number([i, j, k]), [x[0], y[0], z[0], radius]);
         }
     }
 
@@ -277,10 +320,10 @@ impl Cells {
         while end < swept.len() && count < MOST {
             let some = &swept[end..swept.len().min(end + WAVE)];
             let chunk = |(n, some): (usize, &[SweptPart])| {
-                let mut found = Found::default();
+                let (mut found, mut room) = (Found::default(), Room::default());
                 if !progress.cancelled() {
                     for (i, one) in some.iter().enumerate() {
-                        self.each_near(one, |brick, reach| {
+                        self.each_near(&mut room, one, |brick, reach| {
                             let swallowed = reach > 0.0 && {
                                 let cell = self.of_brick(brick);
                                 reach > cell.radius && one.swallows(&cell)

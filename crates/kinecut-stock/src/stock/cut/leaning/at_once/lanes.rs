@@ -14,8 +14,8 @@ pub(super) type Ways = [[f64; LANES]; WAY];
 
 /// Takes the place of what was in a lane.
 pub(super) fn put(ways: &mut Ways, lane: usize, part: &SweptPart) {
-    for (of, number) in ways.iter_mut().zip(part.way()) {
-        of[lane] = number;
+    for (of, number) in ways.iter_mut().zip(&part.way) {
+        of[lane] = *number;
     }
 }
 

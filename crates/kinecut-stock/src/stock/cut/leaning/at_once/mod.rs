@@ -35,6 +35,7 @@ use rayon::prelude::*;
 use self::account::{account, measured_along};
 use self::brick::Grids;
 pub(super) use self::cells::Cells;
+use self::cells::Room;
 use self::near::SweptPart;
 pub(in crate::stock) use self::owed::OwedAcross;
 pub(super) use self::owed::settle_near;
@@ -49,14 +50,14 @@ pub(super) const LEAST: usize = 256;
 
 /// By move of a batch: true if only its outcome counts.
 pub(super) fn may_be_cut_at_once(cells: &Cells, batch: &Batch) -> Vec<bool> {
-    let able = |task: &SpanTask| {
-        let keeps_off = |looked: Looked| {
+    let able = |room: &mut Room, task: &SpanTask| {
+        let mut keeps_off = |looked: Looked| {
             let grown = task.tool.grown.as_ref().map(|(grown, _)| &grown[looked as usize]);
             let body = grown.unwrap_or(task.tool.looked_at(looked));
             body.parts.iter().all(|part| {
                 let swept = SweptPart::new(task, part, 0);
                 let mut meets = false;
-                cells.each_near(&swept, |_, _| meets = true);
+                cells.each_near(room, &swept, |_, _| meets = true);
                 !meets
             })
         };
@@ -64,7 +65,7 @@ pub(super) fn may_be_cut_at_once(cells: &Cells, batch: &Batch) -> Vec<bool> {
         let cuts = task.one.removes && !task.one.watch && task.tool.hollow.is_none();
         cuts && keeps_off(Looked::Shank) && keeps_off(Looked::Holder)
     };
-    let spans: Vec<bool> = batch.tasks.par_iter().with_max_len(64).map(able).collect();
+    let spans: Vec<bool> = batch.tasks.par_iter().with_max_len(64).map_init(Room::default, able).collect();
     let mut all = vec![true; batch.moves.len()];
     for (task, able) in batch.tasks.iter().zip(spans) {
         all[task.index as usize] &= able;

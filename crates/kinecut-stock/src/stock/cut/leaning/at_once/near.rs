@@ -31,6 +31,8 @@ pub(super) struct SweptPart<'a> {
     pub(super) bounds: Aabb,
     /// Bend of the way of the tip, seen from the tool [mm], and what each millimetre from the tip adds.
     bends: [f64; 2],
+    /// As lanes hold it, near at hand: tip and axis as cubics, and what their way is bent by.
+    pub(super) way: [f64; WAY],
 }
 
 /// A plane that a part stays behind, near a cell: all it sweeps of the cell has `normal . (q - centre) <= reach`.
@@ -88,6 +90,7 @@ impl<'a> SweptPart<'a> {
             bends: [task.poses.bend_seen(span.bend(0.0)), span.bend(1.0) - span.bend(0.0)],
             middle: *pose,
             turn: pose.axis_rate.length(),
+            way: way(&task.poses),
             task,
             part,
             index,
@@ -100,18 +103,6 @@ impl<'a> SweptPart<'a> {
         let [p, u, v, w] = [tip, axis, tip_rate, axis_rate];
         let [tip, by_reach] = self.bends;
         [p.x, p.y, p.z, u.x, u.y, u.z, v.x, v.y, v.z, w.x, w.y, w.z, self.turn, tip, by_reach]
-    }
-
-    /// As lanes hold them: tip and axis as cubics, and what their way is bent by.
-    #[inline]
-    pub(super) fn way(&self) -> [f64; WAY] {
-        let poses = &self.task.poses;
-        let ([[a, b, c, d], [e, f, g, h]], [bend, by_reach]) = (poses.span.cubics(), poses.unsteady);
-        let [way, turns] = poses.rates;
-        [
-            a.x, a.y, a.z, b.x, b.y, b.z, c.x, c.y, c.z, d.x, d.y, d.z, e.x, e.y, e.z, f.x, f.y, f.z, g.x,
-            g.y, g.z, h.x, h.y, h.z, bend, by_reach, way, turns,
-        ]
     }
 
     /// Most that the part reaches beyond the centre of what is no farther from it than `radius` [mm].
@@ -199,11 +190,6 @@ impl<'a> SweptPart<'a> {
         tip + by_reach * reach
     }
 
-    /// True unless the part stays away from a cell.
-    pub(super) fn reaches(&self, cell: &Cell) -> bool {
-        self.reach(cell.centre, cell.radius) >= -cell.radius
-    }
-
     /// True if a stretch of a line lies within the part at the start, the middle or the end.
     pub(super) fn holds(&self, ends: [DVec3; 2]) -> bool {
         let within = |pose: &Pose| ends.iter().all(|end| gauge_at(self.part, pose, *end).value < -WITHIN);
@@ -215,6 +201,16 @@ impl<'a> SweptPart<'a> {
         let within = |pose: &Pose| gauge_at(self.part, pose, cell.centre).value < -cell.radius - WITHIN;
         self.task.poses.poses.iter().any(within)
     }
+}
+
+/// Tip and axis of a span as cubics, and what their way is bent by.
+fn way(poses: &SpanPoses) -> [f64; WAY] {
+    let ([[a, b, c, d], [e, f, g, h]], [bend, by_reach]) = (poses.span.cubics(), poses.unsteady);
+    let [way, turns] = poses.rates;
+    [
+        a.x, a.y, a.z, b.x, b.y, b.z, c.x, c.y, c.z, d.x, d.y, d.z, e.x, e.y, e.z, f.x, f.y, f.z, g.x, g.y,
+        g.z, h.x, h.y, h.z, bend, by_reach, way, turns,
+    ]
 }
 
 #[cfg(test)]
@@ -310,7 +306,7 @@ mod tests {
                         continue;
                     }
                     held += 1;
-                    assert!(swept.reaches(&cell) && bundle.reaches[0] >= -cell.radius);
+                    assert!(reach >= -cell.radius && bundle.reaches[0] >= -cell.radius);
                     assert!(is_near);
                     least = least.min(beside.reach - beside.normal.dot(point - cell.centre));
                     for plane in planes {

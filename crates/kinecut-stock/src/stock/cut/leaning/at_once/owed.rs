@@ -13,7 +13,7 @@ use super::super::super::list::CutList;
 use super::super::task::{Batch, SpanTask};
 use super::borders::Borders;
 use super::brick::{self, Grids};
-use super::cells::Cells;
+use super::cells::{Cells, Room};
 use super::near::SweptPart;
 use super::{swept_parts, unite};
 use crate::base::Progress;
@@ -193,11 +193,11 @@ pub(in super::super) fn settle_near(stock: &mut TriDexel, tasks: &[SpanTask], pr
     let behind = (0u32..).zip(&owed.paid).filter(|(_, paid)| (**paid as usize) < owed.debts.len());
     behind.for_each(|(brick, _)| cells.note(brick));
     let passed = |task: &SpanTask| {
-        let mut bricks = Vec::new();
+        let (mut bricks, mut room) = (Vec::new(), Room::default());
         for looked in [Looked::Cutting, Looked::Shank, Looked::Holder] {
             let grown = task.tool.grown.as_ref().map(|(grown, _)| &grown[looked as usize]);
             for part in &grown.unwrap_or(task.tool.looked_at(looked)).parts {
-                cells.each_near(&SweptPart::new(task, part, 0), |brick, _| bricks.push(brick));
+                cells.each_near(&mut room, &SweptPart::new(task, part, 0), |brick, _| bricks.push(brick));
             }
         }
         bricks

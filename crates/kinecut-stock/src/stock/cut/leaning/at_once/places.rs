@@ -37,7 +37,12 @@ impl Places {
         self.count = 0;
     }
 
+    pub(super) fn is_full(&self) -> bool {
+        self.count == MOST
+    }
+
     /// Adds a brick with its middle and half its diagonal, if there is room.
+    #[inline]
     pub(super) fn add(&mut self, brick: u32, numbers: [f64; 4]) {
         if self.count < MOST {
             self.bricks[self.count] = brick;
