@@ -46,7 +46,7 @@ pub(in super::super) struct Cells {
     middles_of_piles: [Vec<[f64; 2]>; 3],
     /// By pile: a bit for each brick that may have material.
     filled: Vec<AtomicU64>,
-    /// Where ends of lines are wanted; without it everywhere.
+    /// The borders at which ends of lines are wanted; without them everywhere.
     borders: Option<Arc<Borders>>,
 }
 

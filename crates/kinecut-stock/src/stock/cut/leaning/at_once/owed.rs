@@ -46,7 +46,7 @@ pub(in crate::stock) struct OwedAcross {
     paid: Vec<u32>,
     /// By brick: nothing is left in it.
     swallowed: Vec<bool>,
-    /// Where ends of the lines across are wanted; without it everywhere.
+    /// The borders at which ends of the lines across are wanted; without them everywhere.
     borders: Option<Arc<Borders>>,
 }
 
