@@ -7,11 +7,12 @@ use super::at_once::{block, chain, is_same};
 use super::in_two_ways::compare_lines;
 use super::reference::Random;
 use crate::base::Silent;
-use crate::geom::Line;
+use crate::geom::{Aabb, Line, Profile};
 use crate::stock::cut::run::{Order, cut_as};
 use crate::stock::cut::{CutAxis, CutList, CutMove, CutOptions, MoveEffect, Stance, ToolBody, cut_list};
 use crate::stock::sieve::Sieve;
 use crate::stock::{Axis, DexelGrid, Interval, TriDexel, fixed};
+use crate::sweep::ToolMotion;
 
 /// A stock that leaning moves have cut, with the lines across owed.
 fn owing(round: usize, random: &mut Random) -> (TriDexel, TriDexel) {
@@ -159,4 +160,31 @@ fn what_comes_after_finds_the_lines_as_they_are() {
         compare_lines([&runs, &singly], &format!("round {round}"), is_same);
     }
     assert!(were_owed > 5, "{were_owed}");
+}
+
+/// Moves that are apart, so that none begins where the one before it ended: what each removes is measured from its first pose on.
+#[test]
+fn amounts_of_moves_that_are_apart_are_those_of_cutting_in_order() {
+    let body = [ToolBody::new(Profile::cylinder(4.0, 10.0).unwrap())];
+    let axis = DVec3::new(0.3, 0.1, 1.0);
+    let place = |i: u32| DVec3::new(f64::from(i % 20) * 8.0 + 4.13, f64::from(i / 20) * 7.0 + 4.57, -2.0);
+    let moves: Vec<CutMove> = (0..300)
+        .map(|i| {
+            let line = Line { start: place(i), end: place(i) + DVec3::X * 2.0 };
+            CutMove::leaning(ToolMotion::fixed(line.into(), axis).unwrap(), line, 0)
+        })
+        .collect();
+    let bounds = Aabb { min: DVec3::new(0.0, 0.0, -6.0), max: DVec3::new(165.0, 110.0, 0.0) };
+    let step = 0.25;
+    let list = CutList::new(&body, moves, &CutOptions::default(), step).unwrap();
+    let removed = |order: Order| -> f64 {
+        let mut stock = TriDexel::from_box(bounds, step).unwrap();
+        cut_as(&mut stock, &list, 0..300, order, &Silent)
+            .unwrap()
+            .iter()
+            .map(|e: &MoveEffect| e.removed)
+            .sum()
+    };
+    let (at_once, in_order) = (removed(Order::InRuns), removed(Order::OneByOne));
+    assert!((at_once / in_order - 1.0).abs() < 0.02, "{at_once} {in_order}");
 }
