@@ -71,6 +71,11 @@ impl Chain {
         self.places[3 + rotary].is_some()
     }
 
+    /// The axis of a joint of the code, counted X Y Z A B C.
+    pub(super) fn axis_at(&self, place: usize) -> Option<usize> {
+        self.places.iter().position(|p| *p == Some(place))
+    }
+
     /// All joints, in the order of the code.
     pub(super) fn joints(&self, linear: DVec3, rotary: [f64; 3]) -> JointValues {
         let mut q = JointValues::zero(self.joints);
@@ -102,13 +107,15 @@ impl Chain {
 
     /// Maps the tip [table frame] into axis positions of X, Y, Z; `None` where the linear axes are not independent.
     pub(super) fn to_linear(&self, rotary: [f64; 3]) -> Option<(DMat3, DVec3)> {
+        let (matrix, zero) = self.of_linear(rotary);
+        Chain::independent(matrix).map(|back| (back, -(back * zero)))
+    }
+
+    /// The inverse of a matrix of the directions of linear axes; `None` where they are not independent.
+    pub(super) fn independent(directions: DMat3) -> Option<DMat3> {
         /// Volume of the box of three unit directions below which they count as flat.
         const FLAT: f64 = 1e-9;
-        let (matrix, zero) = self.of_linear(rotary);
-        (matrix.determinant().abs() > FLAT).then(|| {
-            let back = matrix.inverse();
-            (back, -(back * zero))
-        })
+        (directions.determinant().abs() > FLAT).then(|| directions.inverse())
     }
 
     /// Positions of the rotary axes in which the tool is along `axis` [table frame]: of all solutions inside the travel

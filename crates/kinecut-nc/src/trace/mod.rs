@@ -3,6 +3,7 @@
 //! Motion and stock read only this: cycles are expanded, frames and cutter compensation applied, and each segment's pose and axis
 //! positions are exact functions of arc length with three derivatives.
 
+mod axis_path;
 mod chain;
 mod comp;
 mod follow;
@@ -16,6 +17,7 @@ mod straight;
 mod travel;
 mod turning;
 
+pub use axis_path::AxisPath;
 pub use chain::{axis_frame, axis_positions, rotary_positions};
 pub use comp::CompStart;
 pub use follow::{TraceOptions, trace};

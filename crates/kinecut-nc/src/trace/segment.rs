@@ -112,7 +112,7 @@ impl Segment {
 
     /// Positions of the axes X, Y, Z at arc length `s` [mm], with their derivatives by arc length: exact up to a
     /// constant when the setup is not located on the machine. Where the tool turns they are those at the rotary positions
-    /// of the start; [`Segment::joints`] has the others.
+    /// of the start; [`Segment::axis_path`] has the others.
     pub fn axes(&self, s: f64) -> [AxisJet; 3] {
         let jet = self.curve.at(s);
         let (matrix, shift) = self.start_axes.to_linear;

@@ -5,6 +5,7 @@ use glam::{DQuat, DVec3};
 use super::chain::Chain;
 use crate::geom::Rigid;
 use crate::machine::{JointValues, Kinematics};
+use crate::program::RotarySolution;
 
 /// The turning of the tool axis along one segment.
 #[derive(Clone, Debug, PartialEq)]
@@ -79,9 +80,7 @@ impl AxisTurning {
     pub fn axis(&self, t: f64) -> (DVec3, DVec3) {
         let (axis, rate) = match &self.law {
             TurningLaw::Vector { from, to, .. } => {
-                let normal = from.cross(*to);
-                let angle = normal.length().atan2(from.dot(*to));
-                let rate = normal.try_normalize().map_or(DVec3::ZERO, |n| n * angle);
+                let rate = plane_rate(*from, *to);
                 (DQuat::from_scaled_axis(rate * t) * *from, rate)
             }
             TurningLaw::Rotary { from, to, .. } => match &self.chain {
@@ -104,29 +103,38 @@ impl AxisTurning {
     /// coordinates].
     pub(super) fn joints(&self, tip: DVec3, t: f64) -> Option<(DVec3, [f64; 3])> {
         let chain = self.chain.as_ref()?;
-        let rotary = match &self.law {
-            TurningLaw::Rotary { from, to, linear: Some([start, end]) } => {
-                return Some((start.lerp(*end, t), between(*from, *to, t)));
-            }
-            TurningLaw::Rotary { from, to, linear: None } => between(*from, *to, t),
-            TurningLaw::Vector { from, to, rotary } => {
-                let [start, end] = (*rotary)?;
-                if t <= 0.0 || t >= 1.0 {
-                    if t <= 0.0 { start } else { end }
-                } else {
-                    let normal = from.cross(*to);
-                    let angle = normal.length().atan2(from.dot(*to));
-                    let rate = normal.try_normalize().map_or(DVec3::ZERO, |n| n * angle);
-                    let axis = DQuat::from_scaled_axis(rate * t) * *from;
-                    chain
-                        .rotary_for(axis, between(start, end, t), crate::program::RotarySolution::Free)
-                        .ok()?
-                }
-            }
-        };
+        let rotary = self.rotary(chain, t)?;
+        if let TurningLaw::Rotary { linear: Some([start, end]), .. } = &self.law {
+            return Some((start.lerp(*end, t), rotary));
+        }
         let (matrix, shift) = chain.to_linear(rotary)?;
         Some((matrix * self.to_part.inverse().point(tip) + shift, rotary))
     }
+
+    /// Positions of the rotary axes at a part `t` of the way.
+    pub(super) fn rotary(&self, chain: &Chain, t: f64) -> Option<[f64; 3]> {
+        match &self.law {
+            TurningLaw::Rotary { from, to, .. } => Some(between(*from, *to, t)),
+            TurningLaw::Vector { from, to, rotary } => {
+                let [start, end] = (*rotary)?;
+                if t <= 0.0 {
+                    return Some(start);
+                }
+                if t >= 1.0 {
+                    return Some(end);
+                }
+                let axis = DQuat::from_scaled_axis(plane_rate(*from, *to) * t) * *from;
+                chain.rotary_for(axis, between(start, end, t), RotarySolution::Free).ok()
+            }
+        }
+    }
+}
+
+/// Rate by which a direction turns into another in their plane, by the part of the way [rad].
+pub(super) fn plane_rate(from: DVec3, to: DVec3) -> DVec3 {
+    let normal = from.cross(to);
+    let angle = normal.length().atan2(from.dot(to));
+    normal.try_normalize().map_or(DVec3::ZERO, |n| n * angle)
 }
 
 /// Positions between two.

@@ -18,7 +18,7 @@ use kinecut::trace::{CompStart, Segment, Trace, TraceOptions, trace, travel_find
 const LENGTH: f64 = 120.0;
 
 /// A machine with offsets, so that nothing cancels by chance.
-fn machine(code: &str) -> Machine {
+pub(super) fn machine(code: &str) -> Machine {
     let mut machine =
         Machine::new(CoordinateCode::parse(code).unwrap(), [None; 3], Default::default()).unwrap();
     for (i, joint) in machine.joints.iter_mut().enumerate() {
@@ -49,7 +49,7 @@ fn tool() -> Tool {
 
 const WORK: DVec3 = DVec3::new(30.0, -20.0, 15.0);
 
-fn program(located: bool) -> (Program, State) {
+pub(super) fn program(located: bool) -> (Program, State) {
     let setup = Setup {
         name: "setup 1".to_owned(),
         part_on_table: Rigid { rotation: DMat3::from_rotation_z(FRAC_PI_2), translation: WORK },
@@ -66,16 +66,16 @@ fn program(located: bool) -> (Program, State) {
     (program, state)
 }
 
-fn to(program: &mut Program, state: &State, point: [f64; 3], axis: ToolAxis) {
+pub(super) fn to(program: &mut Program, state: &State, point: [f64; 3], axis: ToolAxis) {
     let end = Target::Tip { point: DVec3::from_array(point), axis };
     program.push_move(Move { end, path: Path::Line }, state, Origin::default());
 }
 
-fn followed(program: &Program, machine: &Machine) -> Trace {
+pub(super) fn followed(program: &Program, machine: &Machine) -> Trace {
     followed_or(program, Some(machine)).unwrap()
 }
 
-fn followed_or(program: &Program, machine: Option<&Machine>) -> kinecut::base::Result<Trace> {
+pub(super) fn followed_or(program: &Program, machine: Option<&Machine>) -> kinecut::base::Result<Trace> {
     let tools = [tool()];
     let options = TraceOptions {
         machine,
@@ -259,7 +259,7 @@ fn coordinates_are_axis_positions_while_rotary_axes_stand_turned() {
     assert!((from_centre.length() - 5.0).abs() < 1e-9 && from_centre.z.abs() < 1e-9);
 }
 
-fn tilted(z: DVec3, branch: RotarySolution) -> (Program, State) {
+pub(super) fn tilted(z: DVec3, branch: RotarySolution) -> (Program, State) {
     let (mut program, mut state) = program(true);
     to(&mut program, &state, [0.0, 0.0, 50.0], ToolAxis::Fixed);
     let x = z.any_orthonormal_vector();
