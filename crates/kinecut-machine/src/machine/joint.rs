@@ -54,10 +54,17 @@ pub struct Dynamics {
     pub acceleration: Option<f64>,
     /// Jerk [mm/s^3].
     pub jerk: Option<f64>,
-    /// Of the machine as a whole: largest feed along the path [mm/s].
-    pub max_feed: Option<f64>,
-    /// Of the machine as a whole: largest speed of the spindle [rad/s].
-    pub max_speed: Option<f64>,
+}
+
+impl Dynamics {
+    /// These limits; missing ones are those of `before`.
+    pub fn over(self, before: Dynamics) -> Dynamics {
+        Dynamics {
+            rapid: self.rapid.or(before.rapid),
+            acceleration: self.acceleration.or(before.acceleration),
+            jerk: self.jerk.or(before.jerk),
+        }
+    }
 }
 
 /// Positions of the joints of a machine, in the order of its code [mm or rad]; as a slice by `*`.

@@ -6,6 +6,7 @@
 
 mod body;
 mod code;
+mod control;
 mod elementary;
 pub mod formula;
 pub mod generation;
@@ -22,6 +23,7 @@ mod word;
 
 pub use body::{Body, Link};
 pub use code::CoordinateCode;
+pub use control::MotionControl;
 pub use elementary::Elementary;
 pub use joint::{Dynamics, Joint, JointValues, MOST_JOINTS};
 pub use kinematics::{Kinematics, Twist};

@@ -4,8 +4,11 @@ use std::sync::Arc;
 
 use glam::DVec3;
 
+use super::control::positive;
 use super::kinematics::Travels;
-use super::{Body, CoordinateCode, Dynamics, Elementary, Joint, Kinematics, Link, MOST_JOINTS, Rapids};
+use super::{
+    Body, CoordinateCode, Dynamics, Elementary, Joint, Kinematics, Link, MOST_JOINTS, MotionControl, Rapids,
+};
 use crate::base::{Code, Finding, Result};
 use crate::geom::Rigid;
 
@@ -27,6 +30,8 @@ pub struct Machine {
     pub spindle: Rigid,
     /// Limits of the linear axes that say nothing of their own.
     pub dynamics: Dynamics,
+    /// Values of its control and its spindle.
+    pub control: MotionControl,
     /// Course of its rapid moves, a parameter of the control; `None` where it is not known.
     pub rapids: Option<Rapids>,
     /// Solids of its links; empty where they are not known. After a change of the joints the links of the bodies have
@@ -57,16 +62,7 @@ impl Machine {
             Joint { travel: limits, ..Joint::standard(motion) }
         });
         let joints = joints.collect();
-        let machine = Machine {
-            name: String::new(),
-            code,
-            joints,
-            work: Rigid::IDENTITY,
-            spindle: Rigid::IDENTITY,
-            dynamics,
-            rapids: None,
-            bodies: Arc::default(),
-        };
+        let machine = Machine { joints, dynamics, ..Machine::of_code(code) };
         machine.check()?;
         Ok(machine)
     }
@@ -81,6 +77,7 @@ impl Machine {
             work: Rigid::IDENTITY,
             spindle: Rigid::IDENTITY,
             dynamics: Dynamics::default(),
+            control: MotionControl::default(),
             rapids: None,
             bodies: Arc::default(),
         }
@@ -91,7 +88,7 @@ impl Machine {
     /// # Errors
     /// `KC0702` when joints and code do not match or are too many; `KC0703` for a direction without length, a sense
     /// that is not 1 or -1, a travel that is reversed or not finite, a letter that occurs twice, or a dynamic limit
-    /// that is not positive.
+    /// that is not positive; those of [`MotionControl::check`].
     pub fn check(&self) -> Result<()> {
         let motions = self.joints.iter().map(|j| j.motion);
         if !motions.eq(self.code.word().0.iter().copied()) || self.joints.len() > MOST_JOINTS {
@@ -143,7 +140,8 @@ impl Machine {
                 .key(format!("body[{i}].link"))
                 .into());
         }
-        check_dynamics(&self.dynamics, "dynamics")
+        check_dynamics(&self.dynamics, "dynamics")?;
+        self.control.check()
     }
 
     /// The joint of an axis letter, with its place in the code.
@@ -206,22 +204,10 @@ impl Machine {
 const UNIT: f64 = 1e-9;
 
 fn check_dynamics(dynamics: &Dynamics, key: &str) -> Result<()> {
-    for (name, value) in [
-        ("rapid", dynamics.rapid),
-        ("acceleration", dynamics.acceleration),
-        ("jerk", dynamics.jerk),
-        ("max_feed", dynamics.max_feed),
-        ("max_speed", dynamics.max_speed),
-    ] {
-        if let Some(v) = value
-            && !(v.is_finite() && v > 0.0)
-        {
-            return Err(Finding::error(Code::MACHINE_AXIS, format!("the machine's {name} must be positive"))
-                .value(v, "")
-                .bound(0.0, "")
-                .key(format!("{key}.{name}"))
-                .into());
-        }
+    for (name, value) in
+        [("rapid", dynamics.rapid), ("acceleration", dynamics.acceleration), ("jerk", dynamics.jerk)]
+    {
+        positive(key, name, value)?;
     }
     Ok(())
 }

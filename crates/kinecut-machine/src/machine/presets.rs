@@ -6,7 +6,7 @@
 
 use glam::{DMat3, DVec3};
 
-use super::{CoordinateCode, Dynamics, Joint, Machine};
+use super::{CoordinateCode, Joint, Machine};
 use crate::base::{Code, Finding, Result};
 use crate::geom::Rigid;
 
@@ -268,12 +268,8 @@ impl Preset {
         let machine = Machine {
             name: self.name.to_owned(),
             joints,
-            work: Rigid::IDENTITY,
             spindle: Rigid { rotation, translation: DVec3::from_array(self.spindle) },
-            dynamics: Dynamics::default(),
-            rapids: None,
-            bodies: std::sync::Arc::default(),
-            code,
+            ..Machine::of_code(code)
         };
         machine.check()?;
         Ok(machine)

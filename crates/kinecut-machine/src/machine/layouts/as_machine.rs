@@ -5,7 +5,7 @@ use glam::{DMat3, DQuat, DVec3};
 use super::Sizes;
 use crate::base::Result;
 use crate::geom::Rigid;
-use crate::machine::{CoordinateCode, Dynamics, Joint, Kinematics, Machine, Word};
+use crate::machine::{CoordinateCode, Joint, Kinematics, Machine, Word};
 
 impl Sizes {
     /// A machine of a code: rotary axes of a table through the zero, those of a head one tool length behind it; strokes
@@ -50,12 +50,8 @@ impl Sizes {
         let machine = Machine {
             name: code.to_string(),
             joints: joints.collect(),
-            code: code.clone(),
-            work: Rigid::IDENTITY,
             spindle: Rigid { rotation: self.tool_frame(), translation: spindle * self.tool_length },
-            dynamics: Dynamics::default(),
-            rapids: None,
-            bodies: std::sync::Arc::default(),
+            ..Machine::of_code(code.clone())
         };
         machine.check()?;
         Ok(machine)

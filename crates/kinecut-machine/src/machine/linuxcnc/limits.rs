@@ -96,7 +96,6 @@ fn joint(reading: &mut Reading<'_>, joint: &mut Joint, section: &str, unit: f64)
         }
     };
     let positive = |v: Option<f64>| v.filter(|v| *v > 0.0).map(|v| v * unit);
-    joint.dynamics =
-        Dynamics { rapid: positive(rapid), acceleration: positive(acceleration), ..Dynamics::default() };
+    joint.dynamics = Dynamics { rapid: positive(rapid), acceleration: positive(acceleration), jerk: None };
     Ok(())
 }

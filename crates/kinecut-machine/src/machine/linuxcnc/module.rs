@@ -17,8 +17,7 @@ use super::hal::same;
 use super::limits::units;
 use super::{Reading, wrong};
 use crate::base::{Code, Finding, Result};
-use crate::geom::Rigid;
-use crate::machine::{CoordinateCode, Dynamics, Joint, Machine};
+use crate::machine::{CoordinateCode, Machine};
 
 /// Modules that are read, with their code (none: it must be given), and the coordinates of their joints by default.
 const MODULES: &[(&str, &str, &str)] = &[
@@ -93,16 +92,7 @@ pub(super) fn machine(
         }
     }
     let code = chosen_code(reading, own, &letters, code, kins.span)?;
-    let mut machine = Machine {
-        name: String::new(),
-        joints: code.word().0.iter().map(|&motion| Joint::standard(motion)).collect(),
-        code,
-        work: Rigid::IDENTITY,
-        spindle: Rigid::IDENTITY,
-        dynamics: Dynamics::default(),
-        rapids: None,
-        bodies: std::sync::Arc::default(),
-    };
+    let mut machine = Machine::of_code(code);
     axes(reading, &name, &mut machine)?;
     Ok((name, machine, letters))
 }

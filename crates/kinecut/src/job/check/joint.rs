@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use super::axes::{MAX_REACH, axis_finding, direction, point};
 use crate::base::Result;
 use crate::base::bounded::positive;
-use crate::job::file::AxisTable;
+use crate::job::file::{AxisTable, DynamicsTable};
 use crate::machine::{Dynamics, Joint};
 
 /// Largest angle of a rotary axis [degrees]: some ten thousand turns.
@@ -74,7 +74,7 @@ pub(super) fn axis(joint: &mut Joint, key: &str, t: &AxisTable) -> Result<()> {
         travel(joint, limits, &at("travel"))?;
     }
     let own = dynamics(&[t.rapid, t.acceleration, t.jerk], rotary, &format!("axis.{key}"))?;
-    joint.dynamics = over(own, joint.dynamics);
+    joint.dynamics = own.over(joint.dynamics);
     Ok(())
 }
 
@@ -121,8 +121,13 @@ pub(super) fn travel(joint: &mut Joint, [min, max]: [f64; 2], key: &str) -> Resu
     Ok(())
 }
 
+/// Limits of the linear axes that a table of the machine as a whole states.
+pub(crate) fn linear_axes(t: &DynamicsTable) -> Result<Dynamics> {
+    dynamics(&[t.rapid, t.acceleration, t.jerk], false, "dynamics")
+}
+
 /// Rapid, acceleration and jerk in mm or rad, and s.
-pub(crate) fn dynamics(given: &[Option<f64>; 3], rotary: bool, key: &str) -> Result<Dynamics> {
+fn dynamics(given: &[Option<f64>; 3], rotary: bool, key: &str) -> Result<Dynamics> {
     let units: [(&str, &str, f64, f64); 3] = if rotary {
         [
             ("rapid", "rev/min", 1e5, TAU / 60.0),
@@ -139,16 +144,5 @@ pub(crate) fn dynamics(given: &[Option<f64>; 3], rotary: bool, key: &str) -> Res
         }
     }
     let [rapid, acceleration, jerk] = values;
-    Ok(Dynamics { rapid, acceleration, jerk, ..Dynamics::default() })
-}
-
-/// The given limits; missing ones keep their previous value.
-pub(super) fn over(given: Dynamics, before: Dynamics) -> Dynamics {
-    Dynamics {
-        rapid: given.rapid.or(before.rapid),
-        acceleration: given.acceleration.or(before.acceleration),
-        jerk: given.jerk.or(before.jerk),
-        max_feed: given.max_feed.or(before.max_feed),
-        max_speed: given.max_speed.or(before.max_speed),
-    }
+    Ok(Dynamics { rapid, acceleration, jerk })
 }

@@ -1,19 +1,17 @@
 //! From the machine table to a checked machine: names of axes resolved against the code, directions made unit vectors,
 //! degrees and minutes turned into radians and seconds.
 
-use std::f64::consts::TAU;
-use std::sync::Arc;
-
 use glam::{DMat3, DVec3};
 
 use super::axes::{axis_finding, axis_names, axis_of, direction, point};
-use super::joint::{axis, dynamics, over, travel, usual_letters};
+use super::control::control;
+use super::joint::{axis, linear_axes, travel, usual_letters};
 use super::setup::rotation;
-use crate::base::bounded::{positive, text};
+use crate::base::bounded::text;
 use crate::base::{Code, Finding, Loader, Result};
 use crate::geom::Rigid;
 use crate::job::file::{AxisTable, FrameTable, MachineTable, SpindleTable};
-use crate::machine::{CoordinateCode, Dynamics, Elementary, Joint, Machine};
+use crate::machine::{CoordinateCode, Elementary, Machine};
 
 /// Least volume that the directions of three translations span: below it one of them follows from the others.
 const LEAST_VOLUME: f64 = 1e-3;
@@ -65,16 +63,8 @@ pub(crate) fn machine(t: &MachineTable, loader: &dyn Loader) -> Result<Machine> 
         }
         travel(&mut machine.joints[index], limits, &format!("travel.{key}"))?;
     }
-    let linear = dynamics(&[t.dynamics.rapid, t.dynamics.acceleration, t.dynamics.jerk], false, "dynamics")?;
-    let whole = |name: &str, value: Option<f64>, unit: &str, factor: f64| -> Result<Option<f64>> {
-        value.map(|v| Ok(positive(&format!("dynamics.{name}"), v, 1e6, unit)? * factor)).transpose()
-    };
-    let linear = Dynamics {
-        max_feed: whole("max_feed", t.dynamics.max_feed, "mm/min", 1.0 / 60.0)?,
-        max_speed: whole("max_speed", t.dynamics.max_speed, "rev/min", TAU / 60.0)?,
-        ..linear
-    };
-    machine.dynamics = over(linear, machine.dynamics);
+    machine.dynamics = linear_axes(&t.dynamics)?.over(machine.dynamics);
+    machine.control = control(&t.dynamics)?.over(machine.control);
     machine.rapids = t.rapids.or(machine.rapids);
     if let Some(table) = &t.spindle {
         machine.spindle = spindle(table, machine.spindle)?;
@@ -97,17 +87,7 @@ fn base(t: &MachineTable) -> Result<Machine> {
                 .help("add code = \"2103\" (workpiece to tool) or preset = \"...\"")
                 .into());
         };
-        let joints = code.word().0.iter().map(|&motion| Joint::standard(motion)).collect();
-        return Ok(Machine {
-            name: String::new(),
-            code,
-            joints,
-            work: Rigid::IDENTITY,
-            spindle: Rigid::IDENTITY,
-            dynamics: Dynamics::default(),
-            rapids: None,
-            bodies: Arc::default(),
-        });
+        return Ok(Machine::of_code(code));
     };
     let mut machine = Machine::preset(name).map_err(|e| e.under("preset"))?;
     if let Some(code) = code {

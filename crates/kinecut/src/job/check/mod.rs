@@ -3,6 +3,7 @@
 
 pub(crate) mod axes;
 mod body;
+pub(crate) mod control;
 pub(crate) mod joint;
 pub(crate) mod machine;
 pub(crate) mod numbers;

@@ -20,14 +20,14 @@ pub fn machine_toml(machine: &Machine) -> String {
         let _ = writeln!(out, "name = {}", quoted(&machine.name));
     }
     let _ = writeln!(out, "code = \"{}\"", machine.code);
-    let d = &machine.dynamics;
+    let (d, control) = (&machine.dynamics, &machine.control);
     let mut limits = Vec::new();
     for (name, value, factor) in [
         ("rapid", d.rapid, 60.0),
         ("acceleration", d.acceleration, 1e-3),
         ("jerk", d.jerk, 1e-3),
-        ("max_feed", d.max_feed, 60.0),
-        ("max_speed", d.max_speed, 60.0 / std::f64::consts::TAU),
+        ("max_feed", control.max_feed, 60.0),
+        ("max_speed", control.max_speed, 60.0 / std::f64::consts::TAU),
     ] {
         limits.extend(value.map(|v| format!("{name} = {}", number(v * factor))));
     }

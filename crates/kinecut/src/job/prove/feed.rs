@@ -10,12 +10,12 @@ const ROUNDING: f64 = 1.0 + 1e-6;
 
 pub(super) fn feed(simulated: &Simulated<'_>) -> Vec<Finding> {
     let mut found = Vec::new();
-    let dynamics = simulated.job.machine.as_ref().map(|m| m.dynamics);
+    let machine = simulated.job.machine.as_ref();
     for work in simulated.works {
         let limits = [
             (work.tool.limits.max_feed, "`max_feed` of the tool"),
-            (dynamics.and_then(|d| d.max_feed), "`max_feed` of the machine"),
-            (dynamics.and_then(|d| d.max_feed.or(d.rapid)), "the rapid of the machine"),
+            (machine.and_then(|m| m.control.max_feed), "`max_feed` of the machine"),
+            (machine.and_then(|m| m.control.max_feed.or(m.dynamics.rapid)), "the rapid of the machine"),
             (Some(FASTEST), "faster than any machine"),
         ];
         let least = limits.into_iter().filter_map(|(limit, of)| limit.map(|l| (l, of)));

@@ -49,7 +49,7 @@ fn backwards(simulated: &Simulated<'_>, work: &Work<'_>) -> Option<Finding> {
 }
 
 fn too_fast(simulated: &Simulated<'_>, work: &Work<'_>) -> Option<Finding> {
-    let machine = simulated.job.machine.as_ref().and_then(|m| m.dynamics.max_speed);
+    let machine = simulated.job.machine.as_ref().and_then(|m| m.control.max_speed);
     let limits = [(work.tool.limits.max_speed, "tool"), (machine, "machine")];
     let (most, of) = limits
         .into_iter()

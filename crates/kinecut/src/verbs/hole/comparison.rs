@@ -14,7 +14,7 @@ use crate::holes::entry::chosen;
 use crate::holes::{BoreSpec, Entry};
 use crate::job::Outputs;
 use crate::job::check::Job;
-use crate::job::check::joint::dynamics;
+use crate::job::check::joint::linear_axes;
 use crate::job::plan::setting;
 use crate::motion::Limits;
 use crate::operations::Operation;
@@ -101,8 +101,7 @@ fn terms(spec: &BoreSpec, job: &Job, table: &HoleTable) -> Result<Terms> {
         Entry::Plunge => (0.0, None),
     };
     let usual = Limits::usual(rough.feed);
-    let t = table.dynamics.clone().unwrap_or_default();
-    let given = dynamics(&[t.rapid, t.acceleration, t.jerk], false, "dynamics")?;
+    let given = linear_axes(&table.dynamics.clone().unwrap_or_default())?;
     let limits = Limits {
         axis_velocity: given.rapid.unwrap_or(usual.axis_velocity),
         acceleration: given.acceleration.unwrap_or(usual.acceleration),

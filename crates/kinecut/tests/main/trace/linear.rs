@@ -32,8 +32,7 @@ fn tool() -> Tool {
 fn machine() -> Machine {
     let code = CoordinateCode::parse("2103").unwrap();
     let travel = [Some([-200.0, 200.0]), Some([-150.0, 150.0]), Some([-400.0, 0.0])];
-    Machine::new(code, travel, Dynamics { rapid: Some(500.0), acceleration: None, ..Dynamics::default() })
-        .unwrap()
+    Machine::new(code, travel, Dynamics { rapid: Some(500.0), ..Dynamics::default() }).unwrap()
 }
 
 /// Work zero at machine (10, 20, -300); the part turned about Z by 90 degrees.
