@@ -124,7 +124,7 @@ stock = { box = { min = [-16, -16, -5], max = [16, 16, 0] } }
 drilled = [{ at = [12, 12], diameter = 2, top = 0, bottom = -5 }]
 post = { control = "sinumerik-840d", decimals = 4 }
 simulate = { step = 2.0 }
-machine = { code = "2103", travel = { X = [-400, 400] }, dynamics = { rapid = 30000 } }
+machine = { code = "2103", travel = { X = [-400, 400] }, dynamics = { rapid = 30000, max_speed = 12000, interpolator = "junction-deviation" } }
 [[holder]]
 name = "h"
 segments = [{ height = 20, lower_diameter = 30, upper_diameter = 40 }]

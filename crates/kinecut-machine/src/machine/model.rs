@@ -30,7 +30,7 @@ pub struct Machine {
     pub spindle: Rigid,
     /// Limits of the linear axes that say nothing of their own.
     pub dynamics: Dynamics,
-    /// Values of its control and its spindle.
+    /// Values of its control, of its spindle and of its tool change.
     pub control: MotionControl,
     /// Course of its rapid moves, a parameter of the control; `None` where it is not known.
     pub rapids: Option<Rapids>,

@@ -9,7 +9,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::BodyTable;
-use crate::machine::Rapids;
+use crate::machine::{Interpolator, Rapids};
 
 /// A machine, or the name of a file with one.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -38,7 +38,8 @@ pub struct MachineTable {
     /// Travel of the axes by their letters: mm, rotary axes degrees. `travel = { X = [-400, 400], A = [-100, 50] }`.
     #[serde(default)]
     pub travel: BTreeMap<String, [f64; 2]>,
-    /// Speed, acceleration and jerk of the linear axes that have no values of their own.
+    /// Speed, acceleration and jerk of the linear axes that have no values of their own; what the control does along a
+    /// path; times of tool changes and of the spindle.
     #[serde(default)]
     pub dynamics: DynamicsTable,
     /// Rapid moves of several axes: "straight" or "axis-by-axis". Default: not known, so that both ways are tried,
@@ -122,7 +123,7 @@ pub struct FrameTable {
     pub z: Option<[f64; 3]>,
 }
 
-/// Speed, acceleration and jerk of the axes.
+/// Speed, acceleration and jerk of the axes, and what control and spindle make of them.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct DynamicsTable {
@@ -141,4 +142,23 @@ pub struct DynamicsTable {
     /// Largest speed of the spindle, rev/min.
     #[serde(default)]
     pub max_speed: Option<f64>,
+    /// How the control runs along a path: "jerk-limited", "trapezoid", "exact-stop" or "junction-deviation".
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub interpolator: Option<Interpolator>,
+    /// Distance by which the control may leave the programmed path to smooth corners and steps of curvature, mm: what `G64 P`,
+    /// `CYCLE832`, `G05.1` or cycle 32 set; 0 to 1, and 0 is an exact stop in every corner.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub tolerance: Option<f64>,
+    /// The same for rotary axes, degrees; 0 to 5.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub turn_tolerance: Option<f64>,
+    /// Junction deviation of the interpolator "junction-deviation", mm; 0 to 1. Grbl's `$11`, which is 0.01 as delivered.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub junction_deviation: Option<f64>,
+    /// Time of a tool change, chip to chip without the moves, s; 0 to 600.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub tool_change: Option<f64>,
+    /// Time in which the spindle gets from rest to `max_speed`, s; 0 to 120. Needs `max_speed`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub spindle_ramp: Option<f64>,
 }

@@ -4,9 +4,10 @@ use std::fmt::Write as _;
 
 use glam::{DMat3, DVec3};
 
+use crate::base::unit::variant_key;
 use crate::geom::{Rigid, Solid};
 use crate::job::check::machine::shortest;
-use crate::machine::{Body, Joint, Link, Machine, Rapids};
+use crate::machine::{Body, Joint, Link, Machine};
 
 /// Digits of a number in a file: two fewer than a double holds, so that degrees come out as they were given.
 const DIGITS: usize = 14;
@@ -28,18 +29,20 @@ pub fn machine_toml(machine: &Machine) -> String {
         ("jerk", d.jerk, 1e-3),
         ("max_feed", control.max_feed, 60.0),
         ("max_speed", control.max_speed, 60.0 / std::f64::consts::TAU),
+        ("tolerance", control.tolerance, 1.0),
+        ("turn_tolerance", control.turn_tolerance, 1f64.to_degrees()),
+        ("junction_deviation", control.junction_deviation, 1.0),
+        ("tool_change", control.tool_change, 1.0),
+        ("spindle_ramp", control.spindle_ramp, 1.0),
     ] {
         limits.extend(value.map(|v| format!("{name} = {}", number(v * factor))));
     }
+    limits.extend(control.interpolator.map(|i| format!("interpolator = \"{}\"", variant_key(&i))));
     if !limits.is_empty() {
         let _ = writeln!(out, "dynamics = {{ {} }}", limits.join(", "));
     }
     if let Some(rapids) = machine.rapids {
-        let word = match rapids {
-            Rapids::Straight => "straight",
-            Rapids::AxisByAxis => "axis-by-axis",
-        };
-        let _ = writeln!(out, "rapids = \"{word}\"");
+        let _ = writeln!(out, "rapids = \"{}\"", variant_key(&rapids));
     }
     for joint in &machine.joints {
         axis(&mut out, joint);

@@ -268,6 +268,23 @@ fn what_is_compared_is_bounded_in_its_row() {
 }
 
 #[test]
+fn values_of_a_control_beside_a_comparison_are_bounded_as_in_a_machine() {
+    let compared = |dynamics: &str| {
+        let text = format!(
+            r#"{{"tool": {{"number": 1, "type": "end-mill", "diameter": 10, "flute_length": 22}}, "operation": {{"type": "bore", "tool": 1,
+            "at": [0, 0], "diameter": 40, "depth": 8, "strategy": "involute", "speed": 8000, "rough": {{"stepover": 2, "feed": 1200}},
+            "finish": {{"feed": 800}}}}, "dynamics": {{{dynamics}}}}}"#
+        );
+        kinecut::verbs::hole::compare_hole(&read_holes("h.json", &text).unwrap().item(0).unwrap())
+    };
+    assert!(compared(r#""acceleration": 4, "tolerance": 0.02, "interpolator": "trapezoid""#).is_ok());
+    let error = compared(r#""acceleration": 4, "tool_change": 1e6"#).unwrap_err();
+    assert_eq!(bounded(error, Code::JOB_VALUE).key.as_deref(), Some("dynamics.tool_change"));
+    let error = compared(r#""acceleration": 4, "spindle_ramp": 2"#).unwrap_err();
+    assert_eq!((error.code(), error.0.key.as_deref()), (Code::MACHINE_AXIS, Some("dynamics.spindle_ramp")));
+}
+
+#[test]
 fn a_program_without_moves_has_zero_millimetres() {
     let file = kinecut::job::GivenFile { name: "a.ngc", bytes: b"G21 G90\nM2\n" };
     let given = given_alone(file, &ProgramWants::default(), false).unwrap();

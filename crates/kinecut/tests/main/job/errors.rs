@@ -117,6 +117,10 @@ fn every_wrong_value_is_one_error_with_its_line() {
         ("turns = 2", "turns = 0"),
         ("turns = 2", "turns = 2, spring_passes = 90"),
         ("flute_length = 22", "flute_length = 1e8"),
+        ("rapid = 30000", "tolerance = 2"),
+        ("rapid = 30000", "spindle_ramp = 3"),
+        ("rapid = 30000", "junction_deviation = 0.01"),
+        ("rapid = 30000", "interpolator = \"linuxcnc\""),
     ];
     let mut text = String::new();
     for (from, to) in cases {

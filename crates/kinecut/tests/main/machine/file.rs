@@ -3,7 +3,7 @@
 use glam::{DMat3, DVec3};
 use kinecut::base::Code;
 use kinecut::job::machine::{machine_toml, read};
-use kinecut::machine::Machine;
+use kinecut::machine::{Interpolator, Machine, MotionControl};
 use serde_json::Value;
 
 use crate::common::golden::{self, vector};
@@ -58,6 +58,118 @@ fn every_key_arrives_in_its_unit() {
     assert!((m.work.vector(DVec3::X) - DVec3::Y).length() < 1e-15);
     assert!((m.work.vector(DVec3::Z) - DVec3::Z).length() < 1e-15);
     assert!((m.work.point(DVec3::ZERO) - DVec3::new(1.0, 2.0, 3.0)).length() < 1e-15);
+}
+
+/// A three-axis machine with these keys of `dynamics`.
+fn with_dynamics(keys: &str) -> String {
+    format!("code = \"2103\"\ndynamics = {{ {keys} }}\n")
+}
+
+/// All values of control, spindle and tool change.
+const CONTROL: &str = "max_feed = 6000, max_speed = 12000, interpolator = \"junction-deviation\", tolerance = 0.02, \
+                       turn_tolerance = 0.1, junction_deviation = 0.01, tool_change = 4.5, spindle_ramp = 1.5";
+
+#[test]
+fn every_key_of_control_and_spindle_arrives_in_its_unit() {
+    let control = read("c.toml", &with_dynamics(CONTROL)).unwrap().control;
+    // 12000 rev/min are 400 pi rad/s, 0.1 degrees are pi/1800.
+    let pi = std::f64::consts::PI;
+    assert!((control.max_speed.unwrap() - 400.0 * pi).abs() < 1e-9);
+    assert!((control.turn_tolerance.unwrap() - pi / 1800.0).abs() < 1e-15);
+    let expected = MotionControl {
+        max_feed: Some(100.0),
+        max_speed: control.max_speed,
+        interpolator: Some(Interpolator::JunctionDeviation),
+        tolerance: Some(0.02),
+        turn_tolerance: control.turn_tolerance,
+        junction_deviation: Some(0.01),
+        tool_change: Some(4.5),
+        spindle_ramp: Some(1.5),
+    };
+    assert_eq!(control, expected);
+    assert_eq!(read("c.toml", &with_dynamics("rapid = 30000")).unwrap().control, MotionControl::default());
+    for (word, interpolator) in [
+        ("jerk-limited", Interpolator::JerkLimited),
+        ("trapezoid", Interpolator::Trapezoid),
+        ("exact-stop", Interpolator::ExactStop),
+    ] {
+        let control = read("c.toml", &with_dynamics(&format!("interpolator = \"{word}\""))).unwrap().control;
+        assert_eq!(control, MotionControl { interpolator: Some(interpolator), ..MotionControl::default() });
+    }
+}
+
+#[test]
+fn values_of_control_and_spindle_are_held_to_their_bounds() {
+    let junction = "interpolator = \"junction-deviation\"";
+    let speed = "max_speed = 8000";
+    // What stands beside it, the key, its greatest value, its unit.
+    for (beside, key, most, unit) in [
+        ("rapid = 30000", "tolerance", 1.0, "mm"),
+        ("rapid = 30000", "turn_tolerance", 5.0, "deg"),
+        ("rapid = 30000", "tool_change", 600.0, "s"),
+        (speed, "spindle_ramp", 120.0, "s"),
+        (junction, "junction_deviation", 1.0, "mm"),
+    ] {
+        let with = |value: &str| read("c.toml", &with_dynamics(&format!("{beside}, {key} = {value}")));
+        for fine in [0.0, 0.5 * most, most] {
+            with(&fine.to_string()).unwrap_or_else(|e| panic!("{key} = {fine}: {e}"));
+        }
+        for (value, bound) in [
+            ("-0.001", Some(0.0)),
+            ("-inf", Some(0.0)),
+            ("601", Some(most)),
+            ("1e300", None),
+            ("inf", Some(most)),
+            ("nan", None),
+        ] {
+            let error = with(value).expect_err(value);
+            let f = &error.0;
+            assert_eq!(
+                (f.code, f.key.as_deref()),
+                (Code::JOB_VALUE, Some(&*format!("dynamics.{key}"))),
+                "{f}"
+            );
+            assert_eq!(f.place.as_ref().map(|p| (p.file.as_str(), p.line)), Some(("c.toml", 2)), "{f}");
+            assert!(!f.help.is_empty(), "{f}");
+            if let Some(bound) = bound {
+                let shown = f.bound.as_ref().unwrap();
+                assert_eq!((shown.value, &*shown.unit), (bound, unit), "{f}");
+                assert_eq!(f.value.as_ref().unwrap().value, value.parse::<f64>().unwrap(), "{f}");
+            }
+        }
+        with("\"1\"").expect_err("a text is no number");
+    }
+}
+
+#[test]
+fn values_of_control_and_spindle_that_need_another_ask_for_it() {
+    // The keys, the code, the key of the finding, a part of the message, a part of the help.
+    let (axis, shape) = (Code::MACHINE_AXIS, Code::JOB_SHAPE);
+    for (keys, code, key, part, help) in [
+        ("spindle_ramp = 2", axis, "spindle_ramp", "max_speed", "add max_speed"),
+        ("junction_deviation = 0.01", axis, "junction_deviation", "interpolator", "\"junction-deviation\""),
+        (
+            "junction_deviation = 0.01, interpolator = \"trapezoid\"",
+            axis,
+            "junction_deviation",
+            "interpolator",
+            "\"junction-deviation\"",
+        ),
+        ("interpolator = \"linuxcnc\"", shape, "", "unknown variant `linuxcnc`", ""),
+        ("corner_tolerance = 1", shape, "", "unknown field `corner_tolerance`", ""),
+    ] {
+        let error = read("c.toml", &with_dynamics(keys)).expect_err(keys);
+        let f = &error.0;
+        assert_eq!(f.code, code, "{f}");
+        assert!(f.to_string().contains(part) && f.help.contains(help), "{f:?}");
+        assert_eq!(f.place.as_ref().map(|p| p.line), Some(2), "{f}");
+        if code == axis {
+            assert_eq!(f.key.as_deref(), Some(&*format!("dynamics.{key}")), "{f}");
+            assert!(f.value.is_some(), "{f}");
+        }
+    }
+    let axis = with_dynamics("rapid = 30000") + "[axis.X]\ntolerance = 0.1\n";
+    assert!(read("c.toml", &axis).unwrap_err().to_string().contains("unknown field `tolerance`"));
 }
 
 #[test]
@@ -220,6 +332,14 @@ fn writing_and_reading_give_the_same_machine() {
     let mut down = read("t.toml", "code = \"2103\"").unwrap();
     down.spindle.rotation = DMat3::from_diagonal(DVec3::new(-1.0, 1.0, -1.0));
     machines.push(down);
+    machines.push(read("c.toml", &with_dynamics(CONTROL)).unwrap());
+    for word in ["jerk-limited", "trapezoid", "exact-stop"] {
+        let keys = format!(
+            "interpolator = \"{word}\", tolerance = 0, turn_tolerance = 0.0123456789, tool_change = 0"
+        );
+        let rapids = "rapids = \"axis-by-axis\"\n";
+        machines.push(read("c.toml", &(with_dynamics(&keys) + rapids)).unwrap());
+    }
     for machine in machines {
         let text = machine_toml(&machine);
         let again = read("again.toml", &text).unwrap_or_else(|e| panic!("{e}\n{text}"));
@@ -252,6 +372,7 @@ fn writing_and_reading_give_the_same_machine() {
             }
         }
         assert_eq!(again.dynamics, machine.dynamics);
+        assert_eq!((again.control, again.rapids), (machine.control, machine.rapids), "{text}");
         assert_eq!(machine_toml(&again), text, "writing is stable");
     }
 }

@@ -1,0 +1,19 @@
+//! How a control runs along a path.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// What a control holds on its way along a path, and what it does where two moves meet.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Interpolator {
+    /// Velocity, acceleration and jerk of each axis are held; joints of moves are smoothed within the tolerance.
+    JerkLimited,
+    /// Velocity and acceleration of each axis are held, the jerk is not limited; corners as the tolerance allows.
+    Trapezoid,
+    /// As jerk-limited, with a stop at the end of every block.
+    ExactStop,
+    /// As Grbl: at a joint v^2 = a d sin(h/2) / (1 - sin(h/2)), with the acceleration a, the junction deviation d, and the
+    /// angle h that the two moves enclose (half a turn where they go straight on).
+    JunctionDeviation,
+}
