@@ -65,6 +65,15 @@ impl Spindle {
         }
     }
 
+    /// Its speed [rad/s], negative counter-clockwise; 0 when it is off.
+    pub fn signed_rate(self) -> f64 {
+        match self {
+            Spindle::Off => 0.0,
+            Spindle::Clockwise(rate) => rate,
+            Spindle::CounterClockwise(rate) => -rate,
+        }
+    }
+
     /// Its speed [rad/s]; 0 when it is off.
     pub fn rate(self) -> f64 {
         match self {

@@ -1,9 +1,34 @@
 //! Time along a path under the limits of a machine.
 //!
-//! [`pointwise`](fn@pointwise): the fastest run along a chain of curves whose limits hold in every point for itself.
+//! - [`SCurve`]: a straight move from rest to rest, in closed form.
+//! - [`TimeLaw`]: the fastest run along a [`Course`] under velocity, acceleration and jerk of each axis.
+//! - [`pointwise`](fn@pointwise): a run along a chain of curves whose limits hold in every point for itself, for
+//!   comparing shapes.
 
+mod axis_limit;
+mod course;
+mod grid;
+mod interior;
+mod law;
+mod pentadiagonal;
 mod pointwise;
+mod program;
+mod reach;
+mod s_curve;
+mod shape;
+mod shares;
+mod speed;
+mod spline;
 mod station;
+mod windows;
 
+pub use axis_limit::AxisLimit;
+pub use course::Course;
+pub use law::TimeLaw;
 pub use pointwise::{Limits, RunLaw, RunPoint, pointwise};
+pub use program::{ProgramTime, Smoothing, axis_limits, program_time};
+pub use reach::WithoutJerk;
+pub use s_curve::{Moment, SCurve};
+pub use shares::Shares;
+pub use speed::Speed;
 pub use station::{PathByLength, Station};

@@ -46,7 +46,7 @@ impl Outcome {
         begins: &'a [f64],
         first_line: u32,
     ) -> Vec<(&'a OperationPlan, Shown<'a>)> {
-        let time = |setups: &[SetupOutcome]| setups.iter().map(|s| s.trace.duration().0).sum::<f64>();
+        let time = |setups: &[SetupOutcome]| setups.iter().map(SetupOutcome::seconds).sum::<f64>();
         let times = [time(&self.setups[..setup]), time(&self.setups)];
         let posted = self.setups[setup].posted_plan(setup, &self.job.setups[setup]);
         let measured = self.measured.iter().filter(|m| m.setup == setup);

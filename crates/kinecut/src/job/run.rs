@@ -2,6 +2,7 @@
 
 use crate::base::{Code, Error, Finding, Loader, Location, Progress, Result, Sources};
 use crate::geom::Aabb;
+use crate::motion::program_time;
 use crate::nc::{self, PostSettings, Posted};
 use crate::operations::OperationPlan;
 use crate::operations::known::Known;
@@ -214,6 +215,7 @@ fn setup(job: &Job, mut post: PostSettings, planned: SetupPlan, verdict_line: &s
     let place = |e: Error| in_text(e, &file, &posted, &lines);
     let plan_trace = trace(&planned.program, &options)?;
     let trace = trace(&program, &options).map_err(place)?;
+    let time = job.machine.as_ref().and_then(|machine| program_time(&program, &trace, machine));
     let mut outcome = SetupOutcome {
         file,
         planned,
@@ -223,6 +225,7 @@ fn setup(job: &Job, mut post: PostSettings, planned: SetupPlan, verdict_line: &s
         trace,
         read_back: ReadBack::default(),
         lines,
+        time,
         external: None,
         known: Known::default(),
     };

@@ -5,11 +5,12 @@ use super::external::ExternalProgram;
 use super::plan::SetupPlan;
 use super::read_back::ReadBack;
 use super::simulate::Simulation;
+use crate::motion::ProgramTime;
 use crate::nc::{Control, Posted};
 use crate::operations::known::Known;
 use crate::operations::{Clamping, PostedPlan};
 use crate::program::Program;
-use crate::trace::Trace;
+use crate::trace::{Segment, Trace};
 
 /// The program of one setup.
 #[derive(Debug)]
@@ -30,6 +31,8 @@ pub struct SetupOutcome {
     pub read_back: ReadBack,
     /// For each item of `program` its line in the text, 0-based.
     pub lines: Vec<Option<u32>>,
+    /// Its time under the limits of the machine, if the machine states them.
+    pub time: Option<ProgramTime>,
     /// Result of reading a program of others. Its text is in `posted`, nothing is planned.
     pub external: Option<ExternalProgram>,
     /// Facts about it that were asked for already.
@@ -37,6 +40,22 @@ pub struct SetupOutcome {
 }
 
 impl SetupOutcome {
+    /// Time of the program [s]: under the limits of the machine where these are known, else at programmed feeds.
+    pub fn seconds(&self) -> f64 {
+        self.time.as_ref().map_or_else(|| self.trace.duration().0, ProgramTime::total)
+    }
+
+    /// Time of each segment of the trace [s]; 0 where it is not known.
+    pub(crate) fn segment_times(&self) -> impl Iterator<Item = f64> {
+        let law = self.time.as_ref().map(|time| &time.segments);
+        let programmed = |s: &Segment| s.duration.unwrap_or(0.0);
+        self.trace
+            .segments
+            .iter()
+            .enumerate()
+            .map(move |(i, s)| law.map_or_else(|| programmed(s), |law| law[i]))
+    }
+
     /// The control that runs the program.
     pub fn control(&self, job: &Job) -> Control {
         self.external.as_ref().map_or(job.post.control, |f| f.control)

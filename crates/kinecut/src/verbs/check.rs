@@ -6,6 +6,7 @@ use crate::base::{Code, Finding, Result};
 use crate::geom::{Aabb, Rigid};
 use crate::job::external::given::GivenJob;
 use crate::job::external::{Followed, Missing, at_block, follow};
+use crate::motion::program_time;
 use crate::page::{Block, Fact, Section};
 use crate::program::{Frame, Item, Program, StopKind};
 use crate::trace::{SegmentPace, travel_findings};
@@ -78,6 +79,7 @@ pub fn program_sheet(given: &GivenJob) -> Result<ProgramSheet> {
         );
     }
     findings.sort_by_key(|f| std::cmp::Reverse(f.severity));
+    let law = job.machine.as_ref().and_then(|machine| program_time(read, &done.trace, machine));
     let (time, time_has_rapids) = done.trace.duration();
     let counted = || done.trace.segments.iter().filter(|s| !s.alternative);
     let remarks = done.unfollowed.iter().map(ToString::to_string);

@@ -5,6 +5,7 @@ use super::{PathPiece, PathRole};
 use crate::base::at_most;
 use crate::geom::ProfileElement;
 use crate::job::{Outcome, PartSurface, SetupOutcome};
+use crate::motion::ProgramTime;
 use crate::operations::OperationPlan;
 use crate::page;
 use crate::page::{Block, Fact, Section};
@@ -28,7 +29,7 @@ pub fn of_job_in_words(outcome: &Outcome) -> Report {
 fn with(outcome: &Outcome, page: bool) -> Report {
     let mut report = Report::new(&outcome.job.title, verdict(outcome));
     report.job_file = outcome.job_file.clone();
-    report.time = Some(outcome.setups.iter().map(|s| s.trace.duration().0).sum());
+    report.time = Some(outcome.setups.iter().map(SetupOutcome::seconds).sum());
     let mut part =
         PartView::new(&outcome.part, outcome.deviation.at_vertices.clone(), outcome.deviation.tolerance);
     part.relative = outcome.deviation.relative;
@@ -91,16 +92,8 @@ fn verdict(outcome: &Outcome) -> ReportVerdict {
     let mut verdict = ReportVerdict::new(outcome.verdict.outcome, outcome.verdict.headline.clone());
     verdict.scope = outcome.verdict.scope.clone();
     verdict.sentence = outcome.verdict.sentence();
-    let (time, complete) = outcome.setups.iter().fold((0.0, true), |(t, c), s| {
-        let (time, complete) = s.trace.duration();
-        (t + time, c && complete)
-    });
-    let note = if complete {
-        "at programmed feeds, rapids at full speed"
-    } else {
-        "at programmed feeds, without rapids"
-    };
-    verdict.facts.push(Fact::new("Time", page::duration(time)).note(note));
+    let time: f64 = outcome.setups.iter().map(SetupOutcome::seconds).sum();
+    verdict.facts.push(Fact::new("Time", page::duration(time)).note(terms_of_time(outcome)));
     let used: Vec<String> = outcome
         .job
         .tools
@@ -165,9 +158,9 @@ fn unsigned(mm: f64) -> String {
     page::micrometres(mm).trim_start_matches('+').to_owned()
 }
 
-fn uses<'a>(outcome: &'a Outcome, tool: &'a Tool) -> impl Iterator<Item = &'a Segment> {
-    let segments = outcome.setups.iter().flat_map(|s| &s.trace.segments);
-    segments.filter(move |s| s.tool == Some(tool.number) && !s.alternative)
+fn uses<'a>(outcome: &'a Outcome, tool: &'a Tool) -> impl Iterator<Item = (&'a Segment, f64)> {
+    let segments = outcome.setups.iter().flat_map(|s| s.trace.segments.iter().zip(s.segment_times()));
+    segments.filter(move |(s, _)| s.tool == Some(tool.number) && !s.alternative)
 }
 
 fn tools(outcome: &Outcome) -> Vec<ToolView> {
@@ -184,8 +177,8 @@ fn tools(outcome: &Outcome) -> Vec<ToolView> {
                 Cutter::BullNose { corner_radius, .. } => corner_radius,
                 _ => 0.0,
             };
-            for segment in uses(outcome, tool).filter(|s| s.motion != SegmentPace::Rapid) {
-                view.time += segment.duration.unwrap_or(0.0);
+            for (segment, time) in uses(outcome, tool).filter(|(s, _)| s.motion != SegmentPace::Rapid) {
+                view.time += time;
                 view.length += segment.curve.length();
             }
             if tool.holder.is_none() {
@@ -195,6 +188,29 @@ fn tools(outcome: &Outcome) -> Vec<ToolView> {
             view
         })
         .collect()
+}
+
+/// Terms under which a time holds.
+fn terms_of_time(outcome: &Outcome) -> String {
+    let laws: Option<Vec<&ProgramTime>> = outcome.setups.iter().map(|s| s.time.as_ref()).collect();
+    let Some(laws) = laws else {
+        let complete = outcome.setups.iter().all(|s| s.trace.duration().1);
+        let rapids = if complete { "rapids at full speed" } else { "without rapids" };
+        return format!("at programmed feeds, {rapids}");
+    };
+    let least: f64 = laws.iter().map(|time| time.least()).sum();
+    let mut terms = format!("under the limits of the axes, not less than {}", page::duration(least));
+    let refused: usize = laws.iter().map(|time| time.refused.0).sum();
+    if refused > 0 {
+        terms += &format!("; {refused} moves at programmed feed");
+    }
+    let missing = |changes: &dyn Fn(&ProgramTime) -> (usize, Option<f64>), what: &str| {
+        let count: usize = laws.iter().map(|t| changes(t)).filter(|c| c.1.is_none()).map(|c| c.0).sum();
+        (count > 0).then(|| format!("; without {count} {what}{}", if count == 1 { "" } else { "s" }))
+    };
+    terms.extend(missing(&|t| t.tool_changes, "tool change"));
+    terms.extend(missing(&|t| t.spindle_changes, "spindle ramp"));
+    terms
 }
 
 /// Half outline of a tool from the tip upwards, arcs in steps.
@@ -220,23 +236,25 @@ fn outline(tool: &Tool) -> Vec<[f32; 2]> {
     points
 }
 
-/// The segments of a setup's program with the line of the report, counted from `offset`, that each belongs to.
-fn on_lines(setup: &SetupOutcome, offset: u32) -> impl Iterator<Item = (u32, &Segment)> {
-    setup.trace.segments.iter().filter(|s| !s.alternative).filter_map(move |segment| {
+/// The segments of a setup's program with the line of the report, counted from `offset`, that each belongs to, and the time
+/// of each [s].
+fn on_lines(setup: &SetupOutcome, offset: u32) -> impl Iterator<Item = (u32, &Segment, f64)> {
+    let all = setup.trace.segments.iter().zip(setup.segment_times());
+    all.filter(|(s, _)| !s.alternative).filter_map(move |(segment, time)| {
         let line = setup.lines.get(segment.item as usize).copied().flatten()?;
-        Some((line + offset, segment))
+        Some((line + offset, segment, time))
     })
 }
 
 fn times(setup: &SetupOutcome, offset: u32, view: &mut ProgramView) {
-    for (block, segment) in on_lines(setup, offset) {
-        view.time[block as usize] += segment.duration.unwrap_or(0.0) as f32;
+    for (block, segment, time) in on_lines(setup, offset) {
+        view.time[block as usize] += time as f32;
         view.length[block as usize] += segment.curve.length() as f32;
     }
 }
 
 fn path(outcome: &Outcome, setup: &SetupOutcome, offset: u32, path: &mut Vec<PathPiece>) {
-    for (block, segment) in on_lines(setup, offset) {
+    for (block, segment, _) in on_lines(setup, offset) {
         let planned = setup.planned_item(segment.item).map(|i| setup.planned.program.origin(i as usize).role);
         let role = match (segment.motion, planned.unwrap_or_default()) {
             (SegmentPace::Rapid, _) => PathRole::Rapid,

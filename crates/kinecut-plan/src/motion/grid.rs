@@ -1,0 +1,81 @@
+//! Knots of a time law: close together at stops and where the shape of the path changes.
+
+use super::{AxisLimit, Course};
+
+/// Length of a cell over its distance from the nearest stop or knot.
+const GRADE: f64 = 0.045;
+/// The same beyond the way in which the speed can change.
+const FAR_GRADE: f64 = 0.1;
+/// Turn of the path in a cell [rad].
+const TURN: f64 = 0.025;
+/// Length of the cells at a knot over the way to the nearest knot beside it.
+const FEATURE: f64 = 0.25;
+/// Growth of cells away from a knot.
+const FEATURE_GRADE: f64 = 0.25;
+/// Length of the cell at rest over the way in which jerk brings the path to its speed.
+const REST: f64 = 2e-4;
+/// The same over the length of the path.
+const REST_SHARE: f64 = 0.01;
+/// Fewest cells.
+const FEWEST: usize = 8;
+
+/// Knots, from the end of the cell in which the path leaves its rest to the start of that in which it comes to rest.
+///
+/// `at_speed` is the way in which the path gets to its feed under the limits of its axes [mm].
+pub(super) fn knots<const A: usize, C: Course<A>>(
+    course: &C,
+    limits: &[AxisLimit; A],
+    at_speed: f64,
+) -> Vec<f64> {
+    let length = course.length();
+    let rest = (REST * at_speed).min(REST_SHARE * length);
+    // Features that are closer together than the speed can follow count as one.
+    let mut features: Vec<f64> = Vec::with_capacity(course.knots().len());
+    for place in course.knots() {
+        if *place - features.last().unwrap_or(&rest) > rest && length - rest - place > rest {
+            features.push(*place);
+        }
+    }
+    let most = length / FEWEST as f64;
+    // Ways between features, those at the ends included.
+    let gap = |i: usize| {
+        let place = |i: usize| match i {
+            0 => 0.0,
+            i if i > features.len() => length,
+            i => features[i - 1],
+        };
+        place(i + 1) - place(i)
+    };
+    let mut knots = vec![rest];
+    let mut s = rest;
+    let mut next = 0;
+    while s < length - rest {
+        while next < features.len() && features[next] <= s * (1.0 + 1e-12) {
+            next += 1;
+        }
+        let jets = course.derivatives(s + 1e-7 * rest);
+        let turn =
+            |d: usize| jets.iter().zip(limits).map(|(j, l)| (j[d] / l.velocity).powi(2)).sum::<f64>().sqrt();
+        let mut h = (TURN * turn(0) / turn(1)).min(most).min(course.finest(s));
+        for distance in [s, length - s] {
+            let near = distance.min(4.0 * at_speed);
+            h = h.min(GRADE * near + FAR_GRADE * (distance - near));
+        }
+        for i in [next.wrapping_sub(1), next] {
+            if let Some(place) = features.get(i) {
+                h = h.min(FEATURE * gap(i).min(gap(i + 1)) + FEATURE_GRADE * (s - place).abs());
+            }
+        }
+        let h = h.max(0.5 * rest);
+        let end = features.get(next).copied().unwrap_or(f64::INFINITY);
+        s = if s + 1.5 * h > end { end } else { s + h };
+        knots.push(s);
+    }
+    // The last one lies where the cell at rest begins.
+    let last = length - rest;
+    while knots.last().is_some_and(|k| *k > last - 0.25 * rest) {
+        knots.pop();
+    }
+    knots.push(last);
+    knots
+}

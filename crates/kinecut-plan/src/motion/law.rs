@@ -1,0 +1,127 @@
+//! The fastest run along a path, from rest to rest, under velocity, acceleration and jerk of each axis.
+
+use super::reach::{WithoutJerk, without_jerk};
+use super::shape::{Shape, places};
+use super::shares::{Shares, of_run};
+use super::windows::coefficients;
+use super::{AxisLimit, Course, Speed, grid};
+use crate::base::{Code, Finding, Result};
+
+/// The fastest run: feed, speed, acceleration and jerk of each axis hold at eight places of each cell; where they did not
+/// to the last digit, the whole run was slowed ([`TimeLaw::dilation`]).
+///
+/// The path is followed exactly. Which of its joints may be passed without a stop is the course's matter.
+#[derive(Clone, Debug)]
+pub struct TimeLaw {
+    speed: Speed,
+    without_jerk: f64,
+    dilation: f64,
+    steps: u32,
+}
+
+/// A course with its knots.
+struct Gridded {
+    length: f64,
+    knots: Vec<f64>,
+}
+
+impl Gridded {
+    fn new<const A: usize, C: Course<A>>(course: &C, limits: &[AxisLimit; A]) -> Result<Gridded> {
+        let length = course.length();
+        if !(length > 0.0 && length.is_finite()) {
+            return Err(Finding::error(Code::PLAN_VALUE, "a path needs a length").value(length, "mm").into());
+        }
+        let knots = grid::knots(course, limits, at_speed(course, limits));
+        Ok(Gridded { length, knots })
+    }
+
+    fn without_jerk<const A: usize, C: Course<A>>(&self, course: &C, limits: &[AxisLimit; A]) -> WithoutJerk {
+        without_jerk(course, limits, [&[0.0][..], &self.knots, &[self.length]].concat())
+    }
+}
+
+impl WithoutJerk {
+    /// The fastest run along a course where jerk has no limit.
+    ///
+    /// # Errors
+    /// As [`TimeLaw::new`].
+    pub fn new<const A: usize, C: Course<A>>(course: &C, limits: &[AxisLimit; A]) -> Result<WithoutJerk> {
+        let grid = Gridded::new(course, limits)?;
+        places(course, limits, &grid.knots)?;
+        Ok(grid.without_jerk(course, limits))
+    }
+}
+
+impl TimeLaw {
+    /// The fastest run along a course; each jerk limit is finite.
+    ///
+    /// # Errors
+    /// `KC0404` where the course cannot be run: it has no length, or a derivative or the feed is not finite.
+    pub fn new<const A: usize, C: Course<A>>(course: &C, limits: &[AxisLimit; A]) -> Result<TimeLaw> {
+        let grid = Gridded::new(course, limits)?;
+        let places = places(course, limits, &grid.knots)?;
+        let shape = Shape::new(&grid.knots, grid.length, &places, limits);
+        let without_jerk = grid.without_jerk(course, limits).duration();
+        let (coefficients, steps) = coefficients(course, limits, &shape);
+        let speed = Speed::new([0.0, grid.length], &grid.knots, &coefficients);
+        let dilation = of_run(course, limits, &speed).dilation();
+        let speed = if dilation > 1.0 { speed.slower(dilation) } else { speed };
+        Ok(TimeLaw { speed, without_jerk, dilation, steps })
+    }
+
+    /// Time from rest to rest [s].
+    pub fn duration(&self) -> f64 {
+        self.speed.duration()
+    }
+
+    /// Time of the fastest run without a limit of jerk [s]: no run that keeps the limits is faster.
+    ///
+    /// Computed on the same cells; its error is of second order in their length.
+    pub fn without_jerk(&self) -> f64 {
+        self.without_jerk
+    }
+
+    /// The speed over the path.
+    pub fn speed(&self) -> &Speed {
+        &self.speed
+    }
+
+    /// Largest shares of the limits, looked at again.
+    pub fn shares<const A: usize, C: Course<A>>(&self, course: &C, limits: &[AxisLimit; A]) -> Shares {
+        of_run(course, limits, &self.speed)
+    }
+
+    /// Factor by which the run was slowed so that every limit holds: 1 where none was exceeded.
+    pub fn dilation(&self) -> f64 {
+        self.dilation
+    }
+
+    /// Steps of the solver.
+    pub fn steps(&self) -> u32 {
+        self.steps
+    }
+
+    /// Cells of the law.
+    pub fn cells(&self) -> usize {
+        self.speed.knots().len() - 1
+    }
+}
+
+/// Way in which a path gets from rest to its largest feed, the shortest of some places [mm].
+fn at_speed<const A: usize, C: Course<A>>(course: &C, limits: &[AxisLimit; A]) -> f64 {
+    const SAMPLES: usize = 64;
+    let length = course.length();
+    let mut way = f64::INFINITY;
+    for i in 0..SAMPLES {
+        let s = length * (i as f64 + 0.5) / SAMPLES as f64;
+        let jets = course.derivatives(s);
+        let path = |limit: fn(&AxisLimit) -> f64| {
+            let along = jets.iter().zip(limits).map(|(q, l)| limit(l) / q[0].abs().max(1e-12));
+            along.fold(f64::INFINITY, f64::min)
+        };
+        let (a, j) = (path(|l| l.acceleration), path(|l| l.jerk));
+        let v = path(|l| l.velocity).min(course.feed(s));
+        way = way.min(if v * j < a * a { v * (v / j).sqrt() } else { 0.5 * v * (v / a + a / j) });
+    }
+    way
+}

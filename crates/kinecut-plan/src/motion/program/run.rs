@@ -1,0 +1,127 @@
+//! Moves that follow one another without a stop, as one course.
+
+use super::super::Course;
+use super::joint::{AXES, Joint};
+use super::joints::Joints;
+use crate::trace::AxisPath;
+
+/// A move of a run.
+pub(super) struct Piece<'a> {
+    /// The axes over the parameter of the move.
+    pub(super) path: AxisPath<'a>,
+    /// Rate of the parameter at the programmed feed [mm/s]; infinite for a rapid.
+    pub(super) feed: f64,
+}
+
+/// A run from rest to rest.
+pub(super) struct Run<'a> {
+    pieces: Vec<Piece<'a>>,
+    /// Start of each move, and the end of the last one [mm].
+    starts: Vec<f64>,
+    joints: Joints,
+    /// Ends of moves and of smoothings that stand alone [mm].
+    knots: Vec<f64>,
+}
+
+/// A run over the axes that move.
+pub(super) struct Moving<'a, const A: usize> {
+    run: &'a Run<'a>,
+    axes: [usize; A],
+}
+
+/// First three derivatives of all axes at a place of a move [mm].
+pub(super) fn derivatives(path: &AxisPath, s: f64) -> [[f64; 3]; AXES] {
+    path.at(s).map(|jet| [jet.d1, jet.d2, jet.d3])
+}
+
+impl<'a> Run<'a> {
+    /// The run over these moves; `joints`: of each end of a move but the last the smoothing, or nothing where nothing steps.
+    ///
+    /// Smoothings become shorter where they would reach over an end of the run, or leave the path by more than `tolerance`
+    /// together.
+    pub(super) fn new(pieces: Vec<Piece<'a>>, joints: Vec<Option<Joint>>, tolerance: &[f64]) -> Run<'a> {
+        let mut starts = vec![0.0];
+        for piece in &pieces {
+            starts.push(starts[starts.len() - 1] + piece.path.length());
+        }
+        let length = starts[pieces.len()];
+        let mut placed = Vec::new();
+        let mut allowed = Vec::new();
+        for ((joint, at), tolerance) in joints.iter().zip(&starts[1..]).zip(tolerance) {
+            if let Some(joint) = joint {
+                placed.push(Joint { at: *at, half: joint.half.min(*at).min(length - *at), ..*joint });
+                allowed.push(*tolerance);
+            }
+        }
+        let joints = Joints::within(placed, &allowed);
+        let mut knots = starts[1..pieces.len()].to_vec();
+        knots.retain(|at| joints.alone(*at));
+        knots.extend(joints.ends());
+        knots.sort_by(f64::total_cmp);
+        Run { pieces, starts, joints, knots }
+    }
+
+    /// Largest distance from the programmed path at the joints, of the linear axes [mm].
+    pub(super) fn farthest(&self) -> f64 {
+        self.joints.farthest()
+    }
+
+    /// Start of each move, and the end of the last one [mm].
+    pub(super) fn starts(&self) -> &[f64] {
+        &self.starts
+    }
+
+    fn piece(&self, s: f64) -> usize {
+        self.starts.partition_point(|start| *start <= s).clamp(1, self.pieces.len()) - 1
+    }
+
+    fn derivatives(&self, s: f64) -> [[f64; 3]; AXES] {
+        let i = self.piece(s);
+        let mut jets = derivatives(&self.pieces[i].path, s - self.starts[i]);
+        self.joints.about(s, |joint| joint.smooth(s, &mut jets));
+        jets
+    }
+
+    /// Axes that move.
+    pub(super) fn moving(&self) -> Vec<usize> {
+        const NONE: f64 = 1e-12;
+        let mut moves = [false; AXES];
+        for piece in &self.pieces {
+            for part in [0.0, 0.3, 0.5, 0.8, 1.0] {
+                let jets = derivatives(&piece.path, part * piece.path.length());
+                for (moves, jet) in moves.iter_mut().zip(jets) {
+                    *moves |= jet.iter().any(|d| d.abs() > NONE);
+                }
+            }
+        }
+        (0..AXES).filter(|a| moves[*a]).collect()
+    }
+
+    /// The run over these axes.
+    pub(super) fn over<const A: usize>(&'a self, axes: [usize; A]) -> Moving<'a, A> {
+        Moving { run: self, axes }
+    }
+}
+
+impl<const A: usize> Course<A> for Moving<'_, A> {
+    fn length(&self) -> f64 {
+        self.run.starts[self.run.pieces.len()]
+    }
+
+    fn derivatives(&self, s: f64) -> [[f64; 3]; A] {
+        let all = self.run.derivatives(s);
+        self.axes.map(|a| all[a])
+    }
+
+    fn feed(&self, s: f64) -> f64 {
+        self.run.pieces[self.run.piece(s)].feed
+    }
+
+    fn knots(&self) -> &[f64] {
+        &self.run.knots
+    }
+
+    fn finest(&self, s: f64) -> f64 {
+        self.run.joints.finest(s)
+    }
+}

@@ -1,0 +1,128 @@
+//! The fastest run along a path where jerk has no limit: a lower bound of the time.
+//!
+//! TOPP-RA in closed form (Pham, Pham 2018). In a cell of length `h` the acceleration `u` of the parameter is constant, and
+//! the rows of the axes are taken in its middle: `|q'' (b + h u) + q' u| <= A` bounds `u` between two lines in `b`. Backward:
+//! the interval `[0, K]` of speeds from which the rest of the path can be run; `K` is the smallest crossing of a lower with an
+//! upper line. Forward: as fast as may be inside of these intervals. The error is of second order in the length of cells.
+
+use super::{AxisLimit, Course};
+
+/// The run: the square of the speed is linear in the way inside each cell.
+#[derive(Clone, Debug)]
+pub struct WithoutJerk {
+    /// Both stops, and the ends of cells between them [mm].
+    knots: Vec<f64>,
+    /// Squares of the speed there.
+    squares: Vec<f64>,
+    /// Moments there [s].
+    moments: Vec<f64>,
+}
+
+impl WithoutJerk {
+    /// Time from rest to rest [s].
+    pub fn duration(&self) -> f64 {
+        self.moments[self.moments.len() - 1]
+    }
+
+    /// Moment [s] at which the path reaches a place [mm].
+    pub fn moment(&self, s: f64) -> f64 {
+        let n = self.knots.len() - 1;
+        let k = self.knots.partition_point(|t| *t <= s).clamp(1, n) - 1;
+        let way = (s - self.knots[k]).max(0.0);
+        let slope = (self.squares[k + 1] - self.squares[k]) / (self.knots[k + 1] - self.knots[k]);
+        let sum = self.squares[k].sqrt() + (self.squares[k] + slope * way).max(0.0).sqrt();
+        if sum > 0.0 { self.moments[k] + 2.0 * way / sum } else { self.moments[k] }
+    }
+}
+
+/// The run without jerk limits, from rest to rest over knots that include both stops.
+pub(super) fn without_jerk<const A: usize, C: Course<A>>(
+    course: &C,
+    limits: &[AxisLimit; A],
+    knots: Vec<f64>,
+) -> WithoutJerk {
+    /// Derivatives below which an axis does not bind.
+    const NONE: f64 = 1e-12;
+    let n = knots.len() - 1;
+    let cells: Vec<Lines<A>> = knots
+        .windows(2)
+        .map(|pair| {
+            let h = pair[1] - pair[0];
+            let middle = 0.5 * (pair[0] + pair[1]);
+            let jets = course.derivatives(middle);
+            let mut lines =
+                Lines { slope: [0.0; A], width: [f64::INFINITY; A], cap: course.feed(middle).powi(2) };
+            for (a, (q, limit)) in jets.iter().zip(limits).enumerate() {
+                let factor = q[1] * h + q[0];
+                if factor.abs() > NONE {
+                    lines.slope[a] = -q[1] / factor;
+                    lines.width[a] = limit.acceleration / factor.abs();
+                }
+                lines.cap = lines.cap.min((limit.velocity / q[0].abs()).powi(2));
+            }
+            lines
+        })
+        .collect();
+    // Largest square of the speed at each knot.
+    let mut most: Vec<f64> = (0..=n)
+        .map(|k| {
+            let before = if k > 0 { cells[k - 1].cap } else { f64::INFINITY };
+            before.max(if k < n { cells[k].cap } else { 0.0 })
+        })
+        .collect();
+    most[n] = 0.0;
+    for k in (0..n).rev() {
+        let half = 0.5 / (knots[k + 1] - knots[k]);
+        most[k] = most[k].min(cells[k].largest(half, most[k + 1]));
+    }
+    let (mut squares, mut moments) = (vec![0.0], vec![0.0]);
+    let (mut b, mut time) = (0.0_f64, 0.0);
+    for k in 0..n {
+        let h = knots[k + 1] - knots[k];
+        let u = cells[k].upper(b);
+        let next = (b + 2.0 * h * u).clamp(0.0, most[k + 1]);
+        let sum = b.sqrt() + next.sqrt();
+        if sum > 0.0 {
+            time += 2.0 * h / sum;
+        }
+        b = next;
+        squares.push(b);
+        moments.push(time);
+    }
+    WithoutJerk { knots, squares, moments }
+}
+
+/// Bounds of the acceleration in a cell: `slope b - width <= u <= slope b + width` for each axis.
+struct Lines<const A: usize> {
+    slope: [f64; A],
+    width: [f64; A],
+    /// Largest square of the speed.
+    cap: f64,
+}
+
+impl<const A: usize> Lines<A> {
+    fn upper(&self, b: f64) -> f64 {
+        self.slope.iter().zip(self.width).map(|(m, w)| m * b + w).fold(f64::INFINITY, f64::min)
+    }
+
+    /// The largest `b` for which some `u` keeps all rows and leads into `[0, next]`; `half` is `1 / 2h`.
+    fn largest(&self, half: f64, next: f64) -> f64 {
+        /// Difference of slopes below which two lines are parallel.
+        const PARALLEL: f64 = 1e-15;
+        let mut most = f64::INFINITY;
+        let mut meet = |lower: [f64; 2], upper: [f64; 2]| {
+            if lower[0] > upper[0] + PARALLEL {
+                most = most.min((upper[1] - lower[1]) / (lower[0] - upper[0]));
+            }
+        };
+        let onward = [[-half, 0.0], [-half, next * half]];
+        for (m, w) in self.slope.iter().zip(self.width) {
+            meet([*m, -w], onward[1]);
+            meet(onward[0], [*m, w]);
+            for (m2, w2) in self.slope.iter().zip(self.width) {
+                meet([*m, -w], [*m2, w2]);
+            }
+        }
+        most
+    }
+}

@@ -1,0 +1,90 @@
+//! Shares of the limits that a run uses, from the derivatives of course and speed.
+
+use std::ops::Range;
+
+use rayon::prelude::*;
+
+use super::shape::BESIDE;
+use super::{AxisLimit, Course, Speed};
+
+/// Places of a cell at which limits are looked at.
+const PLACES: usize = 8;
+/// Places in a cell at rest.
+const PLACES_AT_REST: usize = 20;
+/// Cells that one thread looks at in one go.
+const TOGETHER: usize = 512;
+
+/// Largest share of a limit over all axes; the feed counts as a speed.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Shares {
+    /// Of feed and speed.
+    pub velocity: f64,
+    /// Of acceleration.
+    pub acceleration: f64,
+    /// Of jerk.
+    pub jerk: f64,
+}
+
+impl Shares {
+    /// Those of one place [mm] with `b`, `b'` and `b''`.
+    pub(super) fn at<const A: usize, C: Course<A>>(
+        course: &C,
+        limits: &[AxisLimit; A],
+        s: f64,
+        [b, b1, b2]: [f64; 3],
+    ) -> Shares {
+        let root = b.sqrt();
+        let mut worst = Shares { velocity: root / course.feed(s), ..Shares::default() };
+        for (q, limit) in course.derivatives(s).iter().zip(limits) {
+            let own = Shares {
+                velocity: (q[0] * root / limit.velocity).abs(),
+                acceleration: ((q[1] * b + 0.5 * q[0] * b1) / limit.acceleration).abs(),
+                jerk: (root * (q[2] * b + 1.5 * q[1] * b1 + 0.5 * q[0] * b2) / limit.jerk).abs(),
+            };
+            worst = worst.max(own);
+        }
+        worst
+    }
+
+    /// The larger of each.
+    pub fn max(self, other: Shares) -> Shares {
+        Shares {
+            velocity: self.velocity.max(other.velocity),
+            acceleration: self.acceleration.max(other.acceleration),
+            jerk: self.jerk.max(other.jerk),
+        }
+    }
+
+    /// Factor of time that brings all of them to at most 1: speeds fall with it, accelerations with its square, jerks with
+    /// its cube.
+    pub fn dilation(self) -> f64 {
+        self.velocity.max(self.acceleration.sqrt()).max(self.jerk.cbrt()).max(1.0)
+    }
+}
+
+/// Shares in each of these cells.
+pub(super) fn of_cells<const A: usize, C: Course<A>>(
+    course: &C,
+    limits: &[AxisLimit; A],
+    speed: &Speed,
+    cells: Range<usize>,
+) -> Vec<Shares> {
+    let of_cell = |k: usize| {
+        let mut worst = Shares::default();
+        speed.in_cell(k, PLACES, BESIDE, |s, b| worst = worst.max(Shares::at(course, limits, s, b)));
+        worst
+    };
+    cells.into_par_iter().with_min_len(TOGETHER).map(of_cell).collect()
+}
+
+/// Largest shares of a whole run.
+pub(super) fn of_run<const A: usize, C: Course<A>>(
+    course: &C,
+    limits: &[AxisLimit; A],
+    speed: &Speed,
+) -> Shares {
+    let cells = of_cells(course, limits, speed, 0..speed.knots().len() - 1);
+    let mut worst = cells.into_iter().fold(Shares::default(), Shares::max);
+    speed.at_rest(PLACES_AT_REST, |s, b| worst = worst.max(Shares::at(course, limits, s, b)));
+    worst
+}

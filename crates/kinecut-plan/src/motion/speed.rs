@@ -1,0 +1,199 @@
+//! Speed over a path, and the way over time.
+
+use super::spline::{basis, lengths};
+
+/// The square `b` of the rate of a path's parameter: a spline between the cells at rest (`motion/spline.rs`).
+///
+/// In a cell the acceleration `b'/2` is linear in the way, so that the way over time is a hyperbolic or a circular
+/// function: nothing is integrated step by step.
+#[derive(Clone, Debug)]
+pub struct Speed {
+    /// Where the path leaves its rest, and where it comes to rest [mm].
+    stops: [f64; 2],
+    knots: Vec<f64>,
+    coefficients: Vec<f64>,
+    /// Moment of each knot [s].
+    moments: Vec<f64>,
+    duration: f64,
+}
+
+impl Speed {
+    pub(super) fn new(stops: [f64; 2], knots: &[f64], coefficients: &[f64]) -> Speed {
+        let mut speed = Speed {
+            stops,
+            knots: knots.to_vec(),
+            coefficients: coefficients.to_vec(),
+            moments: Vec::with_capacity(knots.len()),
+            duration: 0.0,
+        };
+        let [first, last] = speed.rests();
+        let n = speed.cells();
+        let mut time = 3.0 * first / coefficients[0].sqrt();
+        speed.moments.push(time);
+        for k in 0..n {
+            time += speed.time_to(k, knots[k + 1] - knots[k]);
+            speed.moments.push(time);
+        }
+        speed.duration = time + 3.0 * last / coefficients[n + 1].sqrt();
+        speed
+    }
+
+    /// Lengths of the cells at rest [mm].
+    fn rests(&self) -> [f64; 2] {
+        [self.knots[0] - self.stops[0], self.stops[1] - self.knots[self.cells()]]
+    }
+
+    /// Cells between those at rest.
+    pub(super) fn cells(&self) -> usize {
+        self.knots.len() - 1
+    }
+
+    /// The same way in this many times the time.
+    pub(super) fn slower(&self, factor: f64) -> Speed {
+        let coefficients: Vec<f64> = self.coefficients.iter().map(|c| c / (factor * factor)).collect();
+        Speed::new(self.stops, &self.knots, &coefficients)
+    }
+
+    /// Time from rest to rest [s].
+    pub fn duration(&self) -> f64 {
+        self.duration
+    }
+
+    /// Length of the parameter [mm].
+    pub fn length(&self) -> f64 {
+        self.stops[1] - self.stops[0]
+    }
+
+    /// Places where the pieces of the spline meet [mm].
+    pub fn knots(&self) -> &[f64] {
+        &self.knots
+    }
+
+    /// `b`, `b'` and `b''` in cell `k` at a distance `u` from its left knot.
+    fn cell(&self, k: usize, u: f64) -> [f64; 3] {
+        let c = [self.coefficients[k], self.coefficients[k + 1], self.coefficients[k + 2]];
+        basis(lengths(&self.knots, k), u).map(|row| row[0] * c[0] + row[1] * c[1] + row[2] * c[2])
+    }
+
+    /// Time from the left knot of cell `k` to a distance `u` from it [s].
+    ///
+    /// The rate `v` of the parameter obeys `dv/dt = b'/2`, linear in `s` with the slope `w = b''/2`. Seen from the middle of
+    /// the time, `v0 + v1 = 2 v cosh(r t/2)` and `u = 2 v sinh(r t/2) / r` with `r = sqrt w`: so
+    /// `tanh(r t/2) = r u / (v0 + v1)`.
+    fn time_to(&self, k: usize, u: f64) -> f64 {
+        let ([b0, _, e], [b1, ..]) = (self.cell(k, 0.0), self.cell(k, u));
+        let mean = 2.0 * u / (b0.sqrt() + b1.sqrt());
+        mean * arc(0.125 * e * mean * mean)
+    }
+
+    /// Calls with place [mm] and `b`, `b'`, `b''` at `count` places of cell `k`, the first and the last beside the knots.
+    pub(super) fn in_cell(&self, k: usize, count: usize, beside: f64, mut f: impl FnMut(f64, [f64; 3])) {
+        let h = self.knots[k + 1] - self.knots[k];
+        for i in 0..count {
+            let part = (i as f64 / (count - 1) as f64).clamp(beside, 1.0 - beside);
+            f(self.knots[k] + part * h, self.cell(k, part * h));
+        }
+    }
+
+    /// The same in the cells at rest.
+    pub(super) fn at_rest(&self, count: usize, mut f: impl FnMut(f64, [f64; 3])) {
+        for i in 1..=count {
+            let part = i as f64 / count as f64;
+            f(self.stops[0] + part * self.rests()[0], self.leaving(part));
+        }
+        for i in 1..=count {
+            let part = i as f64 / count as f64;
+            f(self.stops[1] - part * self.rests()[1], self.stopping(part));
+        }
+    }
+
+    /// `b`, `b'` and `b''` at a part of the first cell at rest.
+    fn leaving(&self, part: f64) -> [f64; 3] {
+        rest(part, self.rests()[0], self.coefficients[0])
+    }
+
+    /// The same at a part of the last one, from the stop.
+    fn stopping(&self, part: f64) -> [f64; 3] {
+        let [b, b1, b2] = rest(part, self.rests()[1], self.coefficients[self.cells() + 1]);
+        [b, -b1, b2]
+    }
+
+    /// `b`, `b'` and `b''` at a place [mm]: the square of the rate of the parameter and its derivatives by it.
+    pub fn square(&self, s: f64) -> [f64; 3] {
+        let n = self.cells();
+        let [first, last] = self.rests();
+        if s < self.knots[0] {
+            return self.leaving(((s - self.stops[0]) / first).max(0.0));
+        }
+        if s > self.knots[n] {
+            return self.stopping(((self.stops[1] - s) / last).max(0.0));
+        }
+        let k = self.knots.partition_point(|t| *t <= s).clamp(1, n) - 1;
+        self.cell(k, s - self.knots[k])
+    }
+
+    /// Place [mm] at a moment [s] after the start.
+    pub fn place(&self, time: f64) -> f64 {
+        let n = self.cells();
+        let [first, last] = self.rests();
+        if time <= self.moments[0] {
+            let part = (time / self.moments[0]).max(0.0);
+            return self.stops[0] + first * part.powi(3);
+        }
+        if time >= self.moments[n] {
+            let part = ((self.duration - time) / (self.duration - self.moments[n])).max(0.0);
+            return self.stops[1] - last * part.powi(3);
+        }
+        let k = self.moments.partition_point(|t| *t <= time).clamp(1, n) - 1;
+        let t = time - self.moments[k];
+        let [b, d, e] = self.cell(k, 0.0);
+        let (sine, cosine) = waves(0.5 * e * t * t);
+        self.knots[k] + b.sqrt() * t * sine + 0.5 * d * t * t * cosine
+    }
+
+    /// Moment [s] at which the path reaches a place [mm].
+    pub fn moment(&self, s: f64) -> f64 {
+        let n = self.cells();
+        let [first, last] = self.rests();
+        if s <= self.knots[0] {
+            return self.moments[0] * ((s - self.stops[0]).max(0.0) / first).cbrt();
+        }
+        if s >= self.knots[n] {
+            let part = (self.stops[1] - s).max(0.0) / last;
+            return self.duration - (self.duration - self.moments[n]) * part.cbrt();
+        }
+        let k = self.knots.partition_point(|t| *t <= s).clamp(1, n) - 1;
+        self.moments[k] + self.time_to(k, s - self.knots[k])
+    }
+}
+
+/// `b`, `b'` and `b''` at a part of a cell at rest of length `h` whose end has the square `c`.
+fn rest(part: f64, h: f64, c: f64) -> [f64; 3] {
+    let third = part.cbrt();
+    [c * third.powi(4), 4.0 / 3.0 * c / h * third, 4.0 / 9.0 * c / (h * h) / (third * third)]
+}
+
+/// `artanh(sqrt x) / sqrt x`, and `arctan(sqrt -x) / sqrt -x` where `x` is negative.
+fn arc(x: f64) -> f64 {
+    if x.abs() < 1e-3 {
+        return 1.0 + x * (1.0 / 3.0 + x * (0.2 + x * (1.0 / 7.0 + x * (1.0 / 9.0 + x / 11.0))));
+    }
+    let root = x.abs().sqrt();
+    if x > 0.0 { root.atanh() / root } else { root.atan() / root }
+}
+
+/// `sinh(r)/r` and `(cosh(r) - 1)/r^2` with `r = sqrt z`; those of the circle where `z` is negative.
+fn waves(z: f64) -> (f64, f64) {
+    if z.abs() < 1e-3 {
+        let sine = 1.0 + z / 6.0 * (1.0 + z / 20.0 * (1.0 + z / 42.0 * (1.0 + z / 72.0)));
+        let cosine = 0.5 * (1.0 + z / 12.0 * (1.0 + z / 30.0 * (1.0 + z / 56.0 * (1.0 + z / 90.0))));
+        return (sine, cosine);
+    }
+    let r = z.abs().sqrt();
+    // 1 - cos r = 2 sin^2(r/2), without cancellation.
+    if z > 0.0 {
+        (r.sinh() / r, 2.0 * (0.5 * r).sinh().powi(2) / (r * r))
+    } else {
+        (r.sin() / r, 2.0 * (0.5 * r).sin().powi(2) / (r * r))
+    }
+}
