@@ -11,7 +11,7 @@ const TURN: f64 = 0.025;
 /// Length of the cells at a knot over the way to the nearest knot beside it.
 const FEATURE: f64 = 0.25;
 /// Growth of cells away from a knot.
-const FEATURE_GRADE: f64 = 0.25;
+const FEATURE_GRADE: f64 = 0.1;
 /// Length of the cell at rest over the way in which jerk brings the path to its speed.
 const REST: f64 = 2e-4;
 /// The same over the length of the path.

@@ -108,7 +108,7 @@ fn window<const A: usize, C: Course<A>>(
 ) -> Window {
     /// Distance from the nearest limit at which a solution starts, in the first round and in the others, which start from the
     /// last solution; and the gap between time and bound to start from.
-    const START: [[f64; 2]; 2] = [[0.9, 0.1], [0.99, 1e-4]];
+    const START: [[f64; 2]; 2] = [[0.9, 10.0], [0.99, 1e-2]];
     let part = shape.part(cells.clone());
     let n = part.len();
     let mut share = vec![[1.0; 2]; n];

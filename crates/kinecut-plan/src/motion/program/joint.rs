@@ -59,12 +59,6 @@ impl Step {
         [size(&self.first[axes.clone()]), size(&self.second[axes])]
     }
 
-    /// Largest distances from the path when smoothed over `half` [mm, rad].
-    pub(super) fn left_by(&self, half: f64) -> Tolerance {
-        let of = |[first, second]: [f64; 2]| first * half / 6.0 + second * half * half * MOST_SECOND;
-        Tolerance { way: of(self.sizes(0..3)), turn: of(self.sizes(3..6)) }
-    }
-
     /// Half of the longest smoothing within a tolerance [mm].
     pub(super) fn longest(&self, tolerance: Tolerance) -> f64 {
         let half = |[first, second]: [f64; 2], allowed: f64| {
@@ -165,7 +159,6 @@ mod tests {
         let step = Step::between(&before, &after);
         let tolerance = Tolerance { way: 0.02, turn: 1.0 };
         let half = step.longest(tolerance);
-        assert!((step.left_by(half).way - 0.02).abs() < 1e-15);
         let joint = Joint { at: 5.0, half, step };
         // Positions: two parabolas that meet at (0, 0), smoothed.
         let place = |s: f64| {
