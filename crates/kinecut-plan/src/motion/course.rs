@@ -21,3 +21,46 @@ pub trait Course<const A: usize>: Sync {
         f64::INFINITY
     }
 }
+
+/// A stretch of a course.
+pub(super) struct Stretch<'a, C> {
+    course: &'a C,
+    from: f64,
+    length: f64,
+    knots: Vec<f64>,
+}
+
+impl<'a, C> Stretch<'a, C> {
+    /// The stretch between two places [mm].
+    pub(super) fn new<const A: usize>(course: &'a C, [from, to]: [f64; 2]) -> Stretch<'a, C>
+    where
+        C: Course<A>,
+    {
+        let all = course.knots();
+        let inside = all.partition_point(|k| *k <= from)..all.partition_point(|k| *k < to);
+        let knots = all.get(inside).unwrap_or_default().iter().map(|k| k - from).collect();
+        Stretch { course, from, length: to - from, knots }
+    }
+}
+
+impl<const A: usize, C: Course<A>> Course<A> for Stretch<'_, C> {
+    fn length(&self) -> f64 {
+        self.length
+    }
+
+    fn derivatives(&self, s: f64) -> [[f64; 3]; A] {
+        self.course.derivatives(self.from + s)
+    }
+
+    fn feed(&self, s: f64) -> f64 {
+        self.course.feed(self.from + s)
+    }
+
+    fn knots(&self) -> &[f64] {
+        &self.knots
+    }
+
+    fn finest(&self, s: f64) -> f64 {
+        self.course.finest(self.from + s)
+    }
+}

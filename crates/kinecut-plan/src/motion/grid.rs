@@ -1,6 +1,6 @@
 //! Knots of a time law: close together at stops and where the shape of the path changes.
 
-use super::{AxisLimit, Course};
+use super::{AxisLimit, Course, End};
 
 /// Length of a cell over its distance from the nearest stop or knot.
 const GRADE: f64 = 0.045;
@@ -19,13 +19,15 @@ const REST_SHARE: f64 = 0.01;
 /// Fewest cells.
 const FEWEST: usize = 8;
 
-/// Knots, from the end of the cell in which the path leaves its rest to the start of that in which it comes to rest.
+/// Knots, from the end of the cell in which the path leaves its rest to the start of that in which it comes to rest; at even
+/// ends from the start or to the end of the path.
 ///
 /// `at_speed` is the way in which the path gets to its feed under the limits of its axes [mm].
 pub(super) fn knots<const A: usize, C: Course<A>>(
     course: &C,
     limits: &[AxisLimit; A],
     at_speed: f64,
+    ends: [End; 2],
 ) -> Vec<f64> {
     let length = course.length();
     let rest = (REST * at_speed).min(REST_SHARE * length);
@@ -46,10 +48,12 @@ pub(super) fn knots<const A: usize, C: Course<A>>(
         };
         place(i + 1) - place(i)
     };
-    let mut knots = vec![rest];
-    let mut s = rest;
+    let rests = ends.map(|end| if end == End::Rest { rest } else { 0.0 });
+    let last = length - rests[1];
+    let mut knots = vec![rests[0]];
+    let mut s = rests[0];
     let mut next = 0;
-    while s < length - rest {
+    while s < last {
         while next < features.len() && features[next] <= s * (1.0 + 1e-12) {
             next += 1;
         }
@@ -57,7 +61,8 @@ pub(super) fn knots<const A: usize, C: Course<A>>(
         let turn =
             |d: usize| jets.iter().zip(limits).map(|(j, l)| (j[d] / l.velocity).powi(2)).sum::<f64>().sqrt();
         let mut h = (TURN * turn(0) / turn(1)).min(most).min(course.finest(s));
-        for distance in [s, length - s] {
+        let stops = [(s, ends[0]), (length - s, ends[1])];
+        for (distance, _) in stops.into_iter().filter(|(_, end)| *end == End::Rest) {
             let near = distance.min(4.0 * at_speed);
             h = h.min(GRADE * near + FAR_GRADE * (distance - near));
         }
@@ -72,7 +77,6 @@ pub(super) fn knots<const A: usize, C: Course<A>>(
         knots.push(s);
     }
     // The last one lies where the cell at rest begins.
-    let last = length - rest;
     while knots.last().is_some_and(|k| *k > last - 0.25 * rest) {
         knots.pop();
     }

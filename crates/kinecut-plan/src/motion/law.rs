@@ -4,7 +4,7 @@ use super::reach::{WithoutJerk, without_jerk};
 use super::shape::{Shape, places};
 use super::shares::{Shares, of_run};
 use super::windows::coefficients;
-use super::{AxisLimit, Course, Speed, grid};
+use super::{AxisLimit, Course, End, Speed, grid};
 use crate::base::{Code, Finding, Result};
 
 /// The fastest run: feed, speed, acceleration and jerk of each axis hold at eight places of each cell; where they did not
@@ -22,21 +22,28 @@ pub struct TimeLaw {
 /// A course with its knots.
 struct Gridded {
     length: f64,
+    ends: [End; 2],
     knots: Vec<f64>,
 }
 
 impl Gridded {
-    fn new<const A: usize, C: Course<A>>(course: &C, limits: &[AxisLimit; A]) -> Result<Gridded> {
+    fn new<const A: usize, C: Course<A>>(
+        course: &C,
+        limits: &[AxisLimit; A],
+        ends: [End; 2],
+    ) -> Result<Gridded> {
         let length = course.length();
         if !(length > 0.0 && length.is_finite()) {
             return Err(Finding::error(Code::PLAN_VALUE, "a path needs a length").value(length, "mm").into());
         }
-        let knots = grid::knots(course, limits, at_speed(course, limits));
-        Ok(Gridded { length, knots })
+        let knots = grid::knots(course, limits, at_speed(course, limits), ends);
+        Ok(Gridded { length, ends, knots })
     }
 
     fn without_jerk<const A: usize, C: Course<A>>(&self, course: &C, limits: &[AxisLimit; A]) -> WithoutJerk {
-        without_jerk(course, limits, [&[0.0][..], &self.knots, &[self.length]].concat())
+        let mut knots = [&[0.0][..], &self.knots, &[self.length]].concat();
+        knots.dedup();
+        without_jerk(course, limits, knots, self.ends)
     }
 }
 
@@ -45,20 +52,36 @@ impl WithoutJerk {
     ///
     /// # Errors
     /// As [`TimeLaw::new`].
-    pub fn new<const A: usize, C: Course<A>>(course: &C, limits: &[AxisLimit; A]) -> Result<WithoutJerk> {
-        let grid = Gridded::new(course, limits)?;
+    pub fn new<const A: usize, C: Course<A>>(
+        course: &C,
+        limits: &[AxisLimit; A],
+        ends: [End; 2],
+    ) -> Result<WithoutJerk> {
+        let grid = Gridded::new(course, limits, ends)?;
         places(course, limits, &grid.knots)?;
         Ok(grid.without_jerk(course, limits))
     }
 }
 
 impl TimeLaw {
-    /// The fastest run along a course; each jerk limit is finite.
+    /// The fastest run along a course from rest to rest; each jerk limit is finite.
     ///
     /// # Errors
     /// `KC0404` where the course cannot be run: it has no length, or a derivative or the feed is not finite.
     pub fn new<const A: usize, C: Course<A>>(course: &C, limits: &[AxisLimit; A]) -> Result<TimeLaw> {
-        let grid = Gridded::new(course, limits)?;
+        TimeLaw::between(course, limits, [End::Rest; 2])
+    }
+
+    /// The fastest run along a course that begins and ends like this.
+    ///
+    /// # Errors
+    /// As [`TimeLaw::new`].
+    pub fn between<const A: usize, C: Course<A>>(
+        course: &C,
+        limits: &[AxisLimit; A],
+        ends: [End; 2],
+    ) -> Result<TimeLaw> {
+        let grid = Gridded::new(course, limits, ends)?;
         let places = places(course, limits, &grid.knots)?;
         let shape = Shape::new(&grid.knots, grid.length, &places, limits);
         let without_jerk = grid.without_jerk(course, limits).duration();

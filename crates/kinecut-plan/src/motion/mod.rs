@@ -7,6 +7,7 @@
 
 mod axis_limit;
 mod course;
+mod end;
 mod grid;
 mod interior;
 mod law;
@@ -24,6 +25,7 @@ mod windows;
 
 pub use axis_limit::AxisLimit;
 pub use course::Course;
+pub use end::End;
 pub use law::TimeLaw;
 pub use pointwise::{Limits, RunLaw, RunPoint, pointwise};
 pub use program::{ProgramTime, Smoothing, axis_limits, program_time};

@@ -5,7 +5,7 @@
 //! the interval `[0, K]` of speeds from which the rest of the path can be run; `K` is the smallest crossing of a lower with an
 //! upper line. Forward: as fast as may be inside of these intervals. The error is of second order in the length of cells.
 
-use super::{AxisLimit, Course};
+use super::{AxisLimit, Course, End};
 
 /// The run: the square of the speed is linear in the way inside each cell.
 #[derive(Clone, Debug)]
@@ -35,11 +35,12 @@ impl WithoutJerk {
     }
 }
 
-/// The run without jerk limits, from rest to rest over knots that include both stops.
+/// The run without jerk limits over knots that include both ends.
 pub(super) fn without_jerk<const A: usize, C: Course<A>>(
     course: &C,
     limits: &[AxisLimit; A],
     knots: Vec<f64>,
+    ends: [End; 2],
 ) -> WithoutJerk {
     /// Derivatives below which an axis does not bind.
     const NONE: f64 = 1e-12;
@@ -70,13 +71,16 @@ pub(super) fn without_jerk<const A: usize, C: Course<A>>(
             before.max(if k < n { cells[k].cap } else { 0.0 })
         })
         .collect();
-    most[n] = 0.0;
+    if ends[1] == End::Rest {
+        most[n] = 0.0;
+    }
     for k in (0..n).rev() {
         let half = 0.5 / (knots[k + 1] - knots[k]);
         most[k] = most[k].min(cells[k].largest(half, most[k + 1]));
     }
-    let (mut squares, mut moments) = (vec![0.0], vec![0.0]);
-    let (mut b, mut time) = (0.0_f64, 0.0);
+    let mut b = if ends[0] == End::Rest { 0.0 } else { most[0] };
+    let (mut squares, mut moments) = (vec![b], vec![0.0]);
+    let mut time = 0.0;
     for k in 0..n {
         let h = knots[k + 1] - knots[k];
         let u = cells[k].upper(b);

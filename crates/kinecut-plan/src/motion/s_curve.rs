@@ -103,6 +103,26 @@ impl SCurve {
         self.first_half(time)
     }
 
+    /// Moment [s] at which it is at a way from the start [mm or rad].
+    pub fn moment(&self, way: f64) -> f64 {
+        let (mut low, mut high) = (0.0, self.duration());
+        if way <= 0.0 || way >= self.length {
+            return if way <= 0.0 { low } else { high };
+        }
+        // The way grows with time: halving ends when nothing lies between.
+        loop {
+            let middle = 0.5 * (low + high);
+            if middle <= low || middle >= high {
+                return middle;
+            }
+            if self.at(middle).way < way {
+                low = middle;
+            } else {
+                high = middle;
+            }
+        }
+    }
+
     fn first_half(&self, time: f64) -> Moment {
         let [jerking, steady, _] = self.phases;
         let j = if self.jerk.is_finite() { self.jerk } else { 0.0 };

@@ -23,7 +23,7 @@ pub(super) struct Place<const A: usize> {
 pub(super) struct Shape<'a, const A: usize> {
     /// Knots [mm].
     pub(super) knots: &'a [f64],
-    /// Where the path leaves its rest, and where it comes to rest [mm].
+    /// Where the path leaves its rest, and where it comes to rest; an end without rest is a knot [mm].
     pub(super) stops: [f64; 2],
     places: &'a [[Place<A>; 2]],
     limits: &'a [AxisLimit; A],
@@ -96,10 +96,13 @@ impl<'a, const A: usize> Shape<'a, A> {
         [self.knots[0] - self.stops[0], self.stops[1] - self.knots[self.len()]]
     }
 
-    /// Share of its neighbour that the coefficient at each stop is.
+    /// Share of its neighbour that the coefficient at each end is: without a cell at rest the speed is even there.
     pub(super) fn folds(&self) -> [f64; 2] {
         let [first, last] = self.rests();
-        [at_stop(first, lengths(self.knots, 0)[1]), at_stop(last, lengths(self.knots, self.len() - 1)[1])]
+        let fold = |rest: f64, k: usize| {
+            if rest > 0.0 { at_stop(rest, lengths(self.knots, k)[1]) } else { 1.0 }
+        };
+        [fold(first, 0), fold(last, self.len() - 1)]
     }
 
     /// Largest coefficient at each stop: from rest under a jerk J, `b = (6^(4/3) / 4) (J s^2)^(2/3)`.
@@ -109,6 +112,9 @@ impl<'a, const A: usize> Shape<'a, A> {
         let n = self.len();
         let rests = self.rests();
         [(rests[0], self.places[0][0]), (rests[1], self.places[n - 1][1])].map(|(h, place)| {
+            if h <= 0.0 {
+                return f64::INFINITY;
+            }
             let jerks = place.jets.iter().zip(self.limits).map(|(q, l)| l.jerk / q[0].abs());
             let jerk = SHARE * jerks.fold(f64::INFINITY, f64::min);
             0.25 * 6f64.powf(4.0 / 3.0) * (jerk * h * h).powf(2.0 / 3.0)
@@ -152,8 +158,11 @@ impl<'a, const A: usize> Shape<'a, A> {
         let grown = |b: f64, [jerk, acceleration]: [f64; 2], h: f64| {
             (b.powf(0.75) + jerk * h).powf(4.0 / 3.0).min(b + acceleration * h)
         };
-        most[0] = most[0].min(grown(0.0, growth[0], first));
-        most[n] = most[n].min(grown(0.0, growth[n - 1], last));
+        for (k, cell, rest) in [(0, 0, first), (n, n - 1, last)] {
+            if rest > 0.0 {
+                most[k] = most[k].min(grown(0.0, growth[cell], rest));
+            }
+        }
         let h = |k: usize| self.knots[k + 1] - self.knots[k];
         for k in 0..n {
             most[k + 1] = most[k + 1].min(grown(most[k], growth[k], h(k)));

@@ -8,7 +8,7 @@ use super::spline::{basis, lengths};
 /// function: nothing is integrated step by step.
 #[derive(Clone, Debug)]
 pub struct Speed {
-    /// Where the path leaves its rest, and where it comes to rest [mm].
+    /// Where the path leaves its rest, and where it comes to rest; an end without rest is a knot [mm].
     stops: [f64; 2],
     knots: Vec<f64>,
     coefficients: Vec<f64>,
@@ -28,13 +28,14 @@ impl Speed {
         };
         let [first, last] = speed.rests();
         let n = speed.cells();
-        let mut time = 3.0 * first / coefficients[0].sqrt();
+        let at_rest = |h: f64, c: f64| if h > 0.0 { 3.0 * h / c.sqrt() } else { 0.0 };
+        let mut time = at_rest(first, coefficients[0]);
         speed.moments.push(time);
         for k in 0..n {
             time += speed.time_to(k, knots[k + 1] - knots[k]);
             speed.moments.push(time);
         }
-        speed.duration = time + 3.0 * last / coefficients[n + 1].sqrt();
+        speed.duration = time + at_rest(last, coefficients[n + 1]);
         speed
     }
 
@@ -97,13 +98,14 @@ impl Speed {
 
     /// The same in the cells at rest.
     pub(super) fn at_rest(&self, count: usize, mut f: impl FnMut(f64, [f64; 3])) {
-        for i in 1..=count {
-            let part = i as f64 / count as f64;
-            f(self.stops[0] + part * self.rests()[0], self.leaving(part));
-        }
-        for i in 1..=count {
-            let part = i as f64 / count as f64;
-            f(self.stops[1] - part * self.rests()[1], self.stopping(part));
+        let [first, last] = self.rests();
+        for part in (1..=count).map(|i| i as f64 / count as f64) {
+            if first > 0.0 {
+                f(self.stops[0] + part * first, self.leaving(part));
+            }
+            if last > 0.0 {
+                f(self.stops[1] - part * last, self.stopping(part));
+            }
         }
     }
 
@@ -137,10 +139,16 @@ impl Speed {
         let n = self.cells();
         let [first, last] = self.rests();
         if time <= self.moments[0] {
+            if first == 0.0 {
+                return self.stops[0];
+            }
             let part = (time / self.moments[0]).max(0.0);
             return self.stops[0] + first * part.powi(3);
         }
         if time >= self.moments[n] {
+            if last == 0.0 {
+                return self.stops[1];
+            }
             let part = ((self.duration - time) / (self.duration - self.moments[n])).max(0.0);
             return self.stops[1] - last * part.powi(3);
         }
@@ -156,9 +164,15 @@ impl Speed {
         let n = self.cells();
         let [first, last] = self.rests();
         if s <= self.knots[0] {
+            if first == 0.0 {
+                return 0.0;
+            }
             return self.moments[0] * ((s - self.stops[0]).max(0.0) / first).cbrt();
         }
         if s >= self.knots[n] {
+            if last == 0.0 {
+                return self.duration;
+            }
             let part = (self.stops[1] - s).max(0.0) / last;
             return self.duration - (self.duration - self.moments[n]) * part.cbrt();
         }

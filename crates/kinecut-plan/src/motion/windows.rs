@@ -22,7 +22,7 @@ const FORGOTTEN: f64 = 3.0;
 /// Largest difference of the coefficients of two windows, over their size, at which they agree.
 const AGREED: f64 = 1e-5;
 /// Rounds in which cells that exceed a limit between their knots get a smaller share of it.
-const ROUNDS: u32 = 3;
+const ROUNDS: u32 = 5;
 /// Excess that is left as it is.
 const EXCESS: f64 = 1e-4;
 

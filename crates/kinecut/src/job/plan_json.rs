@@ -7,6 +7,7 @@ use serde::Serialize;
 use super::outcome::Outcome;
 use super::{ReadBack, json_text};
 use crate::geom::{Curve, CurveKind, SpiralLaw};
+use crate::motion::ProgramTime;
 use crate::operations::OperationJson;
 use crate::operations::measured::BoreMeasure;
 use crate::program::{Role, ToolNumber};
@@ -32,10 +33,13 @@ struct Plan<'a> {
 struct SetupJson<'a> {
     program: &'a str,
     control: &'static str,
-    /// Time at programmed feeds [s].
+    /// Time [s]: under the limits of the machine's axes where they are known, else at programmed feeds.
     time: f64,
     /// Whether rapids are in the time.
     time_has_rapids: bool,
+    /// Time below which no run under these limits can be [s].
+    #[serde(skip_serializing_if = "Option::is_none")]
+    time_at_least: Option<f64>,
     /// Distance of the posted text from the plan [mm]; none of a program that others wrote.
     #[serde(skip_serializing_if = "Option::is_none")]
     read_back: Option<&'a ReadBack>,
@@ -140,7 +144,6 @@ fn figures(m: &BoreMeasure) -> BoreFigures {
 
 fn setup(outcome: &Outcome, index: usize) -> SetupJson<'_> {
     let s = &outcome.setups[index];
-    let (time, time_has_rapids) = s.trace.duration();
     let trace = if s.external.is_some() { &s.trace } else { &s.plan_trace };
     let segments = || trace.segments.iter().filter(|x| !x.alternative);
     let moves = segments().map(|x| MovePlan {
@@ -158,8 +161,9 @@ fn setup(outcome: &Outcome, index: usize) -> SetupJson<'_> {
     SetupJson {
         program: &s.file,
         control: s.control(&outcome.job).name(),
-        time,
-        time_has_rapids,
+        time: s.seconds(),
+        time_has_rapids: s.time.is_some() || s.trace.duration().1,
+        time_at_least: s.time.as_ref().map(ProgramTime::least),
         read_back: s.external.is_none().then_some(&s.read_back),
         move_count: segments().count(),
         moves: s.external.is_none().then(|| moves.collect()),

@@ -6,8 +6,10 @@ use crate::base::{Code, Finding, Result};
 use crate::geom::{Aabb, Rigid};
 use crate::job::external::given::GivenJob;
 use crate::job::external::{Followed, Missing, at_block, follow};
-use crate::motion::program_time;
-use crate::page::{Block, Fact, Section};
+use crate::job::held_feed::HeldFeed;
+use crate::job::time_terms::terms;
+use crate::motion::{ProgramTime, program_time};
+use crate::page::{self, Block, Fact, Section};
 use crate::program::{Frame, Item, Program, StopKind};
 use crate::trace::{SegmentPace, travel_findings};
 use crate::verbs::Answer;
@@ -37,10 +39,16 @@ pub struct ProgramSheet {
     pub range: Option<[[f64; 3]; 2]>,
     /// Way at feed.
     pub feed_length: f64,
-    /// Time at the programmed speeds.
+    /// Time [s]: under the limits of the machine's axes where they are known, else at the programmed speeds.
     pub time: f64,
+    /// Time below which no run under these limits can be [s].
+    pub time_at_least: Option<f64>,
     /// Whether rapid moves are in the time.
     pub time_has_rapids: bool,
+    /// Terms of the time, in words.
+    pub time_terms: String,
+    /// On which share of the way the axes hold the feed, and where most time is lost; where the limits are known.
+    pub feed_held: Option<String>,
     /// Findings.
     pub findings: Vec<Finding>,
     /// Parts that were read and are not followed, and assumptions.
@@ -80,7 +88,7 @@ pub fn program_sheet(given: &GivenJob) -> Result<ProgramSheet> {
     }
     findings.sort_by_key(|f| std::cmp::Reverse(f.severity));
     let law = job.machine.as_ref().and_then(|machine| program_time(read, &done.trace, machine));
-    let (time, time_has_rapids) = done.trace.duration();
+    let (programmed, time_has_rapids) = done.trace.duration();
     let counted = || done.trace.segments.iter().filter(|s| !s.alternative);
     let remarks = done.unfollowed.iter().map(ToString::to_string);
     let remarks = remarks.chain(done.trace.assumed.iter().cloned());
@@ -101,8 +109,15 @@ pub fn program_sheet(given: &GivenJob) -> Result<ProgramSheet> {
         feed_length: counted()
             .filter(|s| s.motion != SegmentPace::Rapid)
             .fold(0.0, |sum, s| sum + s.curve.length()),
-        time,
-        time_has_rapids,
+        time: law.as_ref().map_or(programmed, ProgramTime::total),
+        time_at_least: law.as_ref().map(ProgramTime::least),
+        time_has_rapids: time_has_rapids || law.is_some(),
+        feed_held: law.as_ref().and_then(|law| {
+            let line = |item: u32| done.lines.get(item as usize).copied().flatten();
+            let (held, slowest) = HeldFeed::of(&done.trace, law).words(line)?;
+            Some(if slowest.is_empty() { held } else { format!("{held}; {slowest}") })
+        }),
+        time_terms: terms(&[(&done.trace, law.as_ref())]),
         findings,
         remarks: remarks.collect(),
     })
@@ -174,15 +189,10 @@ impl Answer for ProgramSheet {
             let one = |i: usize, letter: char| format!("{letter} {:.3} to {:.3}", low[i], high[i]);
             facts.push(Fact::new("At feed", format!("{}, {}, {} mm", one(0, 'X'), one(1, 'Y'), one(2, 'Z'))));
         }
-        let rapids = if self.time_has_rapids { "with rapids" } else { "without rapids" };
-        let time = self.time.round() as u64;
-        let time = format!(
-            "{} min {:02} s at programmed feeds, {rapids}; {:.0} mm at feed",
-            time / 60,
-            time % 60,
-            self.feed_length
-        );
+        let time =
+            format!("{}, {}; {:.0} mm at feed", page::duration(self.time), self.time_terms, self.feed_length);
         facts.push(Fact::new("Time", time));
+        facts.extend(self.feed_held.as_ref().map(|held| Fact::new("Feed", held.as_str())));
         facts.extend(self.remarks.iter().map(|remark| Fact::new("Remark", remark.as_str())));
         vec![Section::default().with(Block::Facts(facts))]
     }

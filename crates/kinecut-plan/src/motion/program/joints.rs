@@ -14,7 +14,7 @@ pub(super) struct Joints {
 }
 
 /// Cells over half of a smoothing.
-const CELLS: f64 = 4.0;
+const CELLS: f64 = 3.0;
 /// Growth of cells away from a smoothing.
 const GROWTH: f64 = 0.25;
 
@@ -99,6 +99,19 @@ impl Joints {
     /// Calls with each joint whose smoothing may cover a place [mm].
     pub(super) fn about(&self, s: f64, mut f: impl FnMut(&Joint)) {
         self.indices(s, |k| f(&self.all[k]));
+    }
+
+    /// True if a smoothing covers a part of a stretch [mm].
+    pub(super) fn covers(&self, [from, to]: [f64; 2]) -> bool {
+        let next = self.all.partition_point(|j| j.at < to);
+        let before = next > 0 && self.reached[next - 1] > from;
+        before || self.begun.get(next).is_some_and(|begun| *begun < to)
+    }
+
+    /// The joint at a place [mm].
+    pub(super) fn at(&self, s: f64) -> Option<&Joint> {
+        let k = self.all.partition_point(|j| j.at < s);
+        self.all.get(k).filter(|j| j.at == s)
     }
 
     /// Distance from the programmed path at a place, of the linear axes [mm].

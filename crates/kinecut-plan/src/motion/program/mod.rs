@@ -3,9 +3,16 @@
 mod axis_limits;
 mod joint;
 mod joints;
+mod junction;
+mod law;
+mod level;
+mod passing;
+mod program_time;
+mod ramp;
 mod run;
 mod straight;
 mod times;
 
 pub use axis_limits::axis_limits;
-pub use times::{ProgramTime, Smoothing, program_time};
+pub use program_time::{ProgramTime, Smoothing};
+pub use times::program_time;

@@ -3,6 +3,7 @@
 use super::super::Course;
 use super::joint::{AXES, Joint};
 use super::joints::Joints;
+use super::straight::straight;
 use crate::trace::AxisPath;
 
 /// A move of a run.
@@ -55,7 +56,15 @@ impl<'a> Run<'a> {
         }
         let joints = Joints::within(placed, &allowed);
         let mut knots = starts[1..pieces.len()].to_vec();
-        knots.retain(|at| joints.alone(*at));
+        // A joint between longer smoothings is nothing that the speed has to follow.
+        let mut last = 0.0;
+        knots.retain(|at| {
+            let kept = joints.alone(*at) || *at - last > joints.finest(*at);
+            if kept {
+                last = *at;
+            }
+            kept
+        });
         knots.extend(joints.ends());
         knots.sort_by(f64::total_cmp);
         Run { pieces, starts, joints, knots }
@@ -69,6 +78,35 @@ impl<'a> Run<'a> {
     /// Start of each move, and the end of the last one [mm].
     pub(super) fn starts(&self) -> &[f64] {
         &self.starts
+    }
+
+    /// Places in the middle of the smoothings at both ends of a move, as far as they lie in it [mm].
+    pub(super) fn marks(&self, i: usize) -> [Option<f64>; 2] {
+        let [from, to] = [self.starts[i], self.starts[i + 1]];
+        let inside = |s: f64| (from < s && s < to).then_some(s);
+        let half = |at: f64| self.joints.at(at).map(|joint| 0.5 * joint.half);
+        [half(from).and_then(|h| inside(from + h)), half(to).and_then(|h| inside(to - h))]
+    }
+
+    /// First derivatives of the axes on a stretch [mm] on which they are constant; `None` on others.
+    pub(super) fn straight(&self, [from, to]: [f64; 2]) -> Option<[f64; AXES]> {
+        let (first, last) = (self.piece(from), self.piece(to));
+        // A stretch of many moves is hardly ever straight.
+        const MOST: usize = 4;
+        if last - first > MOST || self.joints.covers([from, to]) {
+            return None;
+        }
+        let mut all: Option<[f64; AXES]> = None;
+        for piece in &self.pieces[first..=last] {
+            let rates = straight(&piece.path)?;
+            let before = *all.get_or_insert(rates);
+            if rates.iter().zip(before).any(|(a, b)| (a - b).abs() > 1e-9)
+                || piece.feed != self.pieces[first].feed
+            {
+                return None;
+            }
+        }
+        all
     }
 
     fn piece(&self, s: f64) -> usize {
@@ -100,6 +138,13 @@ impl<'a> Run<'a> {
     /// The run over these axes.
     pub(super) fn over<const A: usize>(&'a self, axes: [usize; A]) -> Moving<'a, A> {
         Moving { run: self, axes }
+    }
+}
+
+impl<'a, const A: usize> Moving<'a, A> {
+    /// All axes of the run.
+    pub(super) fn run(&self) -> &'a Run<'a> {
+        self.run
     }
 }
 

@@ -2,69 +2,27 @@
 
 use rayon::prelude::*;
 
-use super::super::{AxisLimit, SCurve, TimeLaw, WithoutJerk};
+use super::super::course::Stretch as Part;
+use super::super::{AxisLimit, Course, End, SCurve, TimeLaw, WithoutJerk};
 use super::axis_limits;
 use super::joint::{AXES, Joint, Step, Tolerance};
+use super::junction::junction_times;
+use super::law::Law;
+use super::level::level;
+use super::passing::{Between, Passing, passings};
+use super::program_time::{ProgramTime, Smoothing};
+use super::ramp::Ramp;
 use super::run::{Piece, Run, derivatives};
 use super::straight::{along, axis_by_axis, straight};
-use crate::base::{Finding, Result};
+use crate::base::Result;
 use crate::machine::{Interpolator, Machine, Rapids};
 use crate::program::{Blend, Item, Program};
-use crate::trace::{Segment, SegmentPace, Trace};
+use crate::trace::{AxisPath, Segment, SegmentPace, Trace};
 
 /// Distance by which a control leaves the path at a corner where neither program nor machine says one [mm].
 const USUAL_TOLERANCE: f64 = 0.01;
 /// The same for rotary axes [rad].
 const USUAL_TURN_TOLERANCE: f64 = 0.05 * std::f64::consts::PI / 180.0;
-
-/// Time of a program on a machine.
-#[derive(Clone, Debug, PartialEq)]
-pub struct ProgramTime {
-    /// Time of each segment of the trace under the law [s]; 0 for ways that the machine may take instead.
-    pub segments: Vec<f64>,
-    /// All moves [s].
-    pub moves: f64,
-    /// All moves where jerk has no limit [s]: no run is faster.
-    pub without_jerk: f64,
-    /// Waits that the program asks for [s].
-    pub dwells: f64,
-    /// Tool changes: their number, and their time where the machine says it [s].
-    pub tool_changes: (usize, Option<f64>),
-    /// Starts, stops and changes of the spindle's speed: their number, and their time where the machine says it [s].
-    pub spindle_changes: (usize, Option<f64>),
-    /// Joints of moves.
-    pub smoothing: Smoothing,
-    /// Largest factor by which a run was slowed so that every limit holds.
-    pub dilation: f64,
-    /// Moves that count with their programmed time, because the law of their stretch was refused: their number, and the
-    /// item of the first with the reason.
-    pub refused: (usize, Option<(u32, Finding)>),
-}
-
-/// Joints of moves at feed.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Smoothing {
-    /// Joints at which the path goes on with two derivatives.
-    pub smooth: usize,
-    /// Joints that the control smooths.
-    pub smoothed: usize,
-    /// Joints at which the tool stops.
-    pub stops: usize,
-    /// Largest distance from the programmed path at smoothed joints, of linear axes [mm].
-    pub farthest: f64,
-}
-
-impl ProgramTime {
-    /// Time of the program [s]: moves, waits, and what is known of tool changes and spindle.
-    pub fn total(&self) -> f64 {
-        self.moves + self.dwells + self.tool_changes.1.unwrap_or(0.0) + self.spindle_changes.1.unwrap_or(0.0)
-    }
-
-    /// Time below which no run of the program can be [s].
-    pub fn least(&self) -> f64 {
-        self.total() - self.moves + self.without_jerk
-    }
-}
 
 /// The time of a program that was followed on a machine; `None` if an axis that moves has no rapid speed or no acceleration.
 ///
@@ -79,7 +37,7 @@ pub fn program_time(program: &Program, trace: &Trace, machine: &Machine) -> Opti
             continue;
         }
         match runs.last_mut() {
-            Some(run) if goes_on(program, trace, run, i) => run.segments.push(i),
+            Some(run) if setting.goes_on(program, trace, run, i) => run.segments.push(i),
             _ => runs.push(Stretch { segments: vec![i] }),
         }
     }
@@ -139,22 +97,14 @@ struct Done {
     dilation: f64,
 }
 
-impl Smoothing {
-    fn add(&mut self, other: &Smoothing) {
-        self.smooth += other.smooth;
-        self.smoothed += other.smoothed;
-        self.stops += other.stops;
-        self.farthest = self.farthest.max(other.farthest);
-    }
-}
-
-/// True if segment `next` may follow a run without a stop: both at feed, in place, and nothing but text between them.
-fn goes_on(program: &Program, trace: &Trace, run: &Stretch, next: usize) -> bool {
+/// True if segment `next` may follow a run without a stop: in place, both at feed or `mixed`, and nothing but text between
+/// them.
+fn goes_on(program: &Program, trace: &Trace, run: &Stretch, next: usize, mixed: bool) -> bool {
     /// Distance of two ends that are one place [mm].
     const SAME: f64 = 1e-6;
     let Some(last) = run.segments.last() else { return false };
     let (before, after) = (&trace.segments[*last], &trace.segments[next]);
-    let at_feed = |s: &Segment| matches!(s.motion, SegmentPace::Feed(_));
+    let at_feed = |s: &Segment| mixed || matches!(s.motion, SegmentPace::Feed(_));
     if !(at_feed(before) && at_feed(after) && before.setup == after.setup) {
         return false;
     }
@@ -178,6 +128,19 @@ struct Setting<'a> {
 impl<'a> Setting<'a> {
     fn new(machine: &'a Machine, limits: [Option<AxisLimit>; AXES]) -> Setting<'a> {
         Setting { machine, limits }
+    }
+
+    /// The joint deviation of a control that looks ahead by it [mm].
+    fn junction_deviation(&self) -> Option<f64> {
+        /// Grbl's setting $11.
+        const USUAL: f64 = 0.01;
+        let control = &self.machine.control;
+        (control.interpolator == Some(Interpolator::JunctionDeviation))
+            .then(|| control.junction_deviation.unwrap_or(USUAL))
+    }
+
+    fn goes_on(&self, program: &Program, trace: &Trace, run: &Stretch, next: usize) -> bool {
+        goes_on(program, trace, run, next, self.junction_deviation().is_some())
     }
 
     /// Distance by which the control may leave the path at the end of an item; zero for an exact stop.
@@ -218,6 +181,9 @@ impl<'a> Setting<'a> {
             smoothing: Smoothing::default(),
             dilation: 1.0,
         };
+        if let Some(deviation) = self.junction_deviation() {
+            return Ok(self.by_junctions(pieces, deviation));
+        }
         let pieces: Vec<(usize, Piece)> =
             pieces.into_iter().enumerate().filter_map(|(k, piece)| Some((k, piece?))).collect();
         let tolerance =
@@ -231,13 +197,13 @@ impl<'a> Setting<'a> {
                 tolerance: tolerance(i - 1),
             })
             .collect();
-        let passings = self.passings(&pieces, &joints);
+        let passings = passings(&pieces, &joints, &self.limits);
         // Moves between two stops.
         let mut leg = Leg::default();
-        for ((k, piece), end) in pieces.into_iter().zip(passings.into_iter().chain([End::Stop])) {
+        for ((k, piece), end) in pieces.into_iter().zip(passings.into_iter().chain([Passing::Stop])) {
             leg.pieces.push((k, piece));
             match end {
-                End::Passed(joint, allowed) => {
+                Passing::Passed(joint, allowed) => {
                     match joint {
                         Some(_) => done.smoothing.smoothed += 1,
                         None => done.smoothing.smooth += 1,
@@ -245,7 +211,7 @@ impl<'a> Setting<'a> {
                     leg.joints.push(joint);
                     leg.allowed.push(allowed);
                 }
-                End::Stop => {
+                Passing::Stop => {
                     done.smoothing.stops += 1;
                     if !self.leg(std::mem::take(&mut leg), &mut done)? {
                         return Ok(None);
@@ -257,57 +223,26 @@ impl<'a> Setting<'a> {
         Ok(Some(done))
     }
 
-    /// For each joint: a stop, or the way in which it is passed.
-    fn passings(&self, pieces: &[(usize, Piece)], joints: &[Between]) -> Vec<End> {
-        // Way from each joint to the next one at which the tool may have to be slow, backward and forward.
-        let length = |i: usize| pieces[i].1.path.length();
-        let mut back = vec![0.0; joints.len()];
-        let mut way = 0.0;
-        for (i, joint) in joints.iter().enumerate() {
-            way += length(i);
-            back[i] = way;
-            if joint.step.is_sharp() {
-                way = 0.0;
-            }
-        }
-        let mut ends = Vec::with_capacity(joints.len());
-        let mut way = 0.0;
-        for (i, joint) in joints.iter().enumerate().rev() {
-            way += length(i + 1);
-            ends.push(self.passing([&pieces[i].1, &pieces[i + 1].1], joint, [back[i], way]));
-            if joint.step.is_sharp() {
-                way = 0.0;
-            }
-        }
-        ends.reverse();
-        ends
-    }
-
-    fn passing(&self, pieces: [&Piece; 2], joint: &Between, ways: [f64; 2]) -> End {
-        /// Share of the limits that a joint may use up at the feed: the path beside it needs some, too.
-        const SHARE: f64 = 0.5;
-        let Between { step, tolerance } = joint;
-        if step.is_none() {
-            return End::Passed(None, tolerance.way);
-        }
-        let along = pieces.map(|piece| self.at_feed(piece));
-        let feed = along[0].velocity.max(along[1].velocity);
-        let half = step.longest(*tolerance).min(step.needed(feed, SHARE, &self.limits));
-        if !(half > 0.0) {
-            return End::Stop;
-        }
-        let passed = End::Passed(Some(Joint { at: 0.0, half, step: *step }), tolerance.way);
-        let crossing = step.crossing(half, &self.limits);
-        let loss = |speed: f64, half: f64| -> f64 {
-            along.iter().zip(ways).map(|(along, way)| lost(along, 0.5 * way, speed, half)).sum()
+    /// The stretch as a control runs it that looks ahead by junction deviation.
+    fn by_junctions(&self, pieces: Vec<Option<Piece>>, deviation: f64) -> Option<Done> {
+        let mut times = vec![0.0; pieces.len()];
+        let (places, moves): (Vec<usize>, Vec<_>) = pieces
+            .into_iter()
+            .enumerate()
+            .filter_map(|(k, piece)| piece.map(|piece| (k, (piece.path, piece.feed))))
+            .unzip();
+        let bound = |path: &AxisPath| {
+            let rates = path.at(0.5 * path.length());
+            rates.iter().zip(&self.limits).all(|(jet, limit)| jet.d1 == 0.0 || limit.is_some())
         };
-        if loss(crossing, half) < loss(0.0, 0.0) { passed } else { End::Stop }
-    }
-
-    /// Limits of the parameter in the middle of a move.
-    fn at_feed(&self, piece: &Piece) -> AxisLimit {
-        let rates = derivatives(&piece.path, 0.5 * piece.path.length()).map(|d| d[0]);
-        along(&rates, &self.limits, piece.feed)
+        if !moves.iter().all(|(path, _)| bound(path)) {
+            return None;
+        }
+        for (k, time) in places.iter().zip(junction_times(&moves, deviation, &self.limits)) {
+            times[*k] = time;
+        }
+        let without_jerk = times.iter().sum();
+        Some(Done { times, without_jerk, smoothing: Smoothing::default(), dilation: 1.0 })
     }
 
     /// The moves between two stops; false if an axis that moves has no limits.
@@ -362,25 +297,64 @@ impl<'a> Setting<'a> {
             }
         }
         let course = run.over(axes);
-        let mut note = |moment: &dyn Fn(f64) -> f64| {
-            let mut before = 0.0;
-            for (k, end) in places.iter().zip(&run.starts()[1..]) {
-                let moment = moment(*end);
-                done.times[*k] = moment - before;
-                before = moment;
-            }
-        };
+        let end = course.length();
         let limited = limits.iter().all(|l| l.jerk.is_finite())
             && self.machine.control.interpolator != Some(Interpolator::Trapezoid);
-        if limited {
-            let law = TimeLaw::new(&course, &limits)?;
-            note(&|s| law.speed().moment(s));
-            done.without_jerk += law.without_jerk();
-            done.dilation = done.dilation.max(law.dilation());
-        } else {
-            let law = WithoutJerk::new(&course, &limits)?;
-            note(&|s| law.moment(s));
-            done.without_jerk += law.duration();
+        // Stretches between level ones, and the level ones behind them.
+        let levels = level(&course, &limits);
+        let froms = std::iter::once(0.0).chain(levels.iter().map(|l| l[1]));
+        let stretches: Vec<[f64; 3]> = froms
+            .zip(levels.iter().copied().chain([[end, end]]))
+            .map(|(from, [to, next])| [from, to, next])
+            .collect();
+        let solved: Vec<Result<Option<Law>>> = stretches
+            .par_iter()
+            .with_max_len(1)
+            .map(|[from, to, _]| {
+                if to <= from {
+                    return Ok(None);
+                }
+                let state = |is_stop: bool| if is_stop { End::Rest } else { End::Even };
+                let states = [state(*from == 0.0), state(*to == end)];
+                let feed = course.feed(0.5 * (from + to));
+                if let Some(rates) = run.straight([*from, *to]) {
+                    let along = |given| along(&rates, &given, feed);
+                    return Ok(Some(Law::Straight(Ramp::new(to - from, states, along, &self.limits))));
+                }
+                let stretch = Part::new(&course, [*from, *to]);
+                Ok(Some(if limited {
+                    Law::Limited(Box::new(TimeLaw::between(&stretch, &limits, states)?))
+                } else {
+                    Law::WithoutJerk(WithoutJerk::new(&stretch, &limits, states)?)
+                }))
+            })
+            .collect();
+        // Moments of the ends of moves.
+        let mut ends = run.starts()[1..].iter().copied().peekable();
+        let mut moments = Vec::with_capacity(places.len());
+        let mut clock = 0.0;
+        for ([from, to, next], law) in stretches.into_iter().zip(solved) {
+            if let Some(law) = law? {
+                while let Some(s) = ends.next_if(|s| *s <= to) {
+                    moments.push(clock + law.moment(s - from));
+                }
+                clock += law.duration();
+                done.without_jerk += law.without_jerk();
+                done.dilation = done.dilation.max(law.dilation());
+            }
+            if next > to {
+                let feed = course.feed(0.5 * (to + next));
+                while let Some(s) = ends.next_if(|s| *s <= next) {
+                    moments.push(clock + (s - to) / feed);
+                }
+                clock += (next - to) / feed;
+                done.without_jerk += (next - to) / feed;
+            }
+        }
+        let mut before = 0.0;
+        for (k, moment) in places.iter().zip(moments) {
+            done.times[*k] = moment - before;
+            before = moment;
         }
         Ok(true)
     }
@@ -413,34 +387,10 @@ impl<'a> Setting<'a> {
     }
 }
 
-/// Joint of two moves.
-struct Between {
-    step: Step,
-    tolerance: Tolerance,
-}
-
-/// End of a move.
-enum End {
-    /// Passed on the way, smoothed where something steps, with the distance by which the path may be left [mm].
-    Passed(Option<Joint>, f64),
-    Stop,
-}
-
 /// Moves between two stops; the joints between them, and how far the path may be left there [mm].
 #[derive(Default)]
 struct Leg<'a> {
     pieces: Vec<(usize, Piece<'a>)>,
     joints: Vec<Option<Joint>>,
     allowed: Vec<f64>,
-}
-
-/// Time that a path loses when a place of it is passed at `speed` [mm/s] over `half` [mm], against passing it at its feed;
-/// `way`: what is there to get from one to the other [mm].
-fn lost(along: &AxisLimit, way: f64, speed: f64, half: f64) -> f64 {
-    let (a, j) = (along.acceleration, along.jerk);
-    let reached = along.velocity.min((way * way * j).cbrt()).min((2.0 * a * way).sqrt());
-    let slower = (reached - speed).max(0.0);
-    let ramp = if slower * j < a * a { 2.0 * (slower / j).sqrt() } else { slower / a + a / j };
-    let crossing = if half > 0.0 && slower > 0.0 { half * (1.0 / speed - 1.0 / reached) } else { 0.0 };
-    ramp * slower / (2.0 * reached) + crossing
 }

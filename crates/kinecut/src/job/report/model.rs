@@ -21,7 +21,7 @@ pub struct Report {
     pub version: String,
     /// Safe or not, and why.
     pub verdict: ReportVerdict,
-    /// Time at programmed feeds [s], if it is known.
+    /// Time [s], if it is known.
     pub time: Option<f64>,
     /// The cut part.
     pub part: Option<PartView>,
@@ -141,7 +141,7 @@ pub struct ProgramView {
     /// The programs of several setups, in their order: each with its own line numbers. Empty: it is one program.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub parts: Vec<ProgramPart>,
-    /// Time of each line at programmed feed [s]; may be shorter than `lines`.
+    /// Time of each line [s]; may be shorter than `lines`.
     pub time: Vec<f32>,
     /// Length of the path of each line [mm]; may be shorter than `lines`.
     pub length: Vec<f32>,

@@ -4,8 +4,9 @@ use super::model::{PartView, ProgramPart, ProgramView, Report, ReportVerdict, To
 use super::{PathPiece, PathRole};
 use crate::base::at_most;
 use crate::geom::ProfileElement;
+use crate::job::held_feed::HeldFeed;
+use crate::job::time_terms::terms;
 use crate::job::{Outcome, PartSurface, SetupOutcome};
-use crate::motion::ProgramTime;
 use crate::operations::OperationPlan;
 use crate::page;
 use crate::page::{Block, Fact, Section};
@@ -93,7 +94,13 @@ fn verdict(outcome: &Outcome) -> ReportVerdict {
     verdict.scope = outcome.verdict.scope.clone();
     verdict.sentence = outcome.verdict.sentence();
     let time: f64 = outcome.setups.iter().map(SetupOutcome::seconds).sum();
-    verdict.facts.push(Fact::new("Time", page::duration(time)).note(terms_of_time(outcome)));
+    let times: Vec<_> = outcome.setups.iter().map(|s| (&s.trace, s.time.as_ref())).collect();
+    verdict.facts.push(Fact::new("Time", page::duration(time)).note(terms(&times)));
+    for s in &outcome.setups {
+        let line = |item: u32| s.lines.get(item as usize).copied().flatten();
+        let held = s.time.as_ref().and_then(|law| HeldFeed::of(&s.trace, law).words(line));
+        verdict.facts.extend(held.map(|(held, slowest)| Fact::new("Feed", held).note(slowest)));
+    }
     let used: Vec<String> = outcome
         .job
         .tools
@@ -188,29 +195,6 @@ fn tools(outcome: &Outcome) -> Vec<ToolView> {
             view
         })
         .collect()
-}
-
-/// Terms under which a time holds.
-fn terms_of_time(outcome: &Outcome) -> String {
-    let laws: Option<Vec<&ProgramTime>> = outcome.setups.iter().map(|s| s.time.as_ref()).collect();
-    let Some(laws) = laws else {
-        let complete = outcome.setups.iter().all(|s| s.trace.duration().1);
-        let rapids = if complete { "rapids at full speed" } else { "without rapids" };
-        return format!("at programmed feeds, {rapids}");
-    };
-    let least: f64 = laws.iter().map(|time| time.least()).sum();
-    let mut terms = format!("under the limits of the axes, not less than {}", page::duration(least));
-    let refused: usize = laws.iter().map(|time| time.refused.0).sum();
-    if refused > 0 {
-        terms += &format!("; {refused} moves at programmed feed");
-    }
-    let missing = |changes: &dyn Fn(&ProgramTime) -> (usize, Option<f64>), what: &str| {
-        let count: usize = laws.iter().map(|t| changes(t)).filter(|c| c.1.is_none()).map(|c| c.0).sum();
-        (count > 0).then(|| format!("; without {count} {what}{}", if count == 1 { "" } else { "s" }))
-    };
-    terms.extend(missing(&|t| t.tool_changes, "tool change"));
-    terms.extend(missing(&|t| t.spindle_changes, "spindle ramp"));
-    terms
 }
 
 /// Half outline of a tool from the tip upwards, arcs in steps.

@@ -1,0 +1,45 @@
+//! Law of a stretch of a run.
+
+use super::super::{TimeLaw, WithoutJerk};
+use super::ramp::Ramp;
+
+/// Law of a stretch.
+pub(super) enum Law {
+    Straight(Ramp),
+    Limited(Box<TimeLaw>),
+    WithoutJerk(WithoutJerk),
+}
+
+impl Law {
+    /// Time [s].
+    pub(super) fn duration(&self) -> f64 {
+        match self {
+            Law::Straight(ramp) => ramp.duration(),
+            Law::Limited(law) => law.duration(),
+            Law::WithoutJerk(law) => law.duration(),
+        }
+    }
+
+    /// Time where jerk has no limit [s].
+    pub(super) fn without_jerk(&self) -> f64 {
+        match self {
+            Law::Straight(ramp) => ramp.without_jerk(),
+            Law::Limited(law) => law.without_jerk(),
+            Law::WithoutJerk(law) => law.duration(),
+        }
+    }
+
+    /// Moment [s] at which a place is reached [mm].
+    pub(super) fn moment(&self, s: f64) -> f64 {
+        match self {
+            Law::Straight(ramp) => ramp.moment(s),
+            Law::Limited(law) => law.speed().moment(s),
+            Law::WithoutJerk(law) => law.moment(s),
+        }
+    }
+
+    /// Factor by which it was slowed.
+    pub(super) fn dilation(&self) -> f64 {
+        if let Law::Limited(law) = self { law.dilation() } else { 1.0 }
+    }
+}

@@ -1,0 +1,65 @@
+//! A straight stretch that begins or ends at rest, in closed form.
+
+use super::super::{AxisLimit, End, SCurve};
+use super::joint::AXES;
+
+/// A straight stretch between two ends.
+pub(super) struct Ramp {
+    curve: SCurve,
+    without_jerk: SCurve,
+    ends: [End; 2],
+    length: f64,
+    feed: f64,
+}
+
+impl Ramp {
+    /// The stretch of this length [mm]; `along` gives the limits along it from those of the axes.
+    pub(super) fn new(
+        length: f64,
+        ends: [End; 2],
+        along: impl Fn([Option<AxisLimit>; AXES]) -> AxisLimit,
+        limits: &[Option<AxisLimit>; AXES],
+    ) -> Ramp {
+        // From rest to its speed a path runs as in the first half of one of twice the length.
+        let times = if ends == [End::Rest; 2] { 1.0 } else { 2.0 };
+        let own = along(*limits);
+        let no_jerk = along(limits.map(|l| Some(AxisLimit { jerk: f64::INFINITY, ..l? })));
+        Ramp {
+            curve: SCurve::new(times * length, own),
+            without_jerk: SCurve::new(times * length, no_jerk),
+            ends,
+            length,
+            feed: own.velocity,
+        }
+    }
+
+    fn time(&self, curve: &SCurve) -> f64 {
+        match self.ends {
+            [End::Even, End::Even] => self.length / self.feed,
+            [End::Rest, End::Rest] => curve.duration(),
+            _ => 0.5 * curve.duration(),
+        }
+    }
+
+    /// Time [s].
+    pub(super) fn duration(&self) -> f64 {
+        self.time(&self.curve)
+    }
+
+    /// Time where jerk has no limit [s].
+    pub(super) fn without_jerk(&self) -> f64 {
+        self.time(&self.without_jerk)
+    }
+
+    /// Moment [s] at which a place is reached [mm].
+    pub(super) fn moment(&self, s: f64) -> f64 {
+        match self.ends {
+            [End::Even, End::Even] => s / self.feed,
+            [End::Rest, _] => self.curve.moment(s),
+            [End::Even, End::Rest] => {
+                let half = 0.5 * self.curve.duration();
+                self.curve.moment(self.length + s) - half
+            }
+        }
+    }
+}
