@@ -13,6 +13,7 @@ mod geom;
 mod machine;
 
 // Motion, and what it sweeps and cuts.
+mod motion;
 mod stock;
 mod sweep;
 mod trace;

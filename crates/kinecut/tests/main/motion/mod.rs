@@ -1,0 +1,9 @@
+//! The fastest law of a path under velocity, acceleration and jerk of each axis.
+
+mod courses;
+mod errors;
+mod metamorphic;
+mod program;
+mod random;
+mod spirals;
+mod straight;

@@ -1,0 +1,353 @@
+//! Times of whole programs on machines with dynamics.
+
+use std::collections::BTreeMap;
+use std::f64::consts::TAU;
+
+use glam::DVec3;
+use kinecut::geom::{Arc, Rigid};
+use kinecut::machine::{CoordinateCode, Dynamics, Machine, Rapids};
+use kinecut::motion::{AxisLimit, ProgramTime, SCurve, axis_limits, program_time};
+use kinecut::program::{
+    Blend, Frame, Move, Origin, Path, Program, Setup, SetupId, Speed, Spindle, State, Target, ToolAxis,
+    ToolNumber, WorkOffset,
+};
+use kinecut::tool::{Cutter, Tool};
+use kinecut::trace::{CompStart, RegisterState, TraceOptions, trace};
+
+const X: AxisLimit = AxisLimit { velocity: 500.0, acceleration: 5000.0, jerk: 50_000.0 };
+const Y: AxisLimit = AxisLimit { velocity: 400.0, acceleration: 2000.0, jerk: 60_000.0 };
+const Z: AxisLimit = AxisLimit { velocity: 250.0, acceleration: 3000.0, jerk: 30_000.0 };
+const FEED: f64 = 60.0;
+
+fn dynamics(limit: AxisLimit) -> Dynamics {
+    Dynamics { rapid: Some(limit.velocity), acceleration: Some(limit.acceleration), jerk: Some(limit.jerk) }
+}
+
+/// X has the limits of the machine, Y and Z their own; rotary axes, if the code has any, those of none.
+fn machine_of(code: &str) -> Machine {
+    let mut machine = Machine::new(CoordinateCode::parse(code).unwrap(), [None; 3], dynamics(X)).unwrap();
+    for (letter, limit) in [('Y', Y), ('Z', Z)] {
+        let (place, _) = machine.joint(letter).unwrap();
+        machine.joints[place].dynamics = dynamics(limit);
+    }
+    machine
+}
+
+fn machine() -> Machine {
+    machine_of("2103")
+}
+
+fn tool(number: u32) -> Tool {
+    Tool {
+        number: ToolNumber(number),
+        name: "end mill".into(),
+        cutter: Cutter::EndMill { diameter: 10.0 },
+        teeth: 2,
+        spacing: Default::default(),
+        flute_length: 20.0,
+        stickout: 40.0,
+        shank_diameter: 10.0,
+        holder: None,
+        centre_cutting: true,
+        max_ramp_angle: None,
+        gauge_length: Some(100.0),
+        limits: Default::default(),
+    }
+}
+
+/// A program that stands at the origin, with what its next moves do.
+struct Written {
+    program: Program,
+    state: State,
+}
+
+impl Written {
+    fn new() -> Written {
+        let setup = Setup {
+            name: "setup 1".to_owned(),
+            part_on_table: Rigid::IDENTITY,
+            work_offsets: BTreeMap::from([(WorkOffset::G54, Rigid::IDENTITY)]),
+            located: true,
+            stock: None,
+            fixtures: Vec::new(),
+        };
+        let mut program = Program::new(vec![setup]);
+        let frame = program.add_frame(Frame::Work(WorkOffset::G54));
+        let mut state = State::start(SetupId(0), frame);
+        state.speed = Speed::Rapid { linear: true };
+        program.push_tool(ToolNumber(1), Some(1), None, &state, Origin::default());
+        let mut written = Written { program, state };
+        written.to([0.0; 3]);
+        written
+    }
+
+    fn at_feed(blend: Blend) -> Written {
+        let mut written = Written::new();
+        written.state.speed = Speed::PerMinute(FEED);
+        written.state.blend = blend;
+        written
+    }
+
+    fn to(&mut self, point: [f64; 3]) {
+        self.turned_to(point, ToolAxis::Fixed);
+    }
+
+    fn turned_to(&mut self, point: [f64; 3], axis: ToolAxis) {
+        let end = Target::Tip { point: DVec3::from_array(point), axis };
+        self.program.push_move(Move { end, path: Path::Line }, &self.state, Origin::default());
+    }
+
+    fn time(&self, machine: &Machine) -> Option<ProgramTime> {
+        let tools = [tool(1), tool(2)];
+        let options = TraceOptions {
+            machine: Some(machine),
+            tools: &tools,
+            retract_height: 250.0,
+            operator: RegisterState::default(),
+            radii: &[],
+            comp_start: CompStart::AtNext,
+            chord: 1e-3,
+        };
+        program_time(&self.program, &trace(&self.program, &options).unwrap(), machine)
+    }
+}
+
+/// A straight way of these axes: the closed form under the limit that binds first.
+fn straight(way: [f64; 3], feed: f64) -> f64 {
+    let length = way.iter().map(|w| w * w).sum::<f64>().sqrt();
+    let mut along = AxisLimit { velocity: feed, acceleration: f64::INFINITY, jerk: f64::INFINITY };
+    for (way, limit) in way.iter().zip([X, Y, Z]) {
+        let share = way.abs() / length;
+        if share > 0.0 {
+            along.velocity = along.velocity.min(limit.velocity / share);
+            along.acceleration = along.acceleration.min(limit.acceleration / share);
+            along.jerk = along.jerk.min(limit.jerk / share);
+        }
+    }
+    SCurve::new(length, along).duration()
+}
+
+fn same(found: f64, expected: f64) {
+    assert!((found - expected).abs() < 1e-9 * (1.0 + expected), "{found} {expected}");
+}
+
+const WAYS: [[f64; 3]; 5] =
+    [[80.0, 0.0, 0.0], [0.0, -3.0, 0.0], [0.0, 0.0, 0.2], [120.0, 50.0, -10.0], [1.0, 30.0, 2.0]];
+
+#[test]
+fn a_rapid_is_the_closed_form_of_the_axis_that_binds_first() {
+    for way in WAYS {
+        let mut written = Written::new();
+        written.to(way);
+        let time = written.time(&machine()).unwrap();
+        same(time.moves, straight(way, f64::INFINITY));
+        same(time.total(), time.moves);
+        assert!(time.without_jerk < time.moves && time.least() < time.total(), "{time:?}");
+    }
+}
+
+#[test]
+fn a_straight_move_at_feed_is_the_closed_form_under_its_feed() {
+    for way in WAYS {
+        let mut written = Written::at_feed(Blend::Continuous);
+        written.to(way);
+        same(written.time(&machine()).unwrap().moves, straight(way, FEED));
+    }
+}
+
+#[test]
+fn rapids_axis_by_axis_take_the_time_of_the_slowest_axis() {
+    let mut machine = machine();
+    machine.rapids = Some(Rapids::AxisByAxis);
+    for way in WAYS {
+        let mut written = Written::new();
+        written.state.speed = Speed::Rapid { linear: false };
+        written.to(way);
+        let apart = way.iter().zip([X, Y, Z]).map(|(w, limit)| SCurve::new(w.abs(), limit).duration());
+        same(written.time(&machine).unwrap().moves, apart.fold(0.0, f64::max));
+    }
+}
+
+#[test]
+fn a_rotary_axis_has_its_own_limits_and_none_of_them_are_those_of_linear_axes() {
+    let limit = AxisLimit { velocity: 0.8, acceleration: 4.0, jerk: 90.0 };
+    let mut machine = machine_of("651203");
+    let mut written = Written::new();
+    written.turned_to([0.0; 3], ToolAxis::Rotary([None, None, Some(1.1)]));
+    assert_eq!(written.time(&machine), None, "C has no limits");
+    let (place, _) = machine.joint('C').unwrap();
+    machine.joints[place].dynamics = dynamics(limit);
+    assert_eq!(axis_limits(&machine), [Some(X), Some(Y), Some(Z), None, None, Some(limit)]);
+    // On the axis of C nothing else moves.
+    same(written.time(&machine).unwrap().moves, SCurve::new(1.1, limit).duration());
+}
+
+/// A square of 40 mm, from corner to corner.
+fn square(blend: Blend) -> ProgramTime {
+    let mut written = Written::at_feed(blend);
+    for point in [[40.0, 0.0], [40.0, 40.0], [0.0, 40.0], [0.0, 0.0]] {
+        written.to([point[0], point[1], 0.0]);
+    }
+    written.time(&machine()).unwrap()
+}
+
+#[test]
+fn exact_stops_stop_in_every_corner_and_a_tolerance_is_never_slower() {
+    let stops = square(Blend::Stop);
+    let sides = [straight([40.0, 0.0, 0.0], FEED), straight([0.0, 40.0, 0.0], FEED)];
+    same(stops.moves, 2.0 * (sides[0] + sides[1]));
+    same(stops.segments.iter().sum(), stops.moves);
+    assert_eq!((stops.smoothing.stops, stops.smoothing.smoothed, stops.smoothing.farthest), (3, 0, 0.0));
+    for path in [0.0, 1e-4, 1e-3, 0.01, 0.05, 0.2, 1.0, 5.0] {
+        let within = square(Blend::Tolerance { path, angle: 0.0 });
+        assert!(within.moves <= stops.moves * (1.0 + 1e-3), "{path}: {} {}", within.moves, stops.moves);
+        assert!(within.moves >= within.without_jerk, "{path}: {within:?}");
+        assert!(within.smoothing.farthest <= 1.02 * path, "{path}: {within:?}");
+        assert_eq!(within.smoothing.stops + within.smoothing.smoothed, 3, "{path}: {within:?}");
+        assert_eq!(within.refused.0, 0, "{path}: {within:?}");
+    }
+    let wide = square(Blend::Tolerance { path: 5.0, angle: 0.0 });
+    assert!(wide.moves < 0.95 * stops.moves, "{} {}", wide.moves, stops.moves);
+}
+
+/// A circle of 20 mm radius, of facets of 5 degrees.
+fn facets(path: f64) -> Written {
+    let mut written = Written::new();
+    written.to([20.0, 0.0, 0.0]);
+    written.state.speed = Speed::PerMinute(FEED);
+    written.state.blend = Blend::Tolerance { path, angle: 0.0 };
+    for i in 1..=72 {
+        let (sin, cos) = (f64::from(i) / 72.0 * TAU).sin_cos();
+        written.to([20.0 * cos, 20.0 * sin, 0.0]);
+    }
+    written
+}
+
+#[test]
+fn facets_are_faster_within_a_wider_tolerance_and_stay_within_it() {
+    let machine = machine();
+    let [narrow, wide] = [0.005, 0.05].map(|path| {
+        let time = facets(path).time(&machine).unwrap();
+        assert!(time.smoothing.farthest <= 1.02 * path, "{path}: {:?}", time.smoothing);
+        assert_eq!(time.refused.0, 0, "{time:?}");
+        assert!(time.moves >= time.without_jerk);
+        time
+    });
+    assert!(wide.moves < 0.95 * narrow.moves, "{} {}", wide.moves, narrow.moves);
+    // No faster than the feed.
+    assert!(wide.moves > TAU * 20.0 * 0.99 / FEED, "{}", wide.moves);
+}
+
+/// A contour with arcs, corners and short lines.
+fn contour(blend: Blend) -> Written {
+    let mut written = Written::at_feed(blend);
+    written.to([10.0, 0.0, 0.0]);
+    let arc = Arc::new(DVec3::new(10.0, 0.0, 0.0), DVec3::new(10.0, 8.0, 0.0), DVec3::Z, 2.0, 0.0).unwrap();
+    written.program.push_move(Move::along(&arc.into()), &written.state, Origin::default());
+    let end = arc.point(1.0);
+    written.to([end.x - 12.0, end.y + 3.0, 1.0]);
+    written.to([end.x - 12.5, end.y + 4.0, 1.0]);
+    written.to([end.x - 13.5, end.y + 4.2, 0.5]);
+    written.to([0.0, 0.0, 0.0]);
+    written
+}
+
+#[test]
+fn half_the_acceleration_and_jerk_never_make_a_program_faster() {
+    let within = |path| Blend::Tolerance { path, angle: 0.0 };
+    let programs = [
+        ("facets, 0.005", facets(0.005)),
+        ("facets, 0.05", facets(0.05)),
+        ("contour, stops", contour(Blend::Stop)),
+        ("contour, usual", contour(Blend::Continuous)),
+        ("contour, 0.02", contour(within(0.02))),
+        ("contour, 0.2", contour(within(0.2))),
+    ];
+    for (name, written) in programs {
+        let mut before = 0.0;
+        for halvings in 0..6 {
+            let factor = 0.5f64.powi(halvings);
+            let mut machine = machine();
+            let joints = machine.joints.iter_mut().map(|j| &mut j.dynamics);
+            for d in joints.chain([&mut machine.dynamics]) {
+                d.acceleration = d.acceleration.map(|a| a * factor);
+                d.jerk = d.jerk.map(|j| j * factor);
+            }
+            let time = written.time(&machine).unwrap();
+            assert_eq!(time.refused.0, 0, "{name}: {time:?}");
+            assert!(time.moves >= before, "{name}: {} after {before} at {factor}", time.moves);
+            assert!(time.moves >= time.without_jerk, "{name} {factor}: {time:?}");
+            before = time.moves;
+        }
+    }
+}
+
+#[test]
+fn an_acceleration_of_a_hundredth_takes_longer() {
+    let fast = contour(Blend::Continuous).time(&machine()).unwrap().moves;
+    let mut slow = machine();
+    slow.dynamics = Dynamics { acceleration: Some(50.0), ..slow.dynamics };
+    let slow = contour(Blend::Continuous).time(&slow).unwrap().moves;
+    assert!(slow > 1.3 * fast, "{slow} {fast}");
+}
+
+#[test]
+fn waits_count() {
+    let mut written = Written::at_feed(Blend::Continuous);
+    written.to([30.0, 0.0, 0.0]);
+    let before = written.time(&machine()).unwrap();
+    written.program.push_dwell(1.25, &written.state, Origin::default());
+    written.to([60.0, 0.0, 0.0]);
+    let after = written.time(&machine()).unwrap();
+    same(after.dwells, 1.25);
+    // The tool stands still for it.
+    same(after.total(), before.total() + 1.25 + straight([30.0, 0.0, 0.0], FEED));
+    same(after.least(), after.without_jerk + 1.25);
+}
+
+#[test]
+fn a_machine_without_acceleration_has_no_law() {
+    let mut written = Written::at_feed(Blend::Continuous);
+    written.to([30.0, 0.0, 0.0]);
+    let mut none = machine();
+    none.dynamics.acceleration = None;
+    assert_eq!(written.time(&none), None);
+    // An axis that stands still needs none.
+    let mut written = Written::at_feed(Blend::Continuous);
+    written.to([0.0, 30.0, 0.0]);
+    same(written.time(&none).unwrap().moves, straight([0.0, 30.0, 0.0], FEED));
+    // Jerk that is not given is not limited.
+    let mut free = machine();
+    free.joints.iter_mut().for_each(|j| j.dynamics.jerk = None);
+    free.dynamics.jerk = None;
+    let time = written.time(&free).unwrap();
+    let limit = AxisLimit { velocity: FEED, jerk: f64::INFINITY, ..Y };
+    same(time.moves, SCurve::new(30.0, limit).duration());
+    same(time.without_jerk, time.moves);
+    let curved = contour(Blend::Continuous).time(&free).unwrap();
+    same(curved.moves, curved.without_jerk);
+}
+
+#[test]
+fn tool_changes_and_spindle_ramps_count_where_the_machine_says_them() {
+    let mut written = Written::new();
+    written.state.speed = Speed::PerMinute(FEED);
+    written.state.spindle = Spindle::Clockwise(600.0);
+    written.to([30.0, 0.0, 0.0]);
+    written.state.spindle = Spindle::CounterClockwise(200.0);
+    written.to([30.0, 20.0, 0.0]);
+    written.state.spindle = Spindle::Off;
+    written.program.push_tool(ToolNumber(2), Some(2), None, &written.state, Origin::default());
+    let silent = written.time(&machine()).unwrap();
+    assert_eq!((silent.tool_changes, silent.spindle_changes), ((2, None), (2, None)));
+    let mut machine = machine();
+    machine.control.tool_change = Some(4.5);
+    machine.control.spindle_ramp = Some(3.0);
+    machine.control.max_speed = Some(1200.0);
+    let time = written.time(&machine).unwrap();
+    assert_eq!(time.tool_changes, (2, Some(9.0)));
+    // From rest to 600 one way round, and from there to 200 the other way round.
+    assert_eq!(time.spindle_changes.0, 2);
+    same(time.spindle_changes.1.unwrap(), 3.0 * (600.0 + 800.0) / 1200.0);
+    same(time.total(), silent.total() + 9.0 + 3.5);
+}
