@@ -58,9 +58,15 @@ pub(super) fn knots<const A: usize, C: Course<A>>(
             next += 1;
         }
         let jets = course.derivatives(s + 1e-7 * rest);
-        let turn =
-            |d: usize| jets.iter().zip(limits).map(|(j, l)| (j[d] / l.velocity).powi(2)).sum::<f64>().sqrt();
-        let mut h = (TURN * turn(0) / turn(1)).min(most).min(course.finest(s));
+        // The shape changes little in a cell, in lengths and in units of each kind of limit.
+        let weights: [fn(&AxisLimit) -> f64; 4] = [|_| 1.0, |l| l.velocity, |l| l.acceleration, |l| l.jerk];
+        let mut h = most.min(course.finest(s));
+        for weight in weights {
+            let size = |d: usize| {
+                jets.iter().zip(limits).map(|(j, l)| (j[d] / weight(l)).powi(2)).sum::<f64>().sqrt()
+            };
+            h = h.min(TURN * size(0) / size(1)).min((TURN * size(0) / size(2)).sqrt());
+        }
         let stops = [(s, ends[0]), (length - s, ends[1])];
         for (distance, _) in stops.into_iter().filter(|(_, end)| *end == End::Rest) {
             let near = distance.min(4.0 * at_speed);

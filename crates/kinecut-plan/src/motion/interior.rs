@@ -202,6 +202,10 @@ pub(super) fn solve<const A: usize>(problem: &Problem<A>, x: &[f64], gap: f64) -
             *s = -g;
         }
         matrix.solve(&mut step);
+        // The last digits are used up: the unknowns are as good as they get.
+        if step.iter().any(|s| !s.is_finite()) {
+            break;
+        }
         padded[1..=n].copy_from_slice(&step);
         let (mut along, mut price_along) = (1.0_f64, 1.0_f64);
         let (mut s_dy, mut ds_y, mut ds_dy) = (0.0, 0.0, 0.0);
@@ -255,6 +259,10 @@ pub(super) fn solve<const A: usize>(problem: &Problem<A>, x: &[f64], gap: f64) -
             *s = -gradient[i + 1] - target * over[i + 1] + second[i + 1];
         }
         matrix.solve(&mut step);
+        // The last digits are used up: the unknowns are as good as they get.
+        if step.iter().any(|s| !s.is_finite()) {
+            break;
+        }
         padded[1..=n].copy_from_slice(&step);
         let (mut along, mut price_along) = (1.0_f64, 1.0_f64);
         for (k, cell) in problem.cells.iter().enumerate() {

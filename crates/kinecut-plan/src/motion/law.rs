@@ -5,7 +5,7 @@ use super::shape::{Shape, places};
 use super::shares::{Shares, of_run};
 use super::windows::coefficients;
 use super::{AxisLimit, Course, End, Speed, grid};
-use crate::base::{Code, Finding, Result};
+use crate::base::{Code, Finding, Progress, Result, Silent};
 
 /// The fastest run: feed, speed, acceleration and jerk of each axis hold at eight places of each cell; where they did not
 /// to the last digit, the whole run was slowed ([`TimeLaw::dilation`]).
@@ -36,7 +36,11 @@ impl Gridded {
         if !(length > 0.0 && length.is_finite()) {
             return Err(Finding::error(Code::PLAN_VALUE, "a path needs a length").value(length, "mm").into());
         }
-        let knots = grid::knots(course, limits, at_speed(course, limits), ends);
+        let at_speed = at_speed(course, limits);
+        if !(at_speed > 0.0) {
+            return Err(Finding::error(Code::PLAN_VALUE, "a path needs a feed").bound(0.0, "mm/s").into());
+        }
+        let knots = grid::knots(course, limits, at_speed, ends);
         Ok(Gridded { length, ends, knots })
     }
 
@@ -69,26 +73,30 @@ impl TimeLaw {
     /// # Errors
     /// `KC0404` where the course cannot be run: it has no length, or a derivative or the feed is not finite.
     pub fn new<const A: usize, C: Course<A>>(course: &C, limits: &[AxisLimit; A]) -> Result<TimeLaw> {
-        TimeLaw::between(course, limits, [End::Rest; 2])
+        TimeLaw::between(course, limits, [End::Rest; 2], &Silent)
     }
 
-    /// The fastest run along a course that begins and ends like this.
+    /// The fastest run along a course that begins and ends like this; `progress` may cancel it.
     ///
     /// # Errors
-    /// As [`TimeLaw::new`].
+    /// As [`TimeLaw::new`]; `KC0009` when it was cancelled.
     pub fn between<const A: usize, C: Course<A>>(
         course: &C,
         limits: &[AxisLimit; A],
         ends: [End; 2],
+        progress: &dyn Progress,
     ) -> Result<TimeLaw> {
         let grid = Gridded::new(course, limits, ends)?;
         let places = places(course, limits, &grid.knots)?;
         let shape = Shape::new(&grid.knots, grid.length, &places, limits);
         let without_jerk = grid.without_jerk(course, limits).duration();
-        let (coefficients, steps) = coefficients(course, limits, &shape);
+        let (coefficients, steps) = coefficients(course, limits, &shape, progress)?;
         let speed = Speed::new([0.0, grid.length], &grid.knots, &coefficients);
         let dilation = of_run(course, limits, &speed).dilation();
         let speed = if dilation > 1.0 { speed.slower(dilation) } else { speed };
+        if !speed.duration().is_finite() {
+            return Err(Finding::error(Code::PLAN_VALUE, "no law was found for this path").into());
+        }
         Ok(TimeLaw { speed, without_jerk, dilation, steps })
     }
 

@@ -46,7 +46,8 @@ pub(super) fn places<const A: usize, C: Course<A>>(
             let most = limit.velocity / q[0].abs();
             cap = cap.min(most * most);
         }
-        let finite = jets.iter().flatten().all(|d| d.is_finite()) && cap > 0.0 && cap.is_finite();
+        let finite =
+            jets.iter().flatten().all(|d| d.is_finite()) && feed > 0.0 && cap > 0.0 && cap.is_finite();
         finite.then_some(Place { jets, cap }).ok_or_else(|| {
             Finding::error(
                 Code::PLAN_VALUE,
@@ -107,7 +108,7 @@ impl<'a, const A: usize> Shape<'a, A> {
 
     /// Largest coefficient at each stop: from rest under a jerk J, `b = (6^(4/3) / 4) (J s^2)^(2/3)`.
     fn at_rest(&self) -> [f64; 2] {
-        /// Share of the jerk: the path is a little curved beside the stop.
+        /// Share of the limits: the path is a little curved beside the stop.
         const SHARE: f64 = 0.98;
         let n = self.len();
         let rests = self.rests();
@@ -115,9 +116,13 @@ impl<'a, const A: usize> Shape<'a, A> {
             if h <= 0.0 {
                 return f64::INFINITY;
             }
-            let jerks = place.jets.iter().zip(self.limits).map(|(q, l)| l.jerk / q[0].abs());
-            let jerk = SHARE * jerks.fold(f64::INFINITY, f64::min);
-            0.25 * 6f64.powf(4.0 / 3.0) * (jerk * h * h).powf(2.0 / 3.0)
+            let along = |limit: fn(&AxisLimit) -> f64| {
+                let of_axes = place.jets.iter().zip(self.limits).map(|(q, l)| limit(l) / q[0].abs());
+                SHARE * of_axes.fold(f64::INFINITY, f64::min)
+            };
+            let by_jerk = 0.25 * 6f64.powf(4.0 / 3.0) * (along(|l| l.jerk) * h * h).powf(2.0 / 3.0);
+            // At its end the acceleration is b'/2 = 2/3 b / h.
+            by_jerk.min(1.5 * along(|l| l.acceleration) * h)
         })
     }
 

@@ -12,6 +12,7 @@ use super::interior::solve;
 use super::shape::Shape;
 use super::shares::of_cells;
 use super::{AxisLimit, Course, Speed};
+use crate::base::{Code, Finding, Progress, Result};
 
 /// Cells of a window.
 const CELLS: usize = 2000;
@@ -34,21 +35,32 @@ struct Window {
     steps: u32,
 }
 
-/// Coefficients of the fastest run over all cells, those at the stops included; second: steps of the solver.
+/// Coefficients of the fastest run over all cells, those at the ends included; second: steps of the solver.
+///
+/// # Errors
+/// `KC0009` when it was cancelled.
 pub(super) fn coefficients<const A: usize, C: Course<A>>(
     course: &C,
     limits: &[AxisLimit; A],
     shape: &Shape<A>,
-) -> (Vec<f64>, u32) {
+    progress: &dyn Progress,
+) -> Result<(Vec<f64>, u32)> {
     let n = shape.len();
     let start = shape.start();
     let parts = n.div_ceil(CELLS + CELLS / 2).max(1);
     let seams: Vec<usize> = (1..parts).map(|i| i * n / parts).collect();
     let reach = Reach::new(shape, limits, &start);
-    let solve = |own: Range<usize>| window(course, limits, shape, reach.around(own));
+    let solve = |own: Range<usize>| -> Result<Window> {
+        if progress.cancelled() {
+            return Err(Finding::error(Code::CANCELLED, "the run was cancelled").into());
+        }
+        Ok(window(course, limits, shape, reach.around(own)))
+    };
     let bounds: Vec<usize> = [&[0][..], &seams, &[n]].concat();
     let ranges: Vec<Range<usize>> = bounds.windows(2).map(|b| b[0]..b[1]).collect();
-    let windows: Vec<Window> = ranges.clone().into_par_iter().with_max_len(1).map(|own| solve(own)).collect();
+    let windows: Result<Vec<Window>> =
+        ranges.clone().into_par_iter().with_max_len(1).map(|own| solve(own)).collect();
+    let windows = windows?;
     let mut steps: u32 = windows.iter().map(|w| w.steps).sum();
     // Windows with the cells that they answer for, and the joint of each with the one before.
     let mut joined: Vec<(Range<usize>, Window, usize)> = Vec::new();
@@ -60,7 +72,7 @@ pub(super) fn coefficients<const A: usize, C: Course<A>>(
                 None => {
                     own = before.start..own.end;
                     joined.pop();
-                    window = solve(own.clone());
+                    window = solve(own.clone())?;
                     steps += window.steps;
                 }
             }
@@ -78,7 +90,7 @@ pub(super) fn coefficients<const A: usize, C: Course<A>>(
     }
     let folds = shape.folds();
     let (first, last) = (folds[0] * all[0], folds[1] * all[n - 1]);
-    ([&[first][..], &all, &[last]].concat(), steps)
+    Ok(([&[first][..], &all, &[last]].concat(), steps))
 }
 
 /// Share of the next window at a cell: from 0 to 1 over the cells about the joint.

@@ -123,6 +123,13 @@ pub(crate) fn run_checked(
         found = findings(&job, &setups, &simulation, &deviation, (&measured, &notes), &located);
     }
     still_wanted(progress)?;
+    if let Some(machine) = &job.machine {
+        let moves = setups.iter().map(|s| s.trace.segments.len() as u64).sum();
+        progress.stage("time", moves);
+        for s in &mut setups {
+            s.time = program_time(&s.program, &s.trace, machine, progress)?;
+        }
+    }
     let subjects = subjects(inputs, &setups);
     let mut proven = proven(&job, &setups, &simulation, &deviation);
     proven.extend(measured.iter().filter_map(|m| m.judged.proven.clone()));
@@ -215,7 +222,6 @@ fn setup(job: &Job, mut post: PostSettings, planned: SetupPlan, verdict_line: &s
     let place = |e: Error| in_text(e, &file, &posted, &lines);
     let plan_trace = trace(&planned.program, &options)?;
     let trace = trace(&program, &options).map_err(place)?;
-    let time = job.machine.as_ref().and_then(|machine| program_time(&program, &trace, machine));
     let mut outcome = SetupOutcome {
         file,
         planned,
@@ -225,7 +231,7 @@ fn setup(job: &Job, mut post: PostSettings, planned: SetupPlan, verdict_line: &s
         trace,
         read_back: ReadBack::default(),
         lines,
-        time,
+        time: None,
         external: None,
         known: Known::default(),
     };

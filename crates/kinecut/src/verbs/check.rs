@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use crate::base::{Code, Finding, Result};
+use crate::base::{Code, Finding, Result, Silent};
 use crate::geom::{Aabb, Rigid};
 use crate::job::external::given::GivenJob;
 use crate::job::external::{Followed, Missing, at_block, follow};
@@ -87,7 +87,10 @@ pub fn program_sheet(given: &GivenJob) -> Result<ProgramSheet> {
         );
     }
     findings.sort_by_key(|f| std::cmp::Reverse(f.severity));
-    let law = job.machine.as_ref().and_then(|machine| program_time(read, &done.trace, machine));
+    let law = match &job.machine {
+        Some(machine) => program_time(read, &done.trace, machine, &Silent)?,
+        None => None,
+    };
     let (programmed, time_has_rapids) = done.trace.duration();
     let counted = || done.trace.segments.iter().filter(|s| !s.alternative);
     let remarks = done.unfollowed.iter().map(ToString::to_string);

@@ -14,7 +14,7 @@ use super::program_time::{ProgramTime, Smoothing};
 use super::ramp::Ramp;
 use super::run::{Piece, Run, derivatives};
 use super::straight::{along, axis_by_axis, straight};
-use crate::base::Result;
+use crate::base::{Code, Finding, Progress, Result};
 use crate::machine::{Interpolator, Machine, Rapids};
 use crate::program::{Blend, Item, Program};
 use crate::trace::{AxisPath, Segment, SegmentPace, Trace};
@@ -28,9 +28,16 @@ const USUAL_TURN_TOLERANCE: f64 = 0.05 * std::f64::consts::PI / 180.0;
 ///
 /// Each stretch of feed between stops is run as fast as the axes allow ([`TimeLaw`]); at joints the control stops or leaves
 /// the path by its tolerance, whichever is faster. Rapids and straight moves from stop to stop are exact.
-pub fn program_time(program: &Program, trace: &Trace, machine: &Machine) -> Option<ProgramTime> {
-    let limits = axis_limits(machine);
-    let setting = Setting::new(machine, limits);
+///
+/// # Errors
+/// `KC0009` when it was cancelled.
+pub fn program_time(
+    program: &Program,
+    trace: &Trace,
+    machine: &Machine,
+    progress: &dyn Progress,
+) -> Result<Option<ProgramTime>> {
+    let setting = Setting::new(machine, progress);
     let mut runs: Vec<Stretch> = Vec::new();
     for (i, segment) in trace.segments.iter().enumerate() {
         if segment.alternative {
@@ -43,6 +50,9 @@ pub fn program_time(program: &Program, trace: &Trace, machine: &Machine) -> Opti
     }
     let done: Vec<Result<Option<Done>>> =
         runs.par_iter().with_max_len(1).map(|run| setting.run(program, trace, run)).collect();
+    if progress.cancelled() {
+        return Err(Finding::error(Code::CANCELLED, "the run was cancelled").into());
+    }
     let mut time = ProgramTime {
         segments: vec![0.0; trace.segments.len()],
         moves: 0.0,
@@ -56,7 +66,8 @@ pub fn program_time(program: &Program, trace: &Trace, machine: &Machine) -> Opti
     };
     for (run, done) in runs.iter().zip(done) {
         let done = match done {
-            Ok(done) => done?,
+            Ok(Some(done)) => done,
+            Ok(None) => return Ok(None),
             Err(refused) => {
                 let item = run.segments.first().map(|i| trace.segments[*i].item);
                 time.refused.0 += run.segments.len();
@@ -73,7 +84,7 @@ pub fn program_time(program: &Program, trace: &Trace, machine: &Machine) -> Opti
         time.dilation = time.dilation.max(done.dilation);
     }
     setting.changes(program, &mut time);
-    Some(time)
+    Ok(Some(time))
 }
 
 /// Consecutive moves at feed, or a rapid.
@@ -121,13 +132,14 @@ fn goes_on(program: &Program, trace: &Trace, run: &Stretch, next: usize, mixed: 
 
 /// Machine and control.
 struct Setting<'a> {
+    progress: &'a dyn Progress,
     machine: &'a Machine,
     limits: [Option<AxisLimit>; AXES],
 }
 
 impl<'a> Setting<'a> {
-    fn new(machine: &'a Machine, limits: [Option<AxisLimit>; AXES]) -> Setting<'a> {
-        Setting { machine, limits }
+    fn new(machine: &'a Machine, progress: &'a dyn Progress) -> Setting<'a> {
+        Setting { progress, machine, limits: axis_limits(machine) }
     }
 
     /// The joint deviation of a control that looks ahead by it [mm].
@@ -175,6 +187,7 @@ impl<'a> Setting<'a> {
             // A move of no length takes no time.
             pieces.push((length > 1e-9).then_some(Piece { path, feed }));
         }
+        self.progress.advance(pieces.len() as u64);
         let mut done = Done {
             times: vec![0.0; pieces.len()],
             without_jerk: 0.0,
@@ -323,7 +336,7 @@ impl<'a> Setting<'a> {
                 }
                 let stretch = Part::new(&course, [*from, *to]);
                 Ok(Some(if limited {
-                    Law::Limited(Box::new(TimeLaw::between(&stretch, &limits, states)?))
+                    Law::Limited(Box::new(TimeLaw::between(&stretch, &limits, states, self.progress)?))
                 } else {
                     Law::WithoutJerk(WithoutJerk::new(&stretch, &limits, states)?)
                 }))

@@ -8,7 +8,6 @@ use crate::job::check::{Job, JobProgram};
 use crate::job::plan::SetupPlan;
 use crate::job::read_back::ReadBack;
 use crate::job::setup_outcome::SetupOutcome;
-use crate::motion::program_time;
 use crate::nc::{PostNotes, Posted};
 use crate::operations::known::Known;
 use crate::trace::Trace;
@@ -37,7 +36,6 @@ pub(crate) fn external_setup(
 ) -> Result<SetupOutcome> {
     let Followed { reading, trace, lines, findings, unfollowed, .. } =
         follow(job, setup, program, Missing::Refused)?;
-    let time = job.machine.as_ref().and_then(|machine| program_time(&reading.program, &trace, machine));
     let posted = Posted { text: Arc::clone(&program.text), lines: Vec::new(), notes: PostNotes::default() };
     Ok(SetupOutcome {
         file: program.file.clone(),
@@ -48,7 +46,7 @@ pub(crate) fn external_setup(
         trace,
         read_back: ReadBack::default(),
         lines,
-        time,
+        time: None,
         external: Some(ExternalProgram {
             control: program.control,
             findings,

@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 use std::f64::consts::TAU;
 
 use glam::DVec3;
+use kinecut::base::Silent;
 use kinecut::geom::{Arc, Rigid};
 use kinecut::machine::{CoordinateCode, Dynamics, Machine, Rapids};
 use kinecut::motion::{AxisLimit, ProgramTime, SCurve, axis_limits, program_time};
@@ -108,7 +109,7 @@ impl Written {
             comp_start: CompStart::AtNext,
             chord: 1e-3,
         };
-        program_time(&self.program, &trace(&self.program, &options).unwrap(), machine)
+        program_time(&self.program, &trace(&self.program, &options).unwrap(), machine, &Silent).unwrap()
     }
 }
 
