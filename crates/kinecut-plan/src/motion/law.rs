@@ -52,11 +52,19 @@ impl Gridded {
 }
 
 impl WithoutJerk {
-    /// The fastest run along a course where jerk has no limit.
+    /// The fastest run along a course from rest to rest where jerk has no limit.
     ///
     /// # Errors
     /// As [`TimeLaw::new`].
-    pub fn new<const A: usize, C: Course<A>>(
+    pub fn new<const A: usize, C: Course<A>>(course: &C, limits: &[AxisLimit; A]) -> Result<WithoutJerk> {
+        WithoutJerk::between(course, limits, [End::Rest; 2])
+    }
+
+    /// The same along a course that begins and ends like this.
+    ///
+    /// # Errors
+    /// As [`TimeLaw::new`].
+    pub fn between<const A: usize, C: Course<A>>(
         course: &C,
         limits: &[AxisLimit; A],
         ends: [End; 2],

@@ -338,7 +338,7 @@ impl<'a> Setting<'a> {
                 Ok(Some(if limited {
                     Law::Limited(Box::new(TimeLaw::between(&stretch, &limits, states, self.progress)?))
                 } else {
-                    Law::WithoutJerk(WithoutJerk::new(&stretch, &limits, states)?)
+                    Law::WithoutJerk(WithoutJerk::between(&stretch, &limits, states)?)
                 }))
             })
             .collect();
