@@ -51,6 +51,18 @@ impl Gridded {
     }
 }
 
+/// Cells that the law of a course would have.
+///
+/// # Errors
+/// As [`TimeLaw::new`].
+pub(super) fn cells_of<const A: usize, C: Course<A>>(
+    course: &C,
+    limits: &[AxisLimit; A],
+    ends: [End; 2],
+) -> Result<usize> {
+    Ok(Gridded::new(course, limits, ends)?.knots.len() - 1)
+}
+
 impl WithoutJerk {
     /// The fastest run along a course from rest to rest where jerk has no limit.
     ///
@@ -69,9 +81,11 @@ impl WithoutJerk {
         limits: &[AxisLimit; A],
         ends: [End; 2],
     ) -> Result<WithoutJerk> {
-        let grid = Gridded::new(course, limits, ends)?;
-        places(course, limits, &grid.knots)?;
-        Ok(grid.without_jerk(course, limits))
+        let law = Gridded::new(course, limits, ends)?.without_jerk(course, limits);
+        if !(law.duration() > 0.0 && law.duration().is_finite()) {
+            return Err(Finding::error(Code::PLAN_VALUE, "no law was found for this path").into());
+        }
+        Ok(law)
     }
 }
 

@@ -2,7 +2,7 @@
 //!
 //! Each window runs from rest to rest over its own cells and some beside them. A stop has no influence beyond the way in
 //! which the path gets to speed, so neighbours agree where both have forgotten their stops; there one goes over into the
-//! other. Where two do not agree they are solved as one.
+//! other. Where two do not agree they are solved as one, up to a size.
 
 use std::ops::Range;
 
@@ -20,12 +20,14 @@ const CELLS: usize = 2000;
 const FADE: usize = 16;
 /// Times that a window could get to rest from its speed in the cells beside its own.
 const FORGOTTEN: f64 = 3.0;
+/// Most cells that are solved as one because windows do not agree: beyond it they are joined where they agree best.
+const MOST_CELLS: usize = 4 * CELLS;
 /// Largest difference of the coefficients of two windows, over their size, at which they agree.
 const AGREED: f64 = 1e-5;
 /// Rounds in which cells that exceed a limit between their knots get a smaller share of it.
-const ROUNDS: u32 = 5;
+const ROUNDS: u32 = 3;
 /// Excess that is left as it is.
-const EXCESS: f64 = 1e-4;
+const EXCESS: f64 = 2e-4;
 
 /// A solved stretch of cells.
 struct Window {
@@ -67,9 +69,10 @@ pub(super) fn coefficients<const A: usize, C: Course<A>>(
     for (mut own, mut window) in ranges.into_iter().zip(windows) {
         let joint = loop {
             let Some((before, last, _)) = joined.last() else { break 0 };
-            match agree(last, &window) {
-                Some(joint) => break joint,
-                None => {
+            let (joint, off) = agree(last, &window);
+            match off <= AGREED || own.end - before.start > MOST_CELLS {
+                true => break joint,
+                false => {
                     own = before.start..own.end;
                     joined.pop();
                     window = solve(own.clone())?;
@@ -99,16 +102,15 @@ fn fade(cell: usize, joint: usize) -> f64 {
     u * u * (3.0 - 2.0 * u)
 }
 
-/// The cell about which two windows agree best over a fade, if they agree.
-fn agree(a: &Window, b: &Window) -> Option<usize> {
+/// The cell about which two windows agree best over a fade, and by how much they differ there, over their size.
+fn agree(a: &Window, b: &Window) -> (usize, f64) {
     let shared = a.cells.start.max(b.cells.start)..a.cells.end.min(b.cells.end);
     let at = |w: &Window, k: usize| w.coefficients[k - w.cells.start];
     let off: Vec<f64> = shared.clone().map(|k| (at(a, k) / at(b, k) - 1.0).abs()).collect();
     let width = FADE + 2;
-    let best = (0..off.len().saturating_sub(width))
-        .map(|i| (i, off[i..i + width].iter().copied().fold(0.0, f64::max)))
-        .min_by(|a, b| a.1.total_cmp(&b.1))?;
-    (best.1 <= AGREED).then_some(shared.start + best.0 + width / 2)
+    let places = (0..off.len().saturating_sub(width))
+        .map(|i| (shared.start + i + width / 2, off[i..i + width].iter().copied().fold(0.0, f64::max)));
+    places.min_by(|a, b| a.1.total_cmp(&b.1)).unwrap_or((shared.start, f64::INFINITY))
 }
 
 /// Solves these cells from rest to rest.

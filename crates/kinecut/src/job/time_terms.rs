@@ -15,6 +15,10 @@ pub(crate) fn terms(programs: &[(&Trace, Option<&ProgramTime>)]) -> String {
     };
     let least = laws.iter().map(|time| time.least()).sum();
     let mut terms = format!("under the limits of the axes, at least {}", page::duration(least));
+    let too_many: usize = laws.iter().map(|time| time.without_limit_of_jerk).sum();
+    if too_many > 0 {
+        terms += &format!("; jerk not counted on {too_many} moves, they are too many");
+    }
     let refused: usize = laws.iter().map(|time| time.refused.0).sum();
     if refused > 0 {
         terms += &format!("; {refused} moves at programmed feed");

@@ -21,6 +21,8 @@ pub struct ProgramTime {
     pub smoothing: Smoothing,
     /// Largest factor by which a run was slowed so that every limit holds.
     pub dilation: f64,
+    /// Moves on which the limit of jerk does not count: of a program with too many of them that are not run evenly.
+    pub without_limit_of_jerk: usize,
     /// Moves that count with their programmed time, because the law of their stretch was refused: their number, and the
     /// item of the first with the reason.
     pub refused: (usize, Option<(u32, Finding)>),

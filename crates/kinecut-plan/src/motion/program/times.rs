@@ -1,8 +1,11 @@
 //! The time of a program: each path under the limits of all axes, and what the control waits for.
 
+use std::sync::atomic::{AtomicUsize, Ordering};
+
 use rayon::prelude::*;
 
 use super::super::course::Stretch as Part;
+use super::super::law::cells_of;
 use super::super::{AxisLimit, Course, End, SCurve, TimeLaw, WithoutJerk};
 use super::axis_limits;
 use super::joint::{AXES, Joint, Step, Tolerance};
@@ -37,7 +40,7 @@ pub fn program_time(
     machine: &Machine,
     progress: &dyn Progress,
 ) -> Result<Option<ProgramTime>> {
-    let setting = Setting::new(machine, progress);
+    let mut setting = Setting::new(machine, progress);
     let mut runs: Vec<Stretch> = Vec::new();
     for (i, segment) in trace.segments.iter().enumerate() {
         if segment.alternative {
@@ -47,6 +50,15 @@ pub fn program_time(
             Some(run) if setting.goes_on(program, trace, run, i) => run.segments.push(i),
             _ => runs.push(Stretch { segments: vec![i] }),
         }
+    }
+    // Many moves that are not run evenly: their cells are counted before any of them is solved.
+    if trace.segments.len() > UNCOUNTED {
+        setting.work = Work::Count(AtomicUsize::new(0));
+        let counted: Vec<Result<Option<Done>>> =
+            runs.par_iter().with_max_len(1).map(|run| setting.run(program, trace, run)).collect();
+        drop(counted);
+        let Work::Count(cells) = &setting.work else { return Ok(None) };
+        setting.work = Work::Solve { jerk: cells.load(Ordering::Relaxed) <= MOST_CELLS };
     }
     let done: Vec<Result<Option<Done>>> =
         runs.par_iter().with_max_len(1).map(|run| setting.run(program, trace, run)).collect();
@@ -62,6 +74,7 @@ pub fn program_time(
         spindle_changes: (0, None),
         smoothing: Smoothing::default(),
         dilation: 1.0,
+        without_limit_of_jerk: 0,
         refused: (0, None),
     };
     for (run, done) in runs.iter().zip(done) {
@@ -82,6 +95,7 @@ pub fn program_time(
         time.without_jerk += done.without_jerk;
         time.smoothing.add(&done.smoothing);
         time.dilation = time.dilation.max(done.dilation);
+        time.without_limit_of_jerk += done.without_limit_of_jerk;
     }
     setting.changes(program, &mut time);
     Ok(Some(time))
@@ -96,7 +110,13 @@ impl Stretch {
     /// Its moves in the time that the program gives them.
     fn as_programmed(&self, trace: &Trace) -> Done {
         let times = self.segments.iter().map(|i| trace.segments[*i].duration.unwrap_or(0.0)).collect();
-        Done { times, without_jerk: 0.0, smoothing: Smoothing::default(), dilation: 1.0 }
+        Done {
+            times,
+            without_jerk: 0.0,
+            smoothing: Smoothing::default(),
+            dilation: 1.0,
+            without_limit_of_jerk: 0,
+        }
     }
 }
 
@@ -106,6 +126,7 @@ struct Done {
     without_jerk: f64,
     smoothing: Smoothing,
     dilation: f64,
+    without_limit_of_jerk: usize,
 }
 
 /// True if segment `next` may follow a run without a stop: in place, both at feed or `mixed`, and nothing but text between
@@ -130,8 +151,22 @@ fn goes_on(program: &Program, trace: &Trace, run: &Stretch, next: usize, mixed: 
     (before.item + 1..after.item).all(|i| matches!(item(i), Item::Text(_) | Item::Move(_)))
 }
 
+/// Segments up to which a program is solved without counting first.
+const UNCOUNTED: usize = 2000;
+/// Most cells, times axes, that are solved under a jerk limit: some ten seconds of work.
+const MOST_CELLS: usize = 1_000_000;
+
+/// What is done about the stretches that are not run evenly.
+enum Work {
+    /// Their cells are counted, times axes.
+    Count(AtomicUsize),
+    /// They are solved, under the limits of jerk or without.
+    Solve { jerk: bool },
+}
+
 /// Machine and control.
 struct Setting<'a> {
+    work: Work,
     progress: &'a dyn Progress,
     machine: &'a Machine,
     limits: [Option<AxisLimit>; AXES],
@@ -139,7 +174,7 @@ struct Setting<'a> {
 
 impl<'a> Setting<'a> {
     fn new(machine: &'a Machine, progress: &'a dyn Progress) -> Setting<'a> {
-        Setting { progress, machine, limits: axis_limits(machine) }
+        Setting { work: Work::Solve { jerk: true }, progress, machine, limits: axis_limits(machine) }
     }
 
     /// The joint deviation of a control that looks ahead by it [mm].
@@ -193,6 +228,7 @@ impl<'a> Setting<'a> {
             without_jerk: 0.0,
             smoothing: Smoothing::default(),
             dilation: 1.0,
+            without_limit_of_jerk: 0,
         };
         if let Some(deviation) = self.junction_deviation() {
             return Ok(self.by_junctions(pieces, deviation));
@@ -255,7 +291,13 @@ impl<'a> Setting<'a> {
             times[*k] = time;
         }
         let without_jerk = times.iter().sum();
-        Some(Done { times, without_jerk, smoothing: Smoothing::default(), dilation: 1.0 })
+        Some(Done {
+            times,
+            without_jerk,
+            smoothing: Smoothing::default(),
+            dilation: 1.0,
+            without_limit_of_jerk: 0,
+        })
     }
 
     /// The moves between two stops; false if an axis that moves has no limits.
@@ -311,8 +353,9 @@ impl<'a> Setting<'a> {
         }
         let course = run.over(axes);
         let end = course.length();
-        let limited = limits.iter().all(|l| l.jerk.is_finite())
+        let has_jerk = limits.iter().all(|l| l.jerk.is_finite())
             && self.machine.control.interpolator != Some(Interpolator::Trapezoid);
+        let limited = has_jerk && !matches!(self.work, Work::Solve { jerk: false });
         // Stretches between level ones, and the level ones behind them.
         let levels = level(&course, &limits);
         let froms = std::iter::once(0.0).chain(levels.iter().map(|l| l[1]));
@@ -335,6 +378,12 @@ impl<'a> Setting<'a> {
                     return Ok(Some(Law::Straight(Ramp::new(to - from, states, along, &self.limits))));
                 }
                 let stretch = Part::new(&course, [*from, *to]);
+                if let Work::Count(cells) = &self.work {
+                    if has_jerk {
+                        cells.fetch_add(A * cells_of(&stretch, &limits, states)?, Ordering::Relaxed);
+                    }
+                    return Ok(None);
+                }
                 Ok(Some(if limited {
                     Law::Limited(Box::new(TimeLaw::between(&stretch, &limits, states, self.progress)?))
                 } else {
@@ -342,12 +391,21 @@ impl<'a> Setting<'a> {
                 }))
             })
             .collect();
+        if matches!(self.work, Work::Count(_)) {
+            return Ok(true);
+        }
         // Moments of the ends of moves.
         let mut ends = run.starts()[1..].iter().copied().peekable();
         let mut moments = Vec::with_capacity(places.len());
         let mut clock = 0.0;
         for ([from, to, next], law) in stretches.into_iter().zip(solved) {
             if let Some(law) = law? {
+                if has_jerk && matches!(law, Law::WithoutJerk(_)) {
+                    let starts = run.starts();
+                    let moves =
+                        starts.partition_point(|s| *s < to) - starts.partition_point(|s| *s <= from) + 1;
+                    done.without_limit_of_jerk += moves;
+                }
                 while let Some(s) = ends.next_if(|s| *s <= to) {
                     moments.push(clock + law.moment(s - from));
                 }
