@@ -26,9 +26,15 @@ pub(crate) fn terms(programs: &[(&Trace, Option<&ProgramTime>)]) -> String {
     let missing = |changes: fn(&ProgramTime) -> (usize, Option<f64>), what: &str| {
         let unknown = laws.iter().map(|time| changes(time)).filter(|c| c.1.is_none());
         let count: usize = unknown.map(|c| c.0).sum();
-        (count > 0).then(|| format!("; without {count} {what}{}", if count == 1 { "" } else { "s" }))
+        (count > 0).then(|| format!("{count} {what}{}", if count == 1 { "" } else { "s" }))
     };
-    terms.extend(missing(|time| time.tool_changes, "tool change"));
-    terms.extend(missing(|time| time.spindle_changes, "spindle ramp"));
+    let missing = [
+        missing(|time| time.tool_changes, "tool change"),
+        missing(|time| time.spindle_changes, "spindle ramp"),
+    ];
+    let missing: Vec<String> = missing.into_iter().flatten().collect();
+    if !missing.is_empty() {
+        terms += &format!("; not counted: {}", missing.join(", "));
+    }
     terms
 }

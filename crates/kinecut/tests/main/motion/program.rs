@@ -6,7 +6,8 @@ use std::f64::consts::TAU;
 use glam::DVec3;
 use kinecut::base::Silent;
 use kinecut::geom::{Arc, Rigid};
-use kinecut::machine::{CoordinateCode, Dynamics, Machine, Rapids};
+use kinecut::job::{GivenFile, ProgramWants, given_alone};
+use kinecut::machine::{CoordinateCode, Dynamics, Interpolator, Machine, Rapids};
 use kinecut::motion::{AxisLimit, ProgramTime, SCurve, axis_limits, program_time};
 use kinecut::program::{
     Blend, Frame, Move, Origin, Path, Program, Setup, SetupId, Speed, Spindle, State, Target, ToolAxis,
@@ -14,6 +15,7 @@ use kinecut::program::{
 };
 use kinecut::tool::{Cutter, Tool};
 use kinecut::trace::{CompStart, RegisterState, TraceOptions, trace};
+use kinecut::verbs::check::program_sheet;
 
 const X: AxisLimit = AxisLimit { velocity: 500.0, acceleration: 5000.0, jerk: 50_000.0 };
 const Y: AxisLimit = AxisLimit { velocity: 400.0, acceleration: 2000.0, jerk: 60_000.0 };
@@ -351,4 +353,105 @@ fn tool_changes_and_spindle_ramps_count_where_the_machine_says_them() {
     assert_eq!(time.spindle_changes.0, 2);
     same(time.spindle_changes.1.unwrap(), 3.0 * (600.0 + 800.0) / 1200.0);
     same(time.total(), silent.total() + 9.0 + 3.5);
+}
+
+#[test]
+fn an_even_circle_takes_its_way_over_its_feed_and_two_ramps() {
+    // Twenty turns of R 20 at 60 mm/s: nothing but the ends has to be solved.
+    let mut written = Written::at_feed(Blend::Continuous);
+    for _ in 0..20 {
+        let path = Path::Arc { centre: DVec3::new(20.0, 0.0, 0.0), axis: DVec3::Z, sweep: TAU, rise: 0.0 };
+        let end = Target::Tip { point: DVec3::ZERO, axis: ToolAxis::Fixed };
+        written.program.push_move(Move { end, path }, &written.state, Origin::default());
+    }
+    let time = written.time(&machine()).unwrap();
+    let way = 20.0 * TAU * 20.0;
+    // A ramp loses half its time; on the circle the slower axis Y is the one across at the start.
+    let least = way / FEED;
+    let lost = time.moves - least;
+    let ramp = |limit: AxisLimit| {
+        let long = AxisLimit { velocity: FEED, ..limit };
+        SCurve::new(1000.0, long).duration() - 1000.0 / FEED
+    };
+    assert!(
+        lost > 0.99 * ramp(X).min(ramp(Y)) && lost < 1.1 * ramp(X).max(ramp(Y)),
+        "{lost} {} {}",
+        ramp(X),
+        ramp(Y)
+    );
+    // All turns but the first and the last take the same, to the last digits.
+    let turns = &time.segments[time.segments.len() - 19..time.segments.len() - 1];
+    assert!(turns.iter().all(|t| (t - TAU * 20.0 / FEED).abs() < 1e-9), "{turns:?}");
+}
+
+#[test]
+fn junction_deviation_passes_a_corner_at_the_speed_of_its_rule() {
+    let mut machine = machine();
+    for joint in &mut machine.joints {
+        joint.dynamics = dynamics(X);
+    }
+    machine.control.interpolator = Some(Interpolator::JunctionDeviation);
+    machine.control.junction_deviation = Some(0.02);
+    let mut written = Written::at_feed(Blend::Continuous);
+    written.to([100.0, 0.0, 0.0]);
+    written.to([100.0, 100.0, 0.0]);
+    let time = written.time(&machine).unwrap();
+    let (a, v) = (X.acceleration, FEED);
+    let sine = 0.5_f64.sqrt();
+    let corner = (a * 0.02 * sine / (1.0 - sine)).sqrt();
+    // Ramps from rest and to rest, and two that end at the corner's speed; each loses (v - u)^2 / (2 a v).
+    let lost = 2.0 * v * v / (2.0 * a * v) + 2.0 * (v - corner).powi(2) / (2.0 * a * v);
+    same(time.moves, 200.0 / v + lost);
+    // A joint at which the way goes straight on is none.
+    let mut straight = Written::at_feed(Blend::Continuous);
+    straight.to([60.0, 0.0, 0.0]);
+    straight.to([100.0, 0.0, 0.0]);
+    same(straight.time(&machine).unwrap().moves, 100.0 / v + v / a);
+}
+
+#[test]
+fn an_interpolator_stops_or_forgets_jerk_as_it_says() {
+    let mut machine = machine();
+    let mut written = Written::at_feed(Blend::Continuous);
+    written.to([30.0, 0.0, 0.0]);
+    written.to([60.0, 2.0, 0.0]);
+    written.to([90.0, 0.0, 0.0]);
+    let usual = written.time(&machine).unwrap();
+    machine.control.interpolator = Some(Interpolator::ExactStop);
+    let stops = written.time(&machine).unwrap();
+    assert_eq!((stops.smoothing.stops, usual.smoothing.stops), (2, 0));
+    let legs = [[30.0, 0.0, 0.0], [30.0, 2.0, 0.0], [30.0, -2.0, 0.0]];
+    same(stops.moves, legs.iter().map(|way| straight(*way, FEED)).sum());
+    machine.control.interpolator = Some(Interpolator::Trapezoid);
+    let trapezoid = written.time(&machine).unwrap();
+    assert!(trapezoid.moves < usual.moves && usual.moves < stops.moves);
+    assert!((trapezoid.moves - usual.without_jerk).abs() < 1e-3 * trapezoid.moves);
+}
+
+#[test]
+fn a_sheet_says_under_which_terms_its_time_holds_and_where_the_feed_is_not_held() {
+    let text =
+        b"G21 G90 G94 G54\nT1 M6\nG43\nM3 S1000\nG0 X0 Y0 Z5\nG1 Z-1 F600\nG64 P0.01\nX300\nX301\nY1\nM2\n";
+    let program = GivenFile { name: "slot.ngc", bytes: text };
+    let sheet = |machine: Option<Machine>| {
+        let wants = ProgramWants { machine, ..ProgramWants::default() };
+        program_sheet(&given_alone(program, &wants, false).unwrap()).unwrap()
+    };
+    let programmed = sheet(None);
+    assert!(programmed.time_terms.starts_with("at programmed feeds"), "{}", programmed.time_terms);
+    assert_eq!((programmed.time_at_least, &programmed.feed_held), (None, &None));
+    let law = sheet(Some(machine()));
+    assert!(law.time > programmed.time && law.time_at_least.is_some_and(|t| t < law.time));
+    assert!(law.time_terms.starts_with("under the limits of the axes, at least"), "{}", law.time_terms);
+    assert!(law.time_terms.ends_with("not counted: 1 tool change, 1 spindle ramp"), "{}", law.time_terms);
+    // The long move holds its feed, the short ones beside the corner do not.
+    let held = law.feed_held.unwrap();
+    assert!(held.starts_with("held on 9") && held.contains("in line "), "{held}");
+    let mut slow = machine();
+    slow.control.tool_change = Some(4.0);
+    slow.control.max_speed = Some(1000.0 * TAU / 60.0);
+    slow.control.spindle_ramp = Some(1.5);
+    let counted = sheet(Some(slow));
+    same(counted.time, law.time + 5.5);
+    assert!(!counted.time_terms.contains("not counted"), "{}", counted.time_terms);
 }
