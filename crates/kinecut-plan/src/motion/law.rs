@@ -44,7 +44,11 @@ impl Gridded {
         Ok(Gridded { length, ends, knots })
     }
 
-    fn without_jerk<const A: usize, C: Course<A>>(&self, course: &C, limits: &[AxisLimit; A]) -> WithoutJerk {
+    fn without_jerk<const A: usize, C: Course<A>>(
+        &self,
+        course: &C,
+        limits: &[AxisLimit; A],
+    ) -> Result<WithoutJerk> {
         let mut knots = [&[0.0][..], &self.knots, &[self.length]].concat();
         knots.dedup();
         without_jerk(course, limits, knots, self.ends)
@@ -81,7 +85,7 @@ impl WithoutJerk {
         limits: &[AxisLimit; A],
         ends: [End; 2],
     ) -> Result<WithoutJerk> {
-        let law = Gridded::new(course, limits, ends)?.without_jerk(course, limits);
+        let law = Gridded::new(course, limits, ends)?.without_jerk(course, limits)?;
         if !(law.duration() > 0.0 && law.duration().is_finite()) {
             return Err(Finding::error(Code::PLAN_VALUE, "no law was found for this path").into());
         }
@@ -111,7 +115,7 @@ impl TimeLaw {
         let grid = Gridded::new(course, limits, ends)?;
         let places = places(course, limits, &grid.knots)?;
         let shape = Shape::new(&grid.knots, grid.length, &places, limits);
-        let without_jerk = grid.without_jerk(course, limits).duration();
+        let without_jerk = grid.without_jerk(course, limits)?.duration();
         let (coefficients, steps) = coefficients(course, limits, &shape, progress)?;
         let speed = Speed::new([0.0, grid.length], &grid.knots, &coefficients);
         let dilation = of_run(course, limits, &speed).dilation();

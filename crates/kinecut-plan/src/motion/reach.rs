@@ -5,7 +5,9 @@
 //! the interval `[0, K]` of speeds from which the rest of the path can be run; `K` is the smallest crossing of a lower with an
 //! upper line. Forward: as fast as may be inside of these intervals. The error is of second order in the length of cells.
 
+use super::shape::not_finite;
 use super::{AxisLimit, Course, End};
+use crate::base::Result;
 
 /// The run: the square of the speed is linear in the way inside each cell.
 #[derive(Clone, Debug)]
@@ -36,23 +38,28 @@ impl WithoutJerk {
 }
 
 /// The run without jerk limits over knots that include both ends.
+///
+/// # Errors
+/// `KC0404` where a derivative or the feed is not finite.
 pub(super) fn without_jerk<const A: usize, C: Course<A>>(
     course: &C,
     limits: &[AxisLimit; A],
     knots: Vec<f64>,
     ends: [End; 2],
-) -> WithoutJerk {
+) -> Result<WithoutJerk> {
     /// Derivatives below which an axis does not bind.
     const NONE: f64 = 1e-12;
     let n = knots.len() - 1;
-    let cells: Vec<Lines<A>> = knots
+    let cells: Result<Vec<Lines<A>>> = knots
         .windows(2)
         .map(|pair| {
             let h = pair[1] - pair[0];
             let middle = 0.5 * (pair[0] + pair[1]);
-            let jets = course.derivatives(middle);
-            let mut lines =
-                Lines { slope: [0.0; A], width: [f64::INFINITY; A], cap: course.feed(middle).powi(2) };
+            let (jets, feed) = (course.derivatives(middle), course.feed(middle));
+            if !(jets.iter().flatten().all(|d| d.is_finite()) && feed > 0.0) {
+                return Err(not_finite(middle).into());
+            }
+            let mut lines = Lines { slope: [0.0; A], width: [f64::INFINITY; A], cap: feed * feed };
             for (a, (q, limit)) in jets.iter().zip(limits).enumerate() {
                 let factor = q[1] * h + q[0];
                 if factor.abs() > NONE {
@@ -61,9 +68,10 @@ pub(super) fn without_jerk<const A: usize, C: Course<A>>(
                 }
                 lines.cap = lines.cap.min((limit.velocity / q[0].abs()).powi(2));
             }
-            lines
+            Ok(lines)
         })
         .collect();
+    let cells = cells?;
     // Largest square of the speed at each knot.
     let mut most: Vec<f64> = (0..=n)
         .map(|k| {
@@ -93,7 +101,7 @@ pub(super) fn without_jerk<const A: usize, C: Course<A>>(
         squares.push(b);
         moments.push(time);
     }
-    WithoutJerk { knots, squares, moments }
+    Ok(WithoutJerk { knots, squares, moments })
 }
 
 /// Bounds of the acceleration in a cell: `slope b - width <= u <= slope b + width` for each axis.

@@ -29,6 +29,12 @@ pub(super) struct Shape<'a, const A: usize> {
     limits: &'a [AxisLimit; A],
 }
 
+/// The error about a place [mm] at which a path cannot be run.
+pub(super) fn not_finite(s: f64) -> Finding {
+    Finding::error(Code::PLAN_VALUE, "the path cannot be run here: a derivative or its feed is not finite")
+        .value(s, "mm")
+}
+
 /// Both ends of each cell of a course.
 ///
 /// # Errors
@@ -48,13 +54,7 @@ pub(super) fn places<const A: usize, C: Course<A>>(
         }
         let finite =
             jets.iter().flatten().all(|d| d.is_finite()) && feed > 0.0 && cap > 0.0 && cap.is_finite();
-        finite.then_some(Place { jets, cap }).ok_or_else(|| {
-            Finding::error(
-                Code::PLAN_VALUE,
-                "the path cannot be run here: a derivative or its feed is not finite",
-            )
-            .value(s, "mm")
-        })
+        finite.then_some(Place { jets, cap }).ok_or_else(|| not_finite(s))
     };
     let mut places = Vec::with_capacity(knots.len() - 1);
     for pair in knots.windows(2) {
