@@ -60,8 +60,7 @@ pub(super) fn coefficients<const A: usize, C: Course<A>>(
     };
     let bounds: Vec<usize> = [&[0][..], &seams, &[n]].concat();
     let ranges: Vec<Range<usize>> = bounds.windows(2).map(|b| b[0]..b[1]).collect();
-    let windows: Result<Vec<Window>> =
-        ranges.clone().into_par_iter().with_max_len(1).map(|own| solve(own)).collect();
+    let windows: Result<Vec<Window>> = ranges.clone().into_par_iter().with_max_len(1).map(&solve).collect();
     let windows = windows?;
     let mut steps: u32 = windows.iter().map(|w| w.steps).sum();
     // Windows with the cells that they answer for, and the joint of each with the one before.
