@@ -120,7 +120,7 @@ impl TimeLaw {
         let speed = Speed::new([0.0, grid.length], &grid.knots, &coefficients);
         let dilation = of_run(course, limits, &speed).dilation();
         let speed = if dilation > 1.0 { speed.slower(dilation) } else { speed };
-        if !speed.duration().is_finite() {
+        if !(speed.duration().is_finite() && dilation.is_finite()) {
             return Err(Finding::error(Code::PLAN_VALUE, "no law was found for this path").into());
         }
         Ok(TimeLaw { speed, without_jerk, dilation, steps })

@@ -46,20 +46,26 @@ impl Shares {
         worst
     }
 
-    /// The larger of each.
+    /// The larger of each; not a number where one of them is none.
     pub fn max(self, other: Shares) -> Shares {
         Shares {
-            velocity: self.velocity.max(other.velocity),
-            acceleration: self.acceleration.max(other.acceleration),
-            jerk: self.jerk.max(other.jerk),
+            velocity: larger(self.velocity, other.velocity),
+            acceleration: larger(self.acceleration, other.acceleration),
+            jerk: larger(self.jerk, other.jerk),
         }
     }
 
     /// Factor of time that brings all of them to at most 1: speeds fall with it, accelerations with its square, jerks with
     /// its cube.
     pub fn dilation(self) -> f64 {
-        self.velocity.max(self.acceleration.sqrt()).max(self.jerk.cbrt()).max(1.0)
+        let second = larger(self.velocity, self.acceleration.sqrt());
+        larger(larger(1.0, second), self.jerk.cbrt())
     }
+}
+
+/// The larger of two; not a number if one of them is none.
+fn larger(a: f64, b: f64) -> f64 {
+    if b > a || b.is_nan() { b } else { a }
 }
 
 /// Shares in each of these cells.
