@@ -15,6 +15,14 @@ pub(crate) fn terms(programs: &[(&Trace, Option<&ProgramTime>)]) -> String {
     };
     let least = laws.iter().map(|time| time.least()).sum();
     let mut terms = format!("under the limits of the axes, at least {}", page::duration(least));
+    let smoothed: usize = laws.iter().map(|time| time.smoothing.smoothed).sum();
+    if smoothed > 0 {
+        let farthest = laws.iter().map(|time| time.smoothing.farthest).fold(0.0, f64::max);
+        // Rounded up: never kinder than it is.
+        let off = page::fixed((farthest * 1e3).ceil() / 1e3, 3);
+        let joints = if smoothed == 1 { "joint" } else { "joints" };
+        terms += &format!("; {smoothed} {joints} smoothed, at most {off} mm off the path");
+    }
     let too_many: usize = laws.iter().map(|time| time.without_limit_of_jerk).sum();
     if too_many > 0 {
         terms += &format!("; jerk not counted on {too_many} moves, they are too many");
