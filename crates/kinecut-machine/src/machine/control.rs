@@ -1,4 +1,4 @@
-//! What a machine as a whole adds to the limits of its axes.
+//! Values of a machine that are of no single axis.
 
 use super::Interpolator;
 use crate::base::{Code, Finding, Result};
@@ -10,7 +10,7 @@ pub struct MotionControl {
     pub max_feed: Option<f64>,
     /// Largest speed of the spindle [rad/s].
     pub max_speed: Option<f64>,
-    /// How the control runs along a path.
+    /// The control's way of running along a path.
     pub interpolator: Option<Interpolator>,
     /// Distance by which the control may leave the programmed path to smooth corners and steps of curvature [mm]; zero: it
     /// stops in every corner.

@@ -1,9 +1,9 @@
-//! How a control runs along a path.
+//! Ways in which controls run along a path.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// What a control holds on its way along a path, and what it does where two moves meet.
+/// Limits that a control keeps along a path, and its way of passing the joint of two moves.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Interpolator {

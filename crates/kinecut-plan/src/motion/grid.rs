@@ -1,6 +1,7 @@
 //! Knots of a time law: close together at stops and where the shape of the path changes.
 
 use super::{AxisLimit, Course, End};
+use crate::base::{Code, Finding, Result};
 
 /// Length of a cell over its distance from the nearest stop or knot.
 const GRADE: f64 = 0.045;
@@ -16,21 +17,28 @@ const FEATURE_GRADE: f64 = 0.1;
 const REST: f64 = 2e-4;
 /// The same over the length of the path.
 const REST_SHARE: f64 = 0.01;
+/// Least length of the cell at rest over that of the path: far above the rounding of a place on it.
+const REST_LEAST: f64 = 1e-10;
 /// Fewest cells.
 const FEWEST: usize = 8;
+/// Most cells of one course: a gigabyte and a half.
+const MOST: usize = 2_000_000;
 
 /// Knots, from the end of the cell in which the path leaves its rest to the start of that in which it comes to rest; at even
 /// ends from the start or to the end of the path.
 ///
 /// `at_speed` is the way in which the path gets to its feed under the limits of its axes [mm].
+///
+/// # Errors
+/// `KC0404` for a path that turns so fast that it asks for millions of cells.
 pub(super) fn knots<const A: usize, C: Course<A>>(
     course: &C,
     limits: &[AxisLimit; A],
     at_speed: f64,
     ends: [End; 2],
-) -> Vec<f64> {
+) -> Result<Vec<f64>> {
     let length = course.length();
-    let rest = (REST * at_speed).min(REST_SHARE * length);
+    let rest = (REST * at_speed).clamp(REST_LEAST * length, REST_SHARE * length);
     // Features that are closer together than the speed can follow count as one.
     let mut features: Vec<f64> = Vec::with_capacity(course.knots().len());
     for place in course.knots() {
@@ -81,11 +89,18 @@ pub(super) fn knots<const A: usize, C: Course<A>>(
         let end = features.get(next).copied().unwrap_or(f64::INFINITY);
         s = if s + 1.5 * h > end { end } else { s + h };
         knots.push(s);
+        if knots.len() > MOST {
+            let what = "the path turns so fast that its time law asks for too many cells";
+            return Err(Finding::error(Code::PLAN_VALUE, what)
+                .value(knots.len() as f64, "cells")
+                .bound(MOST as f64, "cells")
+                .into());
+        }
     }
     // The last one lies where the cell at rest begins.
     while knots.last().is_some_and(|k| *k > last - 0.25 * rest) {
         knots.pop();
     }
     knots.push(last);
-    knots
+    Ok(knots)
 }

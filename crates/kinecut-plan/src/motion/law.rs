@@ -40,7 +40,7 @@ impl Gridded {
         if !(at_speed > 0.0) {
             return Err(Finding::error(Code::PLAN_VALUE, "a path needs a feed").bound(0.0, "mm/s").into());
         }
-        let knots = grid::knots(course, limits, at_speed, ends);
+        let knots = grid::knots(course, limits, at_speed, ends)?;
         Ok(Gridded { length, ends, knots })
     }
 
@@ -131,9 +131,8 @@ impl TimeLaw {
         self.speed.duration()
     }
 
-    /// Time of the fastest run without a limit of jerk [s]: no run that keeps the limits is faster.
-    ///
-    /// Computed on the same cells; its error is of second order in their length.
+    /// Time of the fastest run without a limit of jerk [s]. No run that keeps the limits is faster but by the error of this
+    /// number, which is computed on the same cells: of second order in their length.
     pub fn without_jerk(&self) -> f64 {
         self.without_jerk
     }

@@ -28,7 +28,7 @@ pub use course::Course;
 pub use end::End;
 pub use law::TimeLaw;
 pub use pointwise::{Limits, RunLaw, RunPoint, pointwise};
-pub use program::{ProgramTime, Smoothing, axis_limits, program_time};
+pub use program::{Changes, ProgramTime, Smoothing, axis_limits, program_time};
 pub use reach::WithoutJerk;
 pub use s_curve::{Moment, SCurve};
 pub use shares::Shares;

@@ -26,6 +26,11 @@ impl WithoutJerk {
         self.moments[self.moments.len() - 1]
     }
 
+    /// Rates of the parameter at both ends [mm/s].
+    pub(super) fn ends(&self) -> [f64; 2] {
+        [self.squares[0].sqrt(), self.squares[self.squares.len() - 1].sqrt()]
+    }
+
     /// Moment [s] at which the path reaches a place [mm].
     pub fn moment(&self, s: f64) -> f64 {
         let n = self.knots.len() - 1;

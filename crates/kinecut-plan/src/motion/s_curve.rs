@@ -78,11 +78,6 @@ impl SCurve {
         self.peaks[1]
     }
 
-    /// Time of its last phase of jerk [s].
-    pub fn last_phase(&self) -> f64 {
-        self.phases[0]
-    }
-
     /// The motion at a moment `time` [s] after the start; at rest before and after.
     pub fn at(&self, time: f64) -> Moment {
         let total = self.duration();

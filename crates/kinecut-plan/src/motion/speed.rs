@@ -134,6 +134,16 @@ impl Speed {
         self.cell(k, s - self.knots[k])
     }
 
+    /// Rate of the parameter at the end [mm/s]: zero where the run comes to rest.
+    pub(super) fn last(&self) -> f64 {
+        if self.rests()[1] > 0.0 { 0.0 } else { self.square(self.stops[1])[0].sqrt() }
+    }
+
+    /// Rate of the parameter at the start [mm/s].
+    pub(super) fn first(&self) -> f64 {
+        if self.rests()[0] > 0.0 { 0.0 } else { self.square(self.stops[0])[0].sqrt() }
+    }
+
     /// Place [mm] at a moment [s] after the start.
     pub fn place(&self, time: f64) -> f64 {
         let n = self.cells();

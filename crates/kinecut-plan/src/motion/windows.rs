@@ -155,7 +155,7 @@ fn window<const A: usize, C: Course<A>>(
     Window { cells, coefficients: scale, steps }
 }
 
-/// How far a stop has influence.
+/// Influence of a stop over the cells.
 struct Reach {
     /// Up to each knot, the length of each cell over the way to a stop from its speed, added up.
     sums: Vec<f64>,

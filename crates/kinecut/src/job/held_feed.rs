@@ -40,7 +40,7 @@ impl HeldFeed {
         all
     }
 
-    /// The share, and of the move that loses most the line of the text and its feeds; nothing where nothing moves at feed.
+    /// The share, and the line and feeds of the move that loses most time; nothing where nothing moves at feed.
     pub(crate) fn words(&self, line: impl Fn(u32) -> Option<u32>) -> Option<(String, String)> {
         if self.way <= 0.0 {
             return None;

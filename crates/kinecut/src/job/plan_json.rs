@@ -37,9 +37,9 @@ struct SetupJson<'a> {
     time: f64,
     /// Whether rapids are in the time.
     time_has_rapids: bool,
-    /// Time below which no run under these limits can be [s].
+    /// The same if jerk had no limit [s].
     #[serde(skip_serializing_if = "Option::is_none")]
-    time_at_least: Option<f64>,
+    time_without_jerk_limit: Option<f64>,
     /// Distance of the posted text from the plan [mm]; none of a program that others wrote.
     #[serde(skip_serializing_if = "Option::is_none")]
     read_back: Option<&'a ReadBack>,
@@ -163,7 +163,7 @@ fn setup(outcome: &Outcome, index: usize) -> SetupJson<'_> {
         control: s.control(&outcome.job).name(),
         time: s.seconds(),
         time_has_rapids: s.time.is_some() || s.trace.duration().1,
-        time_at_least: s.time.as_ref().map(ProgramTime::least),
+        time_without_jerk_limit: s.time.as_ref().map(ProgramTime::total_without_jerk),
         read_back: s.external.is_none().then_some(&s.read_back),
         move_count: segments().count(),
         moves: s.external.is_none().then(|| moves.collect()),

@@ -128,6 +128,11 @@ pub(crate) fn run_checked(
         progress.stage("time", moves);
         for s in &mut setups {
             s.time = program_time(&s.program, &s.trace, machine, progress)?;
+            found.extend(s.time.as_ref().and_then(|time| time.reason.clone()).map(|mut reason| {
+                let line = reason.item.take().and_then(|item| s.lines.get(item as usize).copied().flatten());
+                reason.place = line_place(&s.file, &s.posted.text, line);
+                reason
+            }));
         }
     }
     let subjects = subjects(inputs, &setups);

@@ -41,8 +41,8 @@ pub struct ProgramSheet {
     pub feed_length: f64,
     /// Time [s]: under the limits of the machine's axes where they are known, else at the programmed speeds.
     pub time: f64,
-    /// Time below which no run under these limits can be [s].
-    pub time_at_least: Option<f64>,
+    /// The same if jerk had no limit [s].
+    pub time_without_jerk_limit: Option<f64>,
     /// Whether rapid moves are in the time.
     pub time_has_rapids: bool,
     /// Terms of the time, in words.
@@ -86,11 +86,13 @@ pub fn program_sheet(given: &GivenJob) -> Result<ProgramSheet> {
             Finding::warning(Code::NC_STATE, "the program moves nothing").help("is it the right file?"),
         );
     }
-    findings.sort_by_key(|f| std::cmp::Reverse(f.severity));
     let law = match &job.machine {
         Some(machine) => program_time(read, &done.trace, machine, &Silent)?,
         None => None,
     };
+    let reason = law.as_ref().and_then(|law| law.reason.clone());
+    findings.extend(reason.map(|f| *at_block(f.into(), program, &done.lines).0));
+    findings.sort_by_key(|f| std::cmp::Reverse(f.severity));
     let (programmed, time_has_rapids) = done.trace.duration();
     let counted = || done.trace.segments.iter().filter(|s| !s.alternative);
     let remarks = done.unfollowed.iter().map(ToString::to_string);
@@ -113,14 +115,14 @@ pub fn program_sheet(given: &GivenJob) -> Result<ProgramSheet> {
             .filter(|s| s.motion != SegmentPace::Rapid)
             .fold(0.0, |sum, s| sum + s.curve.length()),
         time: law.as_ref().map_or(programmed, ProgramTime::total),
-        time_at_least: law.as_ref().map(ProgramTime::least),
+        time_without_jerk_limit: law.as_ref().map(ProgramTime::total_without_jerk),
         time_has_rapids: time_has_rapids || law.is_some(),
         feed_held: law.as_ref().and_then(|law| {
             let line = |item: u32| done.lines.get(item as usize).copied().flatten();
             let (held, slowest) = HeldFeed::of(&done.trace, law).words(line)?;
             Some(if slowest.is_empty() { held } else { format!("{held}; {slowest}") })
         }),
-        time_terms: terms(&[(&done.trace, law.as_ref())]),
+        time_terms: terms(&[(&done.trace, law.as_ref())], job.machine.as_ref()),
         findings,
         remarks: remarks.collect(),
     })

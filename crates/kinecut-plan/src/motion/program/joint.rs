@@ -20,7 +20,7 @@ pub(super) struct Step {
     pub(super) second: [f64; AXES],
 }
 
-/// How far a control may leave the path at joints: linear axes [mm], rotary ones [rad].
+/// Distances by which a control may leave the path at joints: linear axes [mm], rotary ones [rad].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Tolerance {
     pub(super) way: f64,
@@ -106,6 +106,12 @@ impl Step {
 }
 
 impl Joint {
+    /// Places at which the path is left most: a step of direction counts at the joint, one of curvature at a quarter of
+    /// each half [mm].
+    pub(super) fn marks(&self) -> [f64; 5] {
+        [-0.5, -0.25, 0.0, 0.25, 0.5].map(|part| self.at + part * self.half)
+    }
+
     /// Adds what the smoothing changes to the derivatives of the axes at a place [mm].
     pub(super) fn smooth(&self, s: f64, jets: &mut [[f64; 3]; AXES]) {
         let half = self.half;

@@ -5,9 +5,9 @@ use super::joint::{AXES, Joint};
 /// Joints that are passed without a stop, with what is needed to find those whose smoothing covers a place.
 pub(super) struct Joints {
     all: Vec<Joint>,
-    /// How far the smoothing of any joint up to each one reaches [mm].
+    /// End of the farthest smoothing of the joints up to each one [mm].
     reached: Vec<f64>,
-    /// Where the first smoothing of any joint from each one on begins [mm].
+    /// Start of the first smoothing of the joints from each one on [mm].
     begun: Vec<f64>,
     /// Length of cells at each joint [mm].
     sizes: Vec<f64>,
@@ -29,12 +29,13 @@ impl Joints {
         joints.index();
         for _ in 0..ROUNDS {
             let mut factors = vec![1.0_f64; joints.all.len()];
-            for (i, allowed) in allowed.iter().enumerate() {
-                let left = joints.left_at(joints.all[i].at);
-                if left > allowed * CLOSE {
-                    let at = joints.all[i].at;
-                    let factor = (allowed / left).max(0.25);
-                    joints.indices(at, |k| factors[k] = factors[k].min(factor));
+            for (joint, allowed) in joints.all.iter().zip(allowed) {
+                for s in joint.marks() {
+                    let left = joints.left_at(s);
+                    if left > allowed * CLOSE {
+                        let factor = (allowed / left).max(0.25);
+                        joints.indices(s, |k| factors[k] = factors[k].min(factor));
+                    }
                 }
             }
             if factors.iter().all(|f| *f == 1.0) {
@@ -121,9 +122,10 @@ impl Joints {
         shift[..3].iter().map(|v| v * v).sum::<f64>().sqrt()
     }
 
-    /// Largest distance from the programmed path at the joints, of the linear axes [mm].
+    /// Largest distance from the programmed path, of the linear axes [mm]: at the joints and at quarters of their
+    /// smoothings.
     pub(super) fn farthest(&self) -> f64 {
-        self.all.iter().map(|j| self.left_at(j.at)).fold(0.0, f64::max)
+        self.all.iter().flat_map(Joint::marks).map(|s| self.left_at(s)).fold(0.0, f64::max)
     }
 
     /// True if no smoothing reaches over a place but that of the joint there [mm].

@@ -6,8 +6,8 @@
 
 use super::super::AxisLimit;
 use super::joint::AXES;
+use super::run::Piece;
 use super::straight::along;
-use crate::trace::AxisPath;
 
 /// Distance of a chord from its curve [mm]: Grbl's setting $12.
 const CHORD: f64 = 0.002;
@@ -16,7 +16,7 @@ const MOST_CHORDS: f64 = 100_000.0;
 
 /// A chord.
 struct Block {
-    /// Which of the moves it belongs to.
+    /// Index of its move.
     piece: usize,
     length: f64,
     limit: AxisLimit,
@@ -24,14 +24,14 @@ struct Block {
     unit: [f64; AXES],
 }
 
-/// Time of each move [s] of a sequence without a stop; moves are axes with the rate of their parameter [mm/s].
+/// Time of each move [s] of a sequence without a stop; `None` if an axis that moves has no limits.
 pub(super) fn junction_times(
-    pieces: &[(AxisPath, f64)],
+    pieces: &[Piece],
     deviation: f64,
     limits: &[Option<AxisLimit>; AXES],
-) -> Vec<f64> {
+) -> Option<Vec<f64>> {
     let mut blocks: Vec<Block> = Vec::new();
-    for (i, (path, feed)) in pieces.iter().enumerate() {
+    for (i, Piece { path, feed }) in pieces.iter().enumerate() {
         let length = path.length();
         let bend = path.at(0.5 * length).iter().map(|jet| jet.d2 * jet.d2).sum::<f64>().sqrt();
         // A chord of length c is c^2 k / 8 from an arc of curvature k.
@@ -43,6 +43,9 @@ pub(super) fn junction_times(
             let mut rates = [0.0; AXES];
             for a in 0..AXES {
                 rates[a] = (after[a] - before[a]) / step;
+            }
+            if rates.iter().zip(limits).any(|(rate, limit)| *rate != 0.0 && limit.is_none()) {
+                return None;
             }
             let size = rates.iter().map(|r| r * r).sum::<f64>().sqrt();
             if size > 0.0 {
@@ -80,5 +83,5 @@ pub(super) fn junction_times(
         let even = (block.length - ramps).max(0.0);
         times[block.piece] += (2.0 * top - v0 - v1) / a + if even > 0.0 { even / top } else { 0.0 };
     }
-    times
+    Some(times)
 }

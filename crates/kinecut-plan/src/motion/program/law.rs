@@ -38,6 +38,15 @@ impl Law {
         }
     }
 
+    /// Rates of the parameter at both ends [mm/s].
+    pub(super) fn ends(&self) -> [f64; 2] {
+        match self {
+            Law::Straight(ramp) => ramp.rates(),
+            Law::Limited(law) => [law.speed().first(), law.speed().last()],
+            Law::WithoutJerk(law) => law.ends(),
+        }
+    }
+
     /// Factor by which it was slowed.
     pub(super) fn dilation(&self) -> f64 {
         if let Law::Limited(law) = self { law.dilation() } else { 1.0 }

@@ -1,18 +1,23 @@
 //! The time of a program on a machine.
 
 mod axis_limits;
+mod changes;
 mod joint;
 mod joints;
 mod junction;
 mod law;
+mod leg;
 mod level;
 mod passing;
 mod program_time;
 mod ramp;
 mod run;
+mod setting;
 mod straight;
+mod stretch;
+mod swing;
 mod times;
 
 pub use axis_limits::axis_limits;
-pub use program_time::{ProgramTime, Smoothing};
+pub use program_time::{Changes, ProgramTime, Smoothing};
 pub use times::program_time;

@@ -11,6 +11,8 @@ type Limits = [Option<AxisLimit>; AXES];
 pub(super) struct Between {
     pub(super) step: Step,
     pub(super) tolerance: Tolerance,
+    /// True if an axis turns on the spot there.
+    pub(super) on_the_spot: bool,
 }
 
 /// End of a move.
@@ -21,9 +23,9 @@ pub(super) enum Passing {
 }
 
 /// For each joint: a stop, or the way in which it is passed.
-pub(super) fn passings(pieces: &[(usize, Piece)], joints: &[Between], limits: &Limits) -> Vec<Passing> {
+pub(super) fn passings(pieces: &[Piece], joints: &[Between], limits: &Limits) -> Vec<Passing> {
     // Way from each joint to the next one at which the tool may have to be slow, backward and forward.
-    let length = |i: usize| pieces[i].1.path.length();
+    let length = |i: usize| pieces[i].path.length();
     let mut back = vec![0.0; joints.len()];
     let mut way = 0.0;
     for (i, joint) in joints.iter().enumerate() {
@@ -37,7 +39,7 @@ pub(super) fn passings(pieces: &[(usize, Piece)], joints: &[Between], limits: &L
     let mut way = 0.0;
     for (i, joint) in joints.iter().enumerate().rev() {
         way += length(i + 1);
-        ends.push(passing([&pieces[i].1, &pieces[i + 1].1], joint, [back[i], way], limits));
+        ends.push(passing([&pieces[i], &pieces[i + 1]], joint, [back[i], way], limits));
         if joint.step.is_sharp() {
             way = 0.0;
         }
@@ -49,7 +51,10 @@ pub(super) fn passings(pieces: &[(usize, Piece)], joints: &[Between], limits: &L
 fn passing(pieces: [&Piece; 2], joint: &Between, ways: [f64; 2], limits: &Limits) -> Passing {
     /// Share of the limits that a joint may use up at the feed: the path beside it needs some, too.
     const SHARE: f64 = 0.5;
-    let Between { step, tolerance } = joint;
+    let Between { step, tolerance, on_the_spot } = joint;
+    if *on_the_spot {
+        return Passing::Stop;
+    }
     if step.is_none() {
         return Passing::Passed(None, tolerance.way);
     }

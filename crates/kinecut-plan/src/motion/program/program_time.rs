@@ -1,5 +1,6 @@
 //! Time of a program.
 
+use super::passing::Passing;
 use crate::base::Finding;
 
 /// Time of a program on a machine.
@@ -9,23 +10,39 @@ pub struct ProgramTime {
     pub segments: Vec<f64>,
     /// All moves [s].
     pub moves: f64,
-    /// All moves where jerk has no limit [s]: no run is faster.
+    /// All moves where jerk has no limit [s], the joints passed as they are here.
     pub without_jerk: f64,
     /// Waits that the program asks for [s].
     pub dwells: f64,
-    /// Tool changes: their number, and their time where the machine says it [s].
-    pub tool_changes: (usize, Option<f64>),
-    /// Starts, stops and changes of the spindle's speed: their number, and their time where the machine says it [s].
-    pub spindle_changes: (usize, Option<f64>),
+    /// Tool changes.
+    pub tool_changes: Changes,
+    /// Starts and changes of the spindle's speed.
+    pub spindle_changes: Changes,
     /// Joints of moves.
     pub smoothing: Smoothing,
     /// Largest factor by which a run was slowed so that every limit holds.
     pub dilation: f64,
-    /// Moves on which the limit of jerk does not count: of a program with too many of them that are not run evenly.
-    pub without_limit_of_jerk: usize,
-    /// Moves that count with their programmed time, because the law of their stretch was refused: their number, and the
-    /// item of the first with the reason.
-    pub refused: (usize, Option<(u32, Finding)>),
+    /// True if the limits have one of jerk.
+    pub limits_jerk: bool,
+    /// Moves on which the limit of jerk does not count: of a program with too many of them that are not run evenly, or where
+    /// some of their axes have one and others have none.
+    pub jerk_left_out: usize,
+    /// Moves that count with their programmed time, because their stretch has no law.
+    pub refused: usize,
+    /// Note about them, at the item of the first, with its reason.
+    pub reason: Option<Finding>,
+    /// Turns of rotary axes on the spot that are in the time [s]: where the tool begins to leave the direction of a rotary
+    /// axis, that axis must turn first.
+    pub swings: f64,
+}
+
+/// Changes for which the path waits.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Changes {
+    /// Their number.
+    pub count: usize,
+    /// Their time [s], where the machine states it.
+    pub time: Option<f64>,
 }
 
 /// Joints of moves at feed.
@@ -37,23 +54,35 @@ pub struct Smoothing {
     pub smoothed: usize,
     /// Joints at which the tool stops.
     pub stops: usize,
-    /// Largest distance from the programmed path at smoothed joints, of linear axes [mm].
+    /// Largest distance from the programmed path at smoothed joints and at quarters of their smoothings, of linear axes [mm].
     pub farthest: f64,
 }
 
 impl ProgramTime {
     /// Time of the program [s]: moves, waits, and what is known of tool changes and spindle.
     pub fn total(&self) -> f64 {
-        self.moves + self.dwells + self.tool_changes.1.unwrap_or(0.0) + self.spindle_changes.1.unwrap_or(0.0)
+        let changes = [self.tool_changes, self.spindle_changes].map(|changes| changes.time.unwrap_or(0.0));
+        self.moves + self.dwells + changes[0] + changes[1]
     }
 
-    /// Time below which no run of the program can be [s].
-    pub fn least(&self) -> f64 {
+    /// Time of the program where jerk has no limit [s]: the same joints, waits and changes.
+    pub fn total_without_jerk(&self) -> f64 {
         self.total() - self.moves + self.without_jerk
     }
 }
 
 impl Smoothing {
+    /// Counts these joints, too.
+    pub(super) fn count(&mut self, passings: &[Passing]) {
+        for passing in passings {
+            match passing {
+                Passing::Passed(Some(_), _) => self.smoothed += 1,
+                Passing::Passed(None, _) => self.smooth += 1,
+                Passing::Stop => self.stops += 1,
+            }
+        }
+    }
+
     /// Counts the joints of another stretch, too.
     pub(super) fn add(&mut self, other: &Smoothing) {
         self.smooth += other.smooth;

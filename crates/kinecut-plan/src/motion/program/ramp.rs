@@ -3,13 +3,12 @@
 use super::super::{AxisLimit, End, SCurve};
 use super::joint::AXES;
 
-/// A straight stretch between two ends.
+/// A straight stretch with a rest at one end at least.
 pub(super) struct Ramp {
     curve: SCurve,
     without_jerk: SCurve,
     ends: [End; 2],
     length: f64,
-    feed: f64,
 }
 
 impl Ramp {
@@ -29,13 +28,11 @@ impl Ramp {
             without_jerk: SCurve::new(times * length, no_jerk),
             ends,
             length,
-            feed: own.velocity,
         }
     }
 
     fn time(&self, curve: &SCurve) -> f64 {
         match self.ends {
-            [End::Even, End::Even] => self.length / self.feed,
             [End::Rest, End::Rest] => curve.duration(),
             _ => 0.5 * curve.duration(),
         }
@@ -51,12 +48,16 @@ impl Ramp {
         self.time(&self.without_jerk)
     }
 
+    /// Rates at both ends [mm/s].
+    pub(super) fn rates(&self) -> [f64; 2] {
+        self.ends.map(|end| if end == End::Rest { 0.0 } else { self.curve.peak() })
+    }
+
     /// Moment [s] at which a place is reached [mm].
     pub(super) fn moment(&self, s: f64) -> f64 {
         match self.ends {
-            [End::Even, End::Even] => s / self.feed,
             [End::Rest, _] => self.curve.moment(s),
-            [End::Even, End::Rest] => {
+            [End::Even, _] => {
                 let half = 0.5 * self.curve.duration();
                 self.curve.moment(self.length + s) - half
             }

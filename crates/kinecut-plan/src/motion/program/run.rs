@@ -70,7 +70,7 @@ impl<'a> Run<'a> {
         Run { pieces, starts, joints, knots }
     }
 
-    /// Largest distance from the programmed path at the joints, of the linear axes [mm].
+    /// Largest distance from the programmed path that smoothings make, of the linear axes [mm].
     pub(super) fn farthest(&self) -> f64 {
         self.joints.farthest()
     }
@@ -80,7 +80,7 @@ impl<'a> Run<'a> {
         &self.starts
     }
 
-    /// Places in the middle of the smoothings at both ends of a move, as far as they lie in it [mm].
+    /// Places in the middle of the smoothings at both ends of a move, those outside of it left out [mm].
     pub(super) fn marks(&self, i: usize) -> [Option<f64>; 2] {
         let [from, to] = [self.starts[i], self.starts[i + 1]];
         let inside = |s: f64| (from < s && s < to).then_some(s);

@@ -95,7 +95,9 @@ fn verdict(outcome: &Outcome) -> ReportVerdict {
     verdict.sentence = outcome.verdict.sentence();
     let time: f64 = outcome.setups.iter().map(SetupOutcome::seconds).sum();
     let times: Vec<_> = outcome.setups.iter().map(|s| (&s.trace, s.time.as_ref())).collect();
-    verdict.facts.push(Fact::new("Time", page::duration(time)).note(terms(&times)));
+    verdict
+        .facts
+        .push(Fact::new("Time", page::duration(time)).note(terms(&times, outcome.job.machine.as_ref())));
     for s in &outcome.setups {
         let line = |item: u32| s.lines.get(item as usize).copied().flatten();
         let held = s.time.as_ref().and_then(|law| HeldFeed::of(&s.trace, law).words(line));

@@ -2,6 +2,7 @@
 
 pub(crate) mod burr_golden;
 pub(crate) mod drawing;
+pub(crate) mod end_mill;
 pub(crate) mod fixture;
 pub(crate) mod golden;
 pub(crate) mod job;

@@ -112,3 +112,32 @@ fn a_feed_that_is_none_is_refused_everywhere_and_in_places() {
         }
     }
 }
+
+#[test]
+fn a_long_way_at_hardly_any_feed_has_an_end() {
+    for (length, feed) in [(1e3, 1e-5), (1e5, 1e-7)] {
+        let law = TimeLaw::new(&Wrong { length, feed, ..Wrong::new() }, &[USUAL]).unwrap();
+        assert!((law.duration() * feed / length - 1.0).abs() < 1e-6, "{length} {feed}: {}", law.duration());
+    }
+}
+
+#[test]
+fn a_course_that_turns_without_measure_is_refused_before_it_fills_the_memory() {
+    struct Wound;
+    impl Course<1> for Wound {
+        fn length(&self) -> f64 {
+            100.0
+        }
+        fn derivatives(&self, _: f64) -> [[f64; 3]; 1] {
+            [[1.0, 1e9, 0.0]]
+        }
+        fn feed(&self, _: f64) -> f64 {
+            1e-3
+        }
+        fn knots(&self) -> &[f64] {
+            &[]
+        }
+    }
+    let error = TimeLaw::new(&Wound, &[USUAL]).unwrap_err();
+    assert_eq!(error.0.bound.as_ref().map(|b| b.value), Some(2e6), "{error}");
+}

@@ -8,25 +8,13 @@ use kinecut::machine::{CoordinateCode, Dynamics, Machine};
 use kinecut::program::{
     Cycle, Frame, Move, Origin, Program, Setup, SetupId, Speed, Spindle, State, Target, WorkOffset,
 };
-use kinecut::tool::{Cutter, Tool, ToolNumber};
+use kinecut::tool::{Tool, ToolNumber};
 use kinecut::trace::{CompStart, TraceOptions, trace, travel_findings};
 
+use crate::common::end_mill::end_mill;
+
 fn tool() -> Tool {
-    Tool {
-        number: ToolNumber(1),
-        name: "end mill".into(),
-        cutter: Cutter::EndMill { diameter: 10.0 },
-        teeth: 2,
-        spacing: Default::default(),
-        flute_length: 20.0,
-        stickout: 40.0,
-        shank_diameter: 10.0,
-        holder: None,
-        centre_cutting: true,
-        max_ramp_angle: None,
-        gauge_length: Some(100.0),
-        limits: Default::default(),
-    }
+    end_mill(1, 100.0)
 }
 
 fn machine() -> Machine {

@@ -12,8 +12,10 @@ use kinecut::program::{
     ToolNumber, WorkOffset,
 };
 use kinecut::sweep::ToolMotion;
-use kinecut::tool::{Cutter, Tool};
+use kinecut::tool::Tool;
 use kinecut::trace::{CompStart, Segment, Trace, TraceOptions, trace, travel_findings};
+
+use crate::common::end_mill::end_mill;
 
 const LENGTH: f64 = 120.0;
 
@@ -30,21 +32,7 @@ pub(super) fn machine(code: &str) -> Machine {
 }
 
 fn tool() -> Tool {
-    Tool {
-        number: ToolNumber(1),
-        name: "end mill".into(),
-        cutter: Cutter::EndMill { diameter: 10.0 },
-        teeth: 2,
-        spacing: Default::default(),
-        flute_length: 20.0,
-        stickout: 40.0,
-        shank_diameter: 10.0,
-        holder: None,
-        centre_cutting: true,
-        max_ramp_angle: None,
-        gauge_length: Some(LENGTH),
-        limits: Default::default(),
-    }
+    end_mill(1, LENGTH)
 }
 
 const WORK: DVec3 = DVec3::new(30.0, -20.0, 15.0);

@@ -1,0 +1,71 @@
+//! The machine and its control, as the time of a program needs them.
+
+use super::super::AxisLimit;
+use super::axis_limits;
+use super::joint::{AXES, Tolerance};
+use crate::base::Progress;
+use crate::machine::{Interpolator, Machine};
+use crate::program::{Blend, Program};
+
+/// Distance by which a control leaves the path at a corner where neither program nor machine says one [mm].
+const USUAL_TOLERANCE: f64 = 0.01;
+/// The same for rotary axes [rad].
+const USUAL_TURN_TOLERANCE: f64 = 0.05 * std::f64::consts::PI / 180.0;
+/// Joint deviation of a control that looks ahead by it, where the machine says none [mm]: Grbl's setting $11.
+const USUAL_DEVIATION: f64 = 0.01;
+
+/// Machine, control and the caller who waits.
+pub(super) struct Setting<'a> {
+    pub(super) machine: &'a Machine,
+    pub(super) progress: &'a dyn Progress,
+    /// Limits of the axes; jerk is not limited where the control does not limit it.
+    pub(super) limits: [Option<AxisLimit>; AXES],
+}
+
+impl<'a> Setting<'a> {
+    pub(super) fn new(machine: &'a Machine, progress: &'a dyn Progress) -> Setting<'a> {
+        let mut limits = axis_limits(machine);
+        if matches!(
+            machine.control.interpolator,
+            Some(Interpolator::Trapezoid | Interpolator::JunctionDeviation)
+        ) {
+            limits = without_jerk(&limits);
+        }
+        Setting { machine, progress, limits }
+    }
+
+    /// True if some axis has a limit of jerk.
+    pub(super) fn limits_jerk(&self) -> bool {
+        self.limits.iter().flatten().any(|limit| limit.jerk.is_finite())
+    }
+
+    /// The deviation of a control that looks ahead by it [mm]; `None` of another control.
+    pub(super) fn junction_deviation(&self) -> Option<f64> {
+        let control = &self.machine.control;
+        let looks_ahead = control.interpolator == Some(Interpolator::JunctionDeviation);
+        looks_ahead.then(|| control.junction_deviation.unwrap_or(USUAL_DEVIATION))
+    }
+
+    /// Distance by which the control may leave the path at the end of an item; zero for an exact stop.
+    pub(super) fn tolerance(&self, program: &Program, item: u32) -> Tolerance {
+        let control = &self.machine.control;
+        let stop = Tolerance { way: 0.0, turn: 0.0 };
+        if control.interpolator == Some(Interpolator::ExactStop) {
+            return stop;
+        }
+        let way = control.tolerance.unwrap_or(USUAL_TOLERANCE);
+        let turn = control.turn_tolerance.unwrap_or(USUAL_TURN_TOLERANCE);
+        match program.state(item as usize).blend {
+            Blend::Stop => stop,
+            Blend::Continuous => Tolerance { way, turn },
+            Blend::Tolerance { path, angle } => {
+                Tolerance { way: path, turn: if angle > 0.0 { angle } else { turn } }
+            }
+        }
+    }
+}
+
+/// The same limits without those of jerk.
+pub(super) fn without_jerk(limits: &[Option<AxisLimit>; AXES]) -> [Option<AxisLimit>; AXES] {
+    limits.map(|limit| Some(AxisLimit { jerk: f64::INFINITY, ..limit? }))
+}

@@ -1,0 +1,175 @@
+//! Consecutive moves without a wait between them.
+
+use super::joint::Step;
+use super::junction::junction_times;
+use super::leg::{Leg, Task};
+use super::passing::{Between, Passing, passings};
+use super::program_time::Smoothing;
+use super::run::{Piece, derivatives};
+use super::setting::{Setting, without_jerk};
+use super::swing::{swing_time, swings};
+use crate::base::Result;
+use crate::program::{Item, Program};
+use crate::trace::{Segment, SegmentPace, Trace};
+
+/// Consecutive moves at feed, or a rapid; indices of segments.
+pub(super) struct Stretch {
+    pub(super) segments: Vec<usize>,
+}
+
+/// Result for a stretch.
+#[derive(Default)]
+pub(super) struct StretchTime {
+    /// Time of each segment [s].
+    pub(super) times: Vec<f64>,
+    /// Time of all where jerk has no limit [s].
+    pub(super) without_jerk: f64,
+    pub(super) smoothing: Smoothing,
+    /// Largest factor by which a part was slowed.
+    pub(super) dilation: f64,
+    /// Moves on which a limit of jerk does not count.
+    pub(super) jerk_left_out: usize,
+    /// Turns on the spot that are in the times [s].
+    pub(super) swings: f64,
+    /// Cells times axes, of [`Task::Count`].
+    pub(super) cells: usize,
+}
+
+/// The segments of a trace in stretches; `mixed` where the control passes from rapids to feed without a stop.
+pub(super) fn stretches(program: &Program, trace: &Trace, mixed: bool) -> Vec<Stretch> {
+    let mut all: Vec<Stretch> = Vec::new();
+    for (i, segment) in trace.segments.iter().enumerate() {
+        if segment.alternative {
+            continue;
+        }
+        match all.last_mut() {
+            Some(stretch) if stretch.goes_on(program, trace, i, mixed) => stretch.segments.push(i),
+            _ => all.push(Stretch { segments: vec![i] }),
+        }
+    }
+    all
+}
+
+impl Stretch {
+    /// True if a segment may follow without a stop: in place, both at feed or `mixed`, and nothing but text between them.
+    fn goes_on(&self, program: &Program, trace: &Trace, next: usize, mixed: bool) -> bool {
+        /// Distance of two ends that are one place [mm].
+        const SAME: f64 = 1e-6;
+        let Some(last) = self.segments.last() else { return false };
+        let (before, after) = (&trace.segments[*last], &trace.segments[next]);
+        let at_feed = |s: &Segment| mixed || matches!(s.motion, SegmentPace::Feed(_));
+        if !(at_feed(before) && at_feed(after) && before.setup == after.setup) {
+            return false;
+        }
+        if (before.curve.end() - after.curve.start()).length() > SAME {
+            return false;
+        }
+        // Steps of a cycle stop, and so does what is between items.
+        let item = |i: u32| program.items.get(i as usize);
+        let in_cycle = |s: &Segment| matches!(item(s.item), Item::Cycle(..));
+        !in_cycle(before)
+            && !in_cycle(after)
+            && (before.item + 1..after.item).all(|i| matches!(item(i), Item::Text(_) | Item::Move(_)))
+    }
+
+    /// Its moves in the time that the program gives them.
+    pub(super) fn as_programmed(&self, trace: &Trace) -> StretchTime {
+        let times = self.segments.iter().map(|i| trace.segments[*i].duration.unwrap_or(0.0)).collect();
+        StretchTime { times, ..StretchTime::default() }
+    }
+
+    /// The time of its moves; `None` if an axis that moves has no limits, or is not known.
+    ///
+    /// # Errors
+    /// Those of [`TimeLaw::between`](super::super::TimeLaw::between).
+    pub(super) fn time(
+        &self,
+        program: &Program,
+        trace: &Trace,
+        setting: &Setting,
+        task: Task,
+    ) -> Result<Option<StretchTime>> {
+        /// Length of a move that takes no time [mm].
+        const NONE: f64 = 1e-9;
+        let mut done = StretchTime { times: vec![0.0; self.segments.len()], ..StretchTime::default() };
+        // Moves with their places in the stretch, and whether an axis turns on the spot at their start and end.
+        let mut pieces: Vec<Piece> = Vec::with_capacity(self.segments.len());
+        let mut places: Vec<usize> = Vec::with_capacity(self.segments.len());
+        let mut turned: Vec<[bool; 2]> = Vec::with_capacity(self.segments.len());
+        for (k, i) in self.segments.iter().enumerate() {
+            let segment = &trace.segments[*i];
+            let Some(path) = segment.axis_path() else { return Ok(None) };
+            let length = path.length();
+            if !(length > NONE) {
+                continue;
+            }
+            let swings = if segment.turning.is_some() { swings(&path) } else { [None; 2] };
+            for swing in swings.iter().flatten() {
+                let limits = [setting.limits, without_jerk(&setting.limits)];
+                let [Some(time), Some(no_jerk)] = limits.map(|limits| swing_time(swing, &limits)) else {
+                    return Ok(None);
+                };
+                done.times[k] += time;
+                done.swings += time;
+                done.without_jerk += no_jerk;
+            }
+            turned.push(swings.map(|swing| swing.is_some()));
+            places.push(k);
+            pieces.push(Piece { feed: feed(segment, length), path });
+        }
+        if let Some(deviation) = setting.junction_deviation() {
+            let Some(times) = junction_times(&pieces, deviation, &setting.limits) else { return Ok(None) };
+            for (k, time) in places.iter().zip(times) {
+                done.times[*k] += time;
+                done.without_jerk += time;
+            }
+            return Ok(Some(done));
+        }
+        let joints: Vec<Between> = (1..pieces.len())
+            .map(|i| {
+                let before = &pieces[i - 1].path;
+                let item = trace.segments[self.segments[places[i - 1]]].item;
+                Between {
+                    step: Step::between(
+                        &derivatives(before, before.length()),
+                        &derivatives(&pieces[i].path, 0.0),
+                    ),
+                    tolerance: setting.tolerance(program, item),
+                    on_the_spot: turned[i - 1][1] || turned[i][0],
+                }
+            })
+            .collect();
+        let passings = passings(&pieces, &joints, &setting.limits);
+        done.smoothing.count(&passings);
+        let mut leg = Leg::default();
+        let mut places = places.into_iter();
+        for (piece, end) in pieces.into_iter().zip(passings.into_iter().chain([Passing::Stop])) {
+            leg.pieces.push(piece);
+            if let Passing::Passed(joint, allowed) = end {
+                leg.joints.push(joint);
+                leg.allowed.push(allowed);
+                continue;
+            }
+            let Some(time) = std::mem::take(&mut leg).time(setting, task)? else { return Ok(None) };
+            for (k, time) in places.by_ref().zip(&time.times) {
+                done.times[k] += time;
+            }
+            done.without_jerk += time.without_jerk;
+            done.jerk_left_out += time.jerk_left_out;
+            done.smoothing.farthest = done.smoothing.farthest.max(time.farthest);
+            done.dilation = done.dilation.max(time.dilation);
+            done.cells += time.cells;
+        }
+        Ok(Some(done))
+    }
+}
+
+/// Rate of a move's parameter at its programmed feed [mm/s]; infinite for a rapid.
+fn feed(segment: &Segment, length: f64) -> f64 {
+    match (segment.motion, segment.duration) {
+        (SegmentPace::Rapid, _) => f64::INFINITY,
+        (_, Some(duration)) if duration > 0.0 => length / duration,
+        (SegmentPace::Feed(feed), _) if feed > 0.0 => feed,
+        _ => f64::INFINITY,
+    }
+}
