@@ -220,7 +220,7 @@ fn facets_are_faster_within_a_wider_tolerance_and_stay_within_it() {
     let [narrow, wide] = [0.005, 0.05].map(|path| {
         let time = facets(path).time(&machine).unwrap();
         assert!(time.smoothing.farthest <= 1.02 * path, "{path}: {:?}", time.smoothing);
-        assert_eq!(time.refused.0, 0, "{time:?}");
+        assert_eq!(time.refused, 0, "{time:?}");
         assert!(time.moves >= time.without_jerk);
         time
     });
@@ -265,7 +265,7 @@ fn half_the_acceleration_and_jerk_never_make_a_program_faster() {
                 d.jerk = d.jerk.map(|j| j * factor);
             }
             let time = written.time(&machine).unwrap();
-            assert_eq!(time.refused.0, 0, "{name}: {time:?}");
+            assert_eq!(time.refused, 0, "{name}: {time:?}");
             assert!(time.moves >= before, "{name}: {} after {before} at {factor}", time.moves);
             assert!(time.moves >= time.without_jerk, "{name} {factor}: {time:?}");
             before = time.moves;
