@@ -151,7 +151,8 @@ impl Stretch {
                 continue;
             }
             let Some(time) = std::mem::take(&mut leg).time(setting, task)? else { return Ok(None) };
-            for (k, time) in places.by_ref().zip(&time.times) {
+            // The times first: they end where the places go on.
+            for (time, k) in time.times.iter().zip(places.by_ref()) {
                 done.times[k] += time;
             }
             done.without_jerk += time.without_jerk;

@@ -67,7 +67,8 @@ pub fn program_time(
         moves: 0.0,
         without_jerk: 0.0,
         limits_jerk: setting.limits_jerk(),
-        dwells: trace.dwells.iter().map(|d| d.1).sum(),
+        // The sum of nothing is the other zero.
+        dwells: trace.dwells.iter().fold(0.0, |sum, d| sum + d.1),
         tool_changes,
         spindle_changes,
         smoothing: Smoothing::default(),
