@@ -1,5 +1,6 @@
 //! Knots of a time law: close together at stops and where the shape of the path changes.
 
+use super::start::Start;
 use super::{AxisLimit, Course, End};
 use crate::base::{Code, Finding, Result};
 
@@ -13,9 +14,7 @@ const TURN: f64 = 0.025;
 const FEATURE: f64 = 0.25;
 /// Growth of cells away from a knot.
 const FEATURE_GRADE: f64 = 0.1;
-/// Length of the cell at rest over the way in which jerk brings the path to its speed.
-const REST: f64 = 2e-4;
-/// The same over the length of the path.
+/// Length of the cell at rest over that of the path, at most.
 const REST_SHARE: f64 = 0.01;
 /// Least length of the cell at rest over that of the path: far above the rounding of a place on it.
 const REST_LEAST: f64 = 1e-10;
@@ -27,18 +26,16 @@ const MOST: usize = 2_000_000;
 /// Knots, from the end of the cell in which the path leaves its rest to the start of that in which it comes to rest; at even
 /// ends from the start or to the end of the path.
 ///
-/// `at_speed` is the way in which the path gets to its feed under the limits of its axes [mm].
-///
 /// # Errors
 /// `KC0404` for a path that turns so fast that it asks for millions of cells.
 pub(super) fn knots<const A: usize, C: Course<A>>(
     course: &C,
     limits: &[AxisLimit; A],
-    at_speed: f64,
+    start: Start,
     ends: [End; 2],
 ) -> Result<Vec<f64>> {
     let length = course.length();
-    let rest = (REST * at_speed).clamp(REST_LEAST * length, REST_SHARE * length);
+    let rest = start.rest.clamp(REST_LEAST * length, REST_SHARE * length);
     // Features that are closer together than the speed can follow count as one.
     let mut features: Vec<f64> = Vec::with_capacity(course.knots().len());
     for place in course.knots() {
@@ -77,7 +74,7 @@ pub(super) fn knots<const A: usize, C: Course<A>>(
         }
         let stops = [(s, ends[0]), (length - s, ends[1])];
         for (distance, _) in stops.into_iter().filter(|(_, end)| *end == End::Rest) {
-            let near = distance.min(4.0 * at_speed);
+            let near = distance.min(4.0 * start.way);
             h = h.min(GRADE * near + FAR_GRADE * (distance - near));
         }
         for i in [next.wrapping_sub(1), next] {

@@ -3,6 +3,7 @@
 use super::reach::{WithoutJerk, without_jerk};
 use super::shape::{Shape, places};
 use super::shares::{Shares, of_run};
+use super::start::Start;
 use super::windows::coefficients;
 use super::{AxisLimit, Course, End, Speed, grid};
 use crate::base::{Code, Finding, Progress, Result, Silent};
@@ -36,11 +37,11 @@ impl Gridded {
         if !(length > 0.0 && length.is_finite()) {
             return Err(Finding::error(Code::PLAN_VALUE, "a path needs a length").value(length, "mm").into());
         }
-        let at_speed = at_speed(course, limits);
-        if !(at_speed > 0.0) {
+        let start = Start::of(course, limits);
+        if !(start.way > 0.0) {
             return Err(Finding::error(Code::PLAN_VALUE, "a path needs a feed").bound(0.0, "mm/s").into());
         }
-        let knots = grid::knots(course, limits, at_speed, ends)?;
+        let knots = grid::knots(course, limits, start, ends)?;
         Ok(Gridded { length, ends, knots })
     }
 
@@ -161,23 +162,4 @@ impl TimeLaw {
     pub fn cells(&self) -> usize {
         self.speed.knots().len() - 1
     }
-}
-
-/// Way in which a path gets from rest to its largest feed, the shortest of some places [mm].
-fn at_speed<const A: usize, C: Course<A>>(course: &C, limits: &[AxisLimit; A]) -> f64 {
-    const SAMPLES: usize = 64;
-    let length = course.length();
-    let mut way = f64::INFINITY;
-    for i in 0..SAMPLES {
-        let s = length * (i as f64 + 0.5) / SAMPLES as f64;
-        let jets = course.derivatives(s);
-        let path = |limit: fn(&AxisLimit) -> f64| {
-            let along = jets.iter().zip(limits).map(|(q, l)| limit(l) / q[0].abs().max(1e-12));
-            along.fold(f64::INFINITY, f64::min)
-        };
-        let (a, j) = (path(|l| l.acceleration), path(|l| l.jerk));
-        let v = path(|l| l.velocity).min(course.feed(s));
-        way = way.min(if v * j < a * a { v * (v / j).sqrt() } else { 0.5 * v * (v / a + a / j) });
-    }
-    way
 }

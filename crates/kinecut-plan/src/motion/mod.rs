@@ -20,6 +20,7 @@ mod shape;
 mod shares;
 mod speed;
 mod spline;
+mod start;
 mod station;
 mod windows;
 

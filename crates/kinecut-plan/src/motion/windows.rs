@@ -11,6 +11,7 @@ use rayon::prelude::*;
 use super::interior::solve;
 use super::shape::Shape;
 use super::shares::of_cells;
+use super::start::way_to_speed;
 use super::{AxisLimit, Course, Speed};
 use crate::base::{Code, Finding, Progress, Result};
 
@@ -169,8 +170,7 @@ impl Reach {
         let mut sum = 0.0;
         for (pair, b) in shape.knots.windows(2).zip(start) {
             let v = b.sqrt();
-            let way = if v * j < a * a { v * (v / j).sqrt() } else { 0.5 * v * (v / a + a / j) };
-            sum += (pair[1] - pair[0]) / way.max(f64::MIN_POSITIVE);
+            sum += (pair[1] - pair[0]) / way_to_speed(v, a, j).max(f64::MIN_POSITIVE);
             sums.push(sum);
         }
         Reach { sums }

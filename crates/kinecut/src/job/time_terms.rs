@@ -21,9 +21,13 @@ pub(crate) fn terms(programs: &[(&Trace, Option<&ProgramTime>)], machine: Option
 
 /// The axes of a machine that has some limits and lacks others.
 fn unlimited(machine: &Machine) -> String {
+    let limits = axis_limits(machine);
+    if limits.iter().all(Option::is_none) {
+        return String::new();
+    }
     let without: Vec<String> = ['X', 'Y', 'Z', 'A', 'B', 'C']
         .into_iter()
-        .zip(axis_limits(machine))
+        .zip(limits)
         .filter(|(letter, limit)| limit.is_none() && machine.joint(*letter).is_some())
         .map(|(letter, _)| letter.to_string())
         .collect();

@@ -1,5 +1,6 @@
 //! Stretches of a run on which its feed keeps every limit: nothing has to be solved there.
 
+use super::super::start::way_to_speed;
 use super::super::{AxisLimit, Course, Shares};
 use super::run::Moving;
 
@@ -71,11 +72,7 @@ fn way_to<const A: usize>(
             a = a.min(limit.acceleration / q[0].abs());
             j = j.min(limit.jerk / q[0].abs());
         }
-        way = way.max(if feed * j < a * a {
-            feed * (feed / j).sqrt()
-        } else {
-            0.5 * feed * (feed / a + a / j)
-        });
+        way = way.max(way_to_speed(feed, a, j));
     }
     way
 }
