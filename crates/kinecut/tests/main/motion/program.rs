@@ -490,7 +490,8 @@ fn a_run_that_starts_along_a_slow_axis_is_as_slow_as_that_axis_however_long_it_g
         written.time(&machine).unwrap().moves
     };
     let [short, long] = [moves(3e3), moves(3e5)];
-    assert!((long - short - 297e3 / FEED).abs() < 1e-3, "{short} {long}");
+    // The long one is solved as a whole, on longer cells: a hundredth of a second.
+    assert!((long - short - 297e3 / FEED).abs() < 0.02, "{short} {long}");
     // 2.940 s are lost where jerk has no limit, by steps of a micrometre: a little less than on a straight way, 60 mm/s over
     // twice 10 mm/s^2, because Y has less and less to do.
     let lost = short - (20.0 + 100.0 * TAU + 3e3) / FEED;
