@@ -107,14 +107,21 @@ pub(super) fn curves(records: Vec<InvoluteRecord>) -> Vec<PlaneCurve> {
     records.into_iter().map(PlaneCurve::from).collect()
 }
 
-/// An outward record in two where it passes [`NATIVE_ROLL`], or as it is.
+/// An outward record in two where it passes [`NATIVE_ROLL`], or as it is. Neither part is shorter than the base radius:
+/// a shorter first part is cut off farther out, and a record whose second part would be shorter stays whole. The
+/// rounded ends of a sliver would turn it so far that no compensation follows it.
 pub fn cut_at_native_roll(record: &InvoluteRecord) -> Vec<InvoluteRecord> {
-    let radius = NATIVE_ROLL * record.base_radius().abs();
+    let base = record.base_radius().abs();
+    let radius = NATIVE_ROLL * base;
     let (a, b) = (record.start_radius().abs(), record.end_radius().abs());
     if !(a < radius && radius < b) {
         return vec![*record];
     }
-    let s = (radius - a) * (radius + a) / (2.0 * record.base_radius().abs());
+    let there = (radius - a) * (radius + a) / (2.0 * base);
+    let s = if there < base { base } else { there };
+    if !(record.length() - s >= base) {
+        return vec![*record];
+    }
     let (first, second) = record.split(s);
     vec![first, second]
 }
@@ -142,6 +149,7 @@ mod tests {
             let l = if out { l.turned_out() } else { l };
             for w in l.curves.windows(2) {
                 prop_assert!(contact(&w[0], &w[1]) >= ContactOrder::G2, "{l:?}");
+                prop_assert!(w.iter().all(|c| c.length() >= l.base_radius * (1.0 - 1e-9)), "{l:?}");
             }
             let wall = InvoluteRecord::circle(radius, l.psi).unwrap().into();
             let (first, last) = (l.curves[0], l.curves[l.curves.len() - 1]);

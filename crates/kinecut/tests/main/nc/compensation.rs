@@ -253,14 +253,79 @@ fn a_posted_finishing_pass_runs_as_in_the_interpreter_of_linuxcnc() {
     assert_eq!(passes, 3);
 }
 
+/// Whatever the planner accepts, each control follows with any value that the register may carry (`share` of `largest`
+/// mm), and the cutter goes down, and its compensation is switched, in what roughing has opened.
+fn can_be_run(spec: &BoreSpec, control: Control, share: f64) {
+    let (wear, rough) = (spec.finish.unwrap().wear.unwrap(), spec.rough.unwrap());
+    let plan = match plan_bore(spec) {
+        Ok(plan) => plan,
+        Err(e) => {
+            assert!(e.code() == Code::START_OUTSIDE || e.code() == Code::PLAN_VALUE, "{e}");
+            assert_eq!(e.0.key.as_deref(), Some("finish.wear_largest"));
+            return;
+        }
+    };
+    let moves = finishing(&plan);
+    let first = moves.iter().position(|m| m.comp).unwrap();
+    let last = moves.iter().rposition(|m| m.comp).unwrap();
+    let centre = DVec3::new(10.0, -5.0, -10.0);
+    let room = 0.5 * (spec.diameter - spec.cutter.diameter);
+    let open = room - rough.allowance + 1e-9;
+    assert!((moves[first].curve.start() - centre).length() <= open);
+    assert!((moves[last + 1].curve.end() - centre).length() <= open);
+    let value = share * wear.largest;
+    let register = if control == Control::Sinumerik840d { value } else { 2.0 * value };
+    let program = program(&moves, control, spec.sense);
+    for p in [&program, &read(&post(&program, control), control).program] {
+        let path = feeds(&follow(p, control, register).unwrap());
+        // Path radius at the wall: as the register says.
+        let most = path.iter().fold(0.0, |most: f64, c| {
+            let mid = (c.at(0.5 * c.length()).p - centre).truncate().length();
+            if mid > most { mid } else { most }
+        });
+        assert!((most - (room - value)).abs() < 2e-3, "{most} {room} {value}");
+        for w in path.windows(2) {
+            assert!(w[0].end().distance(w[1].start()) < 1e-6);
+        }
+    }
+}
+
+/// The bore of a cutter of `diameter` whose path has the radius `room` at the wall, in two passes, for a control that
+/// has the involute itself or one that has not.
+fn roomy(
+    diameter: f64,
+    room: f64,
+    turns: u32,
+    [allowance, largest]: [f64; 2],
+    climb: bool,
+    native: bool,
+) -> (BoreSpec, Control) {
+    let sense = if climb { Sense::Climb } else { Sense::Conventional };
+    let control = if native { Control::Sinumerik840d } else { Control::LinuxCnc };
+    let wear = Wear { register: control.wear_register(ToolNumber(1)), largest };
+    let mut spec = spec(sense, Some(wear));
+    spec.diameter = diameter + 2.0 * room;
+    spec.cutter.diameter = diameter;
+    spec.rough = spec.rough.map(|r| Rough { stepover: 0.4 * diameter, allowance, ..r });
+    spec.finish = spec.finish.map(|f| Finish { turns, start: LeadEnd::Usual, ..f });
+    spec.resolution = native.then_some(1e-4);
+    (spec, control)
+}
+
+/// The lead-in was cut in two 2 um behind its start: rounded to the digits of the program, the first part turned so far
+/// that the compensation had no room in it.
+#[test]
+fn a_lead_in_that_begins_near_the_roll_of_the_control_can_be_run() {
+    let sizes = [1.0641292023866027, 0.2196605937564023];
+    let (spec, control) = roomy(6.0, 9.022077809860638, 2, sizes, false, true);
+    can_be_run(&spec, control, 0.9369007705366984);
+}
+
 proptest! {
     #![proptest_config(kinecut_cases::property(64))]
-
-    /// Whatever the planner accepts, each control follows with any value that the register may carry, and the cutter
-    /// goes down, and its compensation is switched, in what roughing has opened.
     #[test]
     fn an_accepted_correction_can_be_run(
-        cutter in 6.0..30.0f64,
+        diameter in 6.0..30.0f64,
         room in 4.0..60.0f64,
         turns in 1u32..4,
         allowance in 0.2..1.5f64,
@@ -269,45 +334,8 @@ proptest! {
         climb in any::<bool>(),
         native in any::<bool>(),
     ) {
-        let sense = if climb { Sense::Climb } else { Sense::Conventional };
-        let control = if native { Control::Sinumerik840d } else { Control::LinuxCnc };
-        let wear = Wear { register: control.wear_register(ToolNumber(1)), largest };
-        let mut spec = spec(sense, Some(wear));
-        spec.diameter = cutter + 2.0 * room;
-        spec.cutter.diameter = cutter;
-        spec.rough = spec.rough.map(|r| Rough { stepover: 0.4 * cutter, allowance, ..r });
-        spec.finish = spec.finish.map(|f| Finish { turns, start: LeadEnd::Usual, ..f });
-        spec.resolution = native.then_some(1e-4);
-        let plan = match plan_bore(&spec) {
-            Ok(plan) => plan,
-            Err(e) => {
-                prop_assert!(e.code() == Code::START_OUTSIDE || e.code() == Code::PLAN_VALUE, "{e}");
-                prop_assert_eq!(e.0.key.as_deref(), Some("finish.wear_largest"));
-                return Ok(());
-            }
-        };
-        let moves = finishing(&plan);
-        let first = moves.iter().position(|m| m.comp).unwrap();
-        let last = moves.iter().rposition(|m| m.comp).unwrap();
-        let centre = DVec3::new(10.0, -5.0, -10.0);
-        let open = room - allowance + 1e-9;
-        prop_assert!((moves[first].curve.start() - centre).length() <= open);
-        prop_assert!((moves[last + 1].curve.end() - centre).length() <= open);
-        let value = share * largest;
-        let register = if native { value } else { 2.0 * value };
-        let program = program(&moves, control, sense);
-        for p in [&program, &read(&post(&program, control), control).program] {
-            let path = feeds(&follow(p, control, register).unwrap());
-            // Path radius at the wall: as the register says.
-            let most = path.iter().fold(0.0, |most: f64, c| {
-                let mid = (c.at(0.5 * c.length()).p - centre).truncate().length();
-                if mid > most { mid } else { most }
-            });
-            prop_assert!((most - (room - value)).abs() < 2e-3, "{most} {room} {value}");
-            for w in path.windows(2) {
-                prop_assert!(w[0].end().distance(w[1].start()) < 1e-6);
-            }
-        }
+        let (spec, control) = roomy(diameter, room, turns, [allowance, largest], climb, native);
+        can_be_run(&spec, control, share);
     }
 }
 
