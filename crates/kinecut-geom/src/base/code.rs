@@ -178,6 +178,9 @@ codes! {
     NOT_CERTIFIED = "KC0533", "the cut stock is not as its certificate wants it",
         "In the certified mode (`--certified`) each end of a line of the stock is looked for at the tool that cut it. These were not found there: more may have been taken out of the stock than the tool takes. That is a fault of kinecut, not of the program: please report it with the program.";
 
+    FEED_BEYOND = "KC0534", "a feed is more than the axes can hold",
+        "On a curve an axis needs the more acceleration and jerk the faster it is run: at more than it has, the control slows down by itself, leaves the path, or shakes the machine. A program of kinecut has lower feed words there (`post = { feeds = \"within-limits\" }`, the default where the machine states its limits), and a note says so; in other programs lower the feed, or give the path larger radii.";
+
     MESH_UNREADABLE = "KC0601", "a mesh file cannot be read",
         "The file is neither binary nor text STL, ends early, or holds numbers that are not finite.";
     MESH_OPEN = "KC0602", "a mesh does not close",

@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use super::frame_index::FrameIndex;
-use super::{Cycle, CycleStep, Frame, FrameId, Origin, OriginId, Setup, State, StateId, ToolNumber};
+use super::{Cycle, CycleStep, Frame, FrameId, Origin, OriginId, Setup, Speed, State, StateId, ToolNumber};
 use crate::base::{Code, CountBound, Span, Sum};
 use crate::geom::{Arc, CubicSpan, Curve, CurveKind, InvoluteRecord, Line, Rise, Spiral};
 
@@ -359,6 +359,14 @@ impl Program {
     pub fn set_tool_length(&mut self, index: usize, register: Option<u32>) {
         if let Some(Slot::Tool(i)) = self.items.slots.get(index) {
             self.items.tools[*i as usize].length = register;
+        }
+    }
+
+    /// Gives the item at an index another speed; other items stay as they are.
+    pub fn set_speed(&mut self, index: usize, speed: Speed) {
+        if index < self.items.len() && self.state(index).speed != speed {
+            self.states.push(State { speed, ..*self.state(index) });
+            self.items.states[index] = StateId(self.states.len() as u32 - 1);
         }
     }
 

@@ -2,12 +2,14 @@
 //!
 //! - [`SCurve`]: a straight move from rest to rest, in closed form.
 //! - [`TimeLaw`]: the fastest run along a [`Course`] under velocity, acceleration and jerk of each axis.
+//! - [`feed_parts`](fn@feed_parts): a curve with feeds that the axes can hold; [`feeds_beyond`]: where they cannot.
 //! - [`pointwise`](fn@pointwise): a run along a chain of curves whose limits hold in every point for itself, for
 //!   comparing shapes.
 
 mod axis_limit;
 mod course;
 mod end;
+mod feed_parts;
 mod grid;
 mod interior;
 mod law;
@@ -27,9 +29,12 @@ mod windows;
 pub use axis_limit::AxisLimit;
 pub use course::Course;
 pub use end::End;
+pub use feed_parts::{FeedPart, feed_parts, lowered};
 pub use law::TimeLaw;
 pub use pointwise::{Limits, RunLaw, RunPoint, pointwise};
-pub use program::{Changes, ProgramTime, Smoothing, axis_limits, program_time};
+pub use program::{
+    AxisBound, Changes, FeedBeyond, ProgramTime, Smoothing, axis_limits, feeds_beyond, program_time,
+};
 pub use reach::WithoutJerk;
 pub use s_curve::{Moment, SCurve};
 pub use shares::Shares;

@@ -80,46 +80,47 @@ impl PathByLength for Curve {
     }
 
     fn stations(&self, turn: f64) -> Vec<Station> {
-        let places: Vec<f64> = match self.kind() {
-            CurveKind::Involute { record, .. } if !record.is_line() => {
-                let whole = record.turn(record.length()).abs();
-                let count = parts(whole, turn);
-                let stretch = self.length() / record.length();
-                (0..=count)
-                    .map(|i| record.length_at_turn(whole * i as f64 / count as f64) * stretch)
-                    .collect()
-            }
-            CurveKind::Spiral { spiral, .. } => {
-                // Evenly in the spiral's own parameter, in proportion to the length in the plane: near enough for
-                // places that need not be even.
-                let [from, to] = spiral.parameters();
-                let count = parts(PlaneCurve::from(spiral).turn(), turn);
-                let stretch = self.length() / spiral.length();
-                let (mut s, mut before) = (0.0, from);
-                (0..=count)
-                    .map(|i| {
-                        let u = from + (to - from) * i as f64 / count as f64;
-                        s += spiral.law().length(before, u).abs();
-                        before = u;
-                        s * stretch
-                    })
-                    .collect()
-            }
-            CurveKind::Arc(arc) => even(self.length(), parts(arc.sweep.abs(), turn)),
-            CurveKind::Bezier { span, .. } => even(self.length(), parts(span.turn(), turn)),
-            _ => even(self.length(), parts(0.0, turn)),
+        let station = |s: f64| {
+            let jet = self.at(s);
+            Station { s, point: jet.p, tangent: jet.d1, curvature: jet.d2, third: jet.d3 }
         };
-        let last = places.len() - 1;
-        places
-            .into_iter()
-            .enumerate()
-            .map(|(i, s)| {
-                let s = if i == last { self.length() } else { s };
-                let jet = self.at(s);
-                Station { s, point: jet.p, tangent: jet.d1, curvature: jet.d2, third: jet.d3 }
-            })
-            .collect()
+        places(self, turn).into_iter().map(station).collect()
     }
+}
+
+/// Arc lengths from the start to the end of a curve, both included, at most `turn` [rad] of heading apart [mm].
+pub(super) fn places(curve: &Curve, turn: f64) -> Vec<f64> {
+    let mut places: Vec<f64> = match curve.kind() {
+        CurveKind::Involute { record, .. } if !record.is_line() => {
+            let whole = record.turn(record.length()).abs();
+            let count = parts(whole, turn);
+            let stretch = curve.length() / record.length();
+            (0..=count).map(|i| record.length_at_turn(whole * i as f64 / count as f64) * stretch).collect()
+        }
+        CurveKind::Spiral { spiral, .. } => {
+            // Evenly in the spiral's own parameter, in proportion to the length in the plane: near enough for
+            // places that need not be even.
+            let [from, to] = spiral.parameters();
+            let count = parts(PlaneCurve::from(spiral).turn(), turn);
+            let stretch = curve.length() / spiral.length();
+            let (mut s, mut before) = (0.0, from);
+            (0..=count)
+                .map(|i| {
+                    let u = from + (to - from) * i as f64 / count as f64;
+                    s += spiral.law().length(before, u).abs();
+                    before = u;
+                    s * stretch
+                })
+                .collect()
+        }
+        CurveKind::Arc(arc) => even(curve.length(), parts(arc.sweep.abs(), turn)),
+        CurveKind::Bezier { span, .. } => even(curve.length(), parts(span.turn(), turn)),
+        _ => even(curve.length(), parts(0.0, turn)),
+    };
+    if let Some(last) = places.last_mut() {
+        *last = curve.length();
+    }
+    places
 }
 
 fn even(length: f64, count: usize) -> Vec<f64> {

@@ -1,5 +1,7 @@
 //! From a checked job to programs: one for each setup.
 
+use std::collections::BTreeMap;
+
 use super::check::{Job, JobSetup};
 use super::tilt::{all_zero, tilt, tilted};
 use crate::base::{Code, Error, Finding, Progress, Result};
@@ -22,6 +24,8 @@ pub struct SetupPlan {
     pub operations: Vec<PlannedOperation>,
     /// Operations and holes that were left out, and why; what the planners say.
     pub findings: Vec<Finding>,
+    /// Items of moves with a lower feed than the job asks for, with the asked one [mm/s].
+    pub lowered: BTreeMap<u32, f64>,
     /// Values of the wear registers with which the program is simulated [mm].
     pub radii: Vec<(u32, f64)>,
     /// Height above the work zero that is assumed for a retracted tool where the machine position is not known [mm].
@@ -44,6 +48,7 @@ impl SetupPlan {
             program: Program::default(),
             operations: Vec::new(),
             findings: Vec::new(),
+            lowered: BTreeMap::new(),
             radii: Vec::new(),
             retract_height: setup.retract_height(),
         }
@@ -106,8 +111,8 @@ fn plan_setup(
         made.extend(plan.holes().into_iter().map(|hole| MadeHole { hole, to_part }));
         operations.push(PlannedOperation { number, plan });
     }
-    let (program, radii) = writer.end();
-    Ok(SetupPlan { program, operations, findings, radii, retract_height: setup.retract_height() })
+    let (program, lowered, radii) = writer.end();
+    Ok(SetupPlan { program, operations, findings, lowered, radii, retract_height: setup.retract_height() })
 }
 
 /// The setting of an operation of a setup; `clamping` is as the operation sees it, `number` its own over all setups.
@@ -128,6 +133,7 @@ pub(crate) fn setting<'a>(
         machine: job.machine.as_ref(),
         orientation: job.orientation,
         post: &job.post,
+        feed_limit: job.feed_limit,
         compare: job.compare,
         progress,
     }
@@ -147,6 +153,7 @@ struct Writer<'a> {
     in_spindle: Option<(ToolNumber, u32)>,
     /// Whether rotary axes are not at zero.
     turned_axes: bool,
+    lowered: BTreeMap<u32, f64>,
     radii: Vec<(u32, f64)>,
 }
 
@@ -160,8 +167,8 @@ impl<'a> Writer<'a> {
         let up = job.machine.as_ref().and_then(|m| m.travel('Z')).map_or(0.0, |[_, max]| max);
         let retract =
             Move { end: Target::Joints([None, None, Some(up), None, None, None]), path: Path::Line };
-        let (in_spindle, turned_axes, radii) = (None, false, Vec::new());
-        Writer { job, setup, program, state, plain, retract, in_spindle, turned_axes, radii }
+        let (in_spindle, turned_axes, lowered, radii) = (None, false, BTreeMap::new(), Vec::new());
+        Writer { job, setup, program, state, plain, retract, in_spindle, turned_axes, lowered, radii }
     }
 
     /// Calls the tool, tilts the plane, writes the name and the moves.
@@ -179,8 +186,8 @@ impl<'a> Writer<'a> {
         let hand = if operation.is_left_hand() { Hand::Left } else { Hand::Right };
         self.state.spindle = Spindle::turning(hand, milling.spindle);
         self.program.push_text(operation.name().to_uppercase(), &self.state, origin);
-        let (program, state) = (&mut self.program, &mut self.state);
-        plan.write(&mut Pen { program, state, origin, retract: self.retract, setting })?;
+        let (program, state, lowered) = (&mut self.program, &mut self.state, &mut self.lowered);
+        plan.write(&mut Pen { program, state, origin, retract: self.retract, lowered, setting })?;
         self.turned_axes |= plan.leaves_axes_turned();
         Ok(())
     }
@@ -241,7 +248,7 @@ impl<'a> Writer<'a> {
     }
 
     /// Retracts, turns the axes back, and ends the program.
-    fn end(mut self) -> (Program, Vec<(u32, f64)>) {
+    fn end(mut self) -> (Program, BTreeMap<u32, f64>, Vec<(u32, f64)>) {
         let origin = Origin::default();
         self.state.speed = Speed::Rapid { linear: true };
         self.state.coolant = Coolant::Off;
@@ -253,6 +260,6 @@ impl<'a> Writer<'a> {
         self.state.spindle = Spindle::Off;
         self.program.push_stop(StopKind::End, &self.state, origin);
         self.program.hold_rotary_axes();
-        (self.program, self.radii)
+        (self.program, self.lowered, self.radii)
     }
 }

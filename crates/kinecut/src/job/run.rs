@@ -25,7 +25,7 @@ use super::shape::{Deviation, deviation};
 use super::simulate::{self, Simulation, left, simulate};
 use super::verdict::{banner, not_checked, proven, scope};
 use super::wants::StockWants;
-use super::{Heading, JobText, Judgement, Subject, Verdict, names, parts, sha256};
+use super::{Heading, JobText, Judgement, Subject, Verdict, feeds, names, parts, sha256};
 
 /// Runs a job from its text.
 ///
@@ -213,9 +213,21 @@ fn stem(name: &str) -> String {
 }
 
 fn setup(job: &Job, mut post: PostSettings, planned: SetupPlan, verdict_line: &str) -> Result<SetupOutcome> {
-    let name = post.program_name.clone();
+    /// Texts in which feeds are lowered again: the blocks stay, so that the second one holds but for rounding.
+    const TEXTS: usize = 3;
     post.header = vec![job.title.clone(), verdict_line.to_owned()];
-    let posted = nc::write(&planned.program, &job.tools, &post).map_err(at_post_key)?;
+    let mut done = written(job, &post, planned)?;
+    for _ in 0..TEXTS {
+        let Some(planned) = feeds::lower(job, &done) else { break };
+        done = written(job, &post, planned)?;
+    }
+    Ok(done)
+}
+
+/// The text of a plan, read back and compared.
+fn written(job: &Job, post: &PostSettings, planned: SetupPlan) -> Result<SetupOutcome> {
+    let name = post.program_name.clone();
+    let posted = nc::write(&planned.program, &job.tools, post).map_err(at_post_key)?;
     let file = format!("{name}.{}", post.control.extension());
     let mut sources = Sources::default();
     let reading = nc::read(&mut sources, &file, &posted.text, post.control, &planned.program.setups)?;
@@ -296,7 +308,11 @@ fn findings(
         found.extend(s.planned.operations.iter().flat_map(|o| o.plan.remarks().iter().cloned()));
         found.extend(simulate::findings(&s.trace, &simulation.effects[i], &job.tools, place));
         if let Some(machine) = &job.machine {
-            for mut f in travel_findings(&s.trace, &s.program, machine) {
+            let feeds = match job.feed_limit {
+                Some(_) if s.external.is_none() => feeds::lowered_note(s).into_iter().collect(),
+                _ => feeds::not_held(&s.trace, machine),
+            };
+            for mut f in travel_findings(&s.trace, &s.program, machine).into_iter().chain(feeds) {
                 f.place = f.item.take().and_then(place);
                 found.push(f);
             }

@@ -34,7 +34,7 @@ pub use posted::PostedPlan;
 pub(crate) use round_hole::{MadeHole, RoundHole};
 pub(crate) use setting::{Around, Setting, StockOutline};
 pub use setting::{Clamping, Drilled};
-pub use table::{OrientationName, PlaneTable};
+pub use table::{FeedsName, OrientationName, PlaneTable};
 
 kinds! {
     /// Milling of a bore.

@@ -8,6 +8,7 @@ use super::{MadeHole, Milling, OrientationName};
 use crate::base::{Loader, Progress};
 use crate::geom::{Aabb, Rigid, Solid};
 use crate::machine::Machine;
+use crate::motion::AxisLimit;
 use crate::nc::{Control, PostSettings};
 use crate::program::{Setup, WorkOffset};
 use crate::stock::cut::CutAxis;
@@ -101,6 +102,8 @@ pub(crate) struct Setting<'a> {
     pub(crate) orientation: OrientationName,
     /// Settings of the writer.
     pub(crate) post: &'a PostSettings,
+    /// Limits that a feed may ask of each linear axis; `None` where feeds are written as they are.
+    pub(crate) feed_limit: Option<AxisLimit>,
     /// Whether other ways than the one asked for are planned too, each with its price.
     pub(crate) compare: bool,
     /// Told of progress, and asked whether the plan is still wanted.

@@ -22,6 +22,16 @@ pub struct PlaneTable {
     pub branch: RotarySolution,
 }
 
+/// Feeds of a program where the axes cannot hold those of the job.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum FeedsName {
+    /// Lowered to what the axes can hold.
+    WithinLimits,
+    /// Those of the job.
+    AsProgrammed,
+}
+
 /// Form of the directions of the tool in a program.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]

@@ -6,6 +6,7 @@ use crate::base::{Code, Finding, Result, Silent};
 use crate::geom::{Aabb, Rigid};
 use crate::job::external::given::GivenJob;
 use crate::job::external::{Followed, Missing, at_block, follow};
+use crate::job::feeds::not_held;
 use crate::job::held_feed::HeldFeed;
 use crate::job::time_terms::terms;
 use crate::motion::{ProgramTime, program_time};
@@ -78,7 +79,8 @@ pub fn program_sheet(given: &GivenJob) -> Result<ProgramSheet> {
     let mut findings = done.findings.clone();
     if let Some(machine) = &job.machine {
         let travel = travel_findings(&done.trace, read, machine).into_iter();
-        findings.extend(travel.map(|f| *at_block(f.into(), program, &done.lines).0));
+        let found = travel.chain(not_held(&done.trace, machine));
+        findings.extend(found.map(|f| *at_block(f.into(), program, &done.lines).0));
     }
     let items = (0..read.items.len()).map(|i| read.items.get(i));
     if !items.clone().any(|item| matches!(item, Item::Move(_) | Item::Cycle(..))) {

@@ -2,6 +2,7 @@
 
 mod axis_limits;
 mod changes;
+mod held;
 mod joint;
 mod joints;
 mod junction;
@@ -19,5 +20,6 @@ mod swing;
 mod times;
 
 pub use axis_limits::axis_limits;
+pub use held::{AxisBound, FeedBeyond, feeds_beyond};
 pub use program_time::{Changes, ProgramTime, Smoothing};
 pub use times::program_time;

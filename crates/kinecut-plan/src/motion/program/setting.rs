@@ -24,14 +24,7 @@ pub(super) struct Setting<'a> {
 
 impl<'a> Setting<'a> {
     pub(super) fn new(machine: &'a Machine, progress: &'a dyn Progress) -> Setting<'a> {
-        let mut limits = axis_limits(machine);
-        if matches!(
-            machine.control.interpolator,
-            Some(Interpolator::Trapezoid | Interpolator::JunctionDeviation)
-        ) {
-            limits = without_jerk(&limits);
-        }
-        Setting { machine, progress, limits }
+        Setting { machine, progress, limits: control_limits(machine) }
     }
 
     /// True if some axis has a limit of jerk.
@@ -62,6 +55,15 @@ impl<'a> Setting<'a> {
                 Tolerance { way: path, turn: if angle > 0.0 { angle } else { turn } }
             }
         }
+    }
+}
+
+/// Limits of the axes as the control of the machine keeps to them.
+pub(super) fn control_limits(machine: &Machine) -> [Option<AxisLimit>; AXES] {
+    let limits = axis_limits(machine);
+    match machine.control.interpolator {
+        Some(Interpolator::Trapezoid | Interpolator::JunctionDeviation) => without_jerk(&limits),
+        _ => limits,
     }
 }
 

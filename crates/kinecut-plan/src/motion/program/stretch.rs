@@ -166,7 +166,7 @@ impl Stretch {
 }
 
 /// Rate of a move's parameter at its programmed feed [mm/s]; infinite for a rapid.
-fn feed(segment: &Segment, length: f64) -> f64 {
+pub(super) fn feed(segment: &Segment, length: f64) -> f64 {
     match (segment.motion, segment.duration) {
         (SegmentPace::Rapid, _) => f64::INFINITY,
         (_, Some(duration)) if duration > 0.0 => length / duration,

@@ -4,6 +4,7 @@
 pub(crate) mod axes;
 mod body;
 pub(crate) mod control;
+mod feed_limit;
 pub(crate) mod joint;
 pub(crate) mod machine;
 pub(crate) mod numbers;
@@ -17,12 +18,15 @@ use std::ops::Deref;
 
 use glam::DVec3;
 
+use feed_limit::feed_limit;
+
 use super::file::{DrilledTable, JobFile, MachineEntry, StockTable};
 use crate::base::bounded::{MAX_LENGTH, length, positive, text};
 use crate::base::{Code, Error, Finding, Loader, Result};
 use crate::geom::{Aabb, Mesh, Solid, load_mesh};
 use crate::job::part_surface::PartSurface;
 use crate::machine::Machine;
+use crate::motion::AxisLimit;
 use crate::nc::{Control, PostSettings};
 use crate::operations::{Clamping, Drilled, Operation, OrientationName};
 use crate::stock::surface::SurfaceOptions;
@@ -37,6 +41,8 @@ pub struct Job {
     pub post: PostSettings,
     /// Form in which the program gives the directions of its tool.
     pub orientation: OrientationName,
+    /// Limits that a feed may ask of each linear axis; `None` where feeds are written as they are.
+    pub feed_limit: Option<AxisLimit>,
     /// The machine, if given.
     pub machine: Option<Machine>,
     /// Tools by number.
@@ -161,6 +167,7 @@ pub fn check(file: &JobFile, name: &str, loader: &dyn Loader) -> Result<Job> {
         title: text("title", file.title.as_deref().unwrap_or(name))?,
         post: post(file, name, loader)?,
         orientation: said.0,
+        feed_limit: feed_limit(file.post.feeds, machine.as_ref())?,
         machine,
         tools,
         stock,

@@ -20,7 +20,7 @@ use std::collections::BTreeMap;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::operations::{OperationTable, OrientationName};
+use crate::operations::{FeedsName, OperationTable, OrientationName};
 use crate::tool::Holder;
 
 /// A kinecut job: stock, tools, machine and operations; lengths in mm, feeds in mm/min, angles in degrees, speeds
@@ -148,6 +148,10 @@ pub struct PostTable {
     /// (SINUMERIK vectors; FANUC, HEIDENHAIN angles; LinuxCNC axes).
     #[serde(default)]
     pub orientation: Option<OrientationName>,
+    /// Feeds where the axes cannot hold those of the job: "within-limits" lowers them, "as-programmed" writes them as they
+    /// are; default: within limits where the machine has a rapid speed and an acceleration.
+    #[serde(default)]
+    pub feeds: Option<FeedsName>,
     /// Whether blocks are numbered; default: as usual on the control.
     #[serde(default)]
     pub block_numbers: Option<bool>,

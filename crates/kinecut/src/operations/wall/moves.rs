@@ -12,15 +12,15 @@ pub(crate) const CLEARANCE: f64 = 2.0;
 
 /// Writes planned moves; `comp` is the compensation of those that have one.
 pub(crate) fn write_moves(pen: &mut Pen<'_>, moves: &[PlannedMove], coolant: Coolant, comp: Option<Comp>) {
-    let (program, state, origin) = (&mut *pen.program, &mut *pen.state, pen.origin);
     let mut first = true;
     for m in moves {
+        let (program, state) = (&mut *pen.program, &mut *pen.state);
         state.speed = match m.pace {
             ToolpathPace::Rapid => Speed::Rapid { linear: true },
             ToolpathPace::Feed(feed) => Speed::PerMinute(feed),
         };
         state.comp = if m.comp { comp.unwrap_or(Comp::Off) } else { Comp::Off };
-        let origin = Origin { role: role(m), ..origin };
+        let origin = Origin { role: role(m), ..pen.origin };
         if first {
             // From wherever the tool stands: first over the place, then down.
             let at = m.curve.start();
@@ -31,9 +31,9 @@ pub(crate) fn write_moves(pen: &mut Pen<'_>, moves: &[PlannedMove], coolant: Coo
             state.coolant = coolant;
             first = false;
         }
-        program.push_move(Move::along(&m.curve), state, origin);
+        pen.push(&m.curve, origin);
     }
-    state.comp = Comp::Off;
+    pen.state.comp = Comp::Off;
 }
 
 fn role(m: &PlannedMove) -> Role {
