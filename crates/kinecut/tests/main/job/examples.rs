@@ -14,7 +14,7 @@ fn example(name: &str) -> PathBuf {
 }
 
 /// Runs an example with some texts of its job replaced.
-fn run(name: &str, replace: &[(&str, &str)]) -> Outcome {
+pub(super) fn run(name: &str, replace: &[(&str, &str)]) -> Outcome {
     let folder = example(name);
     let mut text = std::fs::read_to_string(folder.join("job.toml")).unwrap();
     for (from, to) in replace {

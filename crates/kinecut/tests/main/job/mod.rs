@@ -4,6 +4,7 @@ mod budget;
 mod errors;
 mod examples;
 mod external;
+mod feeds;
 mod five_axis;
 mod inspect;
 mod kept;

@@ -2,6 +2,7 @@
 
 mod courses;
 mod errors;
+mod feeds;
 mod metamorphic;
 mod program;
 mod random;
