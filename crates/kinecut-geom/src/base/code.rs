@@ -179,7 +179,10 @@ codes! {
         "In the certified mode (`--certified`) each end of a line of the stock is looked for at the tool that cut it. These were not found there: more may have been taken out of the stock than the tool takes. That is a fault of kinecut, not of the program: please report it with the program.";
 
     FEED_BEYOND = "KC0534", "a feed is more than the axes can hold",
-        "On a curve an axis needs the more acceleration and jerk the faster it is run: at more than it has, the control slows down by itself, leaves the path, or shakes the machine. A program of kinecut has lower feed words there (`post = { feeds = \"within-limits\" }`, the default where the machine states its limits), and a note says so; in other programs lower the feed, or give the path larger radii.";
+        "On a curve an axis needs the more acceleration and jerk the faster it is run: at more than it has, the control slows down by itself, leaves the path, or shakes the machine. A program of kinecut has lower feed words there (`post = { feeds = \"within-limits\" }`, the default where the machine states its limits), and the summary says so; in other programs lower the feed, or give the path larger radii.";
+
+    FACETS = "KC0535", "facets set the time of a program",
+        "Short straight moves stand for a curve: at each joint the control brakes, or cuts the corner within its tolerance. A curve through the same points would be run faster, at the feed that its curvature allows. Post arcs or curves where the control has them, or give it a wider tolerance.";
 
     MESH_UNREADABLE = "KC0601", "a mesh file cannot be read",
         "The file is neither binary nor text STL, ends early, or holds numbers that are not finite.";

@@ -7,7 +7,7 @@ use crate::base::{Code, Finding};
 use crate::machine::Machine;
 use crate::motion::{AxisBound, FeedBeyond, feeds_beyond, lowered};
 use crate::program::{Item, Speed};
-use crate::trace::{SegmentPace, Trace};
+use crate::trace::{Segment, SegmentPace, Trace};
 
 /// The plan with the feeds lowered that blocks of its text cannot hold; `None` where all blocks hold theirs, or feeds are
 /// written as they are.
@@ -41,27 +41,25 @@ pub(super) fn lower(job: &Job, done: &SetupOutcome) -> Option<SetupPlan> {
     changed
 }
 
-/// A note about lowered feeds, at the item of the text with the lowest one.
-pub(super) fn lowered_note(done: &SetupOutcome) -> Option<Finding> {
-    let lowest = done
-        .trace
-        .segments
-        .iter()
-        .filter_map(|segment| {
-            let SegmentPace::Feed(feed) = segment.motion else { return None };
-            let asked = done.planned.lowered.get(&done.planned_item(segment.item)?)?;
-            Some((segment.item, feed, *asked))
-        })
-        .collect::<Vec<_>>();
-    let (item, feed, asked) = lowest.iter().copied().min_by(|a, b| a.1.total_cmp(&b.1))?;
-    let mut items: Vec<u32> = lowest.iter().map(|(item, ..)| *item).collect();
-    items.dedup();
-    let blocks = match items.len() {
-        1 => "in one block".to_owned(),
-        more => format!("in {more} blocks; here most"),
+/// Lowered feeds in words: the blocks, and the lowest feed with its line.
+pub(crate) fn lowered_words(done: &SetupOutcome) -> Option<(String, String)> {
+    let own = |segment: &Segment| {
+        let SegmentPace::Feed(feed) = segment.motion else { return None };
+        let asked = done.planned.lowered.get(&done.planned_item(segment.item)?)?;
+        Some((segment.item, feed, *asked))
     };
-    let what = format!("the feed is lowered to what the axes can hold, {blocks}");
-    Some(in_mm_per_min(Finding::note(Code::FEED_BEYOND, what), [feed, asked]).item(item))
+    let all: Vec<(u32, f64, f64)> = done.trace.segments.iter().filter_map(own).collect();
+    let (item, feed, asked) = all.iter().copied().min_by(|a, b| a.1.total_cmp(&b.1))?;
+    let mut items: Vec<u32> = all.iter().map(|(item, ..)| *item).collect();
+    items.dedup();
+    let place = done.lines.get(item as usize).copied().flatten();
+    let place = place.map_or(String::new(), |line| format!(" in line {}", line + 1));
+    let [feed, asked] = [feed, asked].map(|feed| (feed * 60.0).round());
+    let blocks = if items.len() == 1 { "one block".to_owned() } else { format!("{} blocks", items.len()) };
+    Some((
+        format!("lowered in {blocks}"),
+        format!("to what the axes can hold; the lowest{place}: {feed} of {asked} mm/min"),
+    ))
 }
 
 /// Feeds that no even run of the axes holds within their acceleration or jerk: one warning for each of both, at the item
@@ -84,15 +82,13 @@ fn worst(trace: &Trace, beyond: &[FeedBeyond], bound: AxisBound, name: &str) -> 
         more => format!(", nor in {} other blocks", more - 1),
     };
     let what = format!("{} does not hold the feed within its {name} here{further}", worst.axis);
+    let minute = |feed: f64| (feed * 600.0).round() / 10.0;
     Some(
-        in_mm_per_min(Finding::warning(Code::FEED_BEYOND, what), [feed * worst.share, feed])
+        Finding::warning(Code::FEED_BEYOND, what)
+            .value(minute(feed * worst.share), "mm/min")
+            .bound(minute(feed), "mm/min")
             .item(segment.item)
+            .point(segment.curve.start().to_array())
             .help("lower the feed there to the value, or give the path larger radii"),
     )
-}
-
-/// A finding with a feed and its bound [mm/s], in mm/min.
-fn in_mm_per_min(finding: Finding, [value, bound]: [f64; 2]) -> Finding {
-    let minute = |feed: f64| (feed * 600.0).round() / 10.0;
-    finding.value(minute(value), "mm/min").bound(minute(bound), "mm/min")
 }

@@ -6,6 +6,7 @@ pub(crate) mod check;
 mod closer;
 pub mod contour;
 pub(crate) mod external;
+pub(crate) mod facets;
 pub(crate) mod feeds;
 pub mod file;
 pub(crate) mod following;

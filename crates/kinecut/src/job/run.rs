@@ -13,6 +13,7 @@ use crate::trace::{Trace, trace, travel_findings};
 
 use super::check::{Job, check};
 use super::external::{GivenJob, external_setup};
+use super::facets::facets_note;
 use super::following::{line_place, trace_options};
 use super::measure::{self, Measured, loose_cores, tallies};
 use super::outcome::Outcome;
@@ -128,10 +129,12 @@ pub(crate) fn run_checked(
         progress.stage("time", moves);
         for s in &mut setups {
             s.time = program_time(&s.program, &s.trace, machine, progress)?;
-            found.extend(s.time.as_ref().and_then(|time| time.reason.clone()).map(|mut reason| {
-                let line = reason.item.take().and_then(|item| s.lines.get(item as usize).copied().flatten());
-                reason.place = line_place(&s.file, &s.posted.text, line);
-                reason
+            let facets = s.time.as_ref().and_then(|time| facets_note(&s.trace, time, machine));
+            let reason = s.time.as_ref().and_then(|time| time.reason.clone());
+            found.extend(facets.into_iter().chain(reason).map(|mut note| {
+                let line = note.item.take().and_then(|item| s.lines.get(item as usize).copied().flatten());
+                note.place = line_place(&s.file, &s.posted.text, line);
+                note
             }));
         }
     }
@@ -308,8 +311,9 @@ fn findings(
         found.extend(s.planned.operations.iter().flat_map(|o| o.plan.remarks().iter().cloned()));
         found.extend(simulate::findings(&s.trace, &simulation.effects[i], &job.tools, place));
         if let Some(machine) = &job.machine {
+            // Those of a planned program are within limits where they are to be.
             let feeds = match job.feed_limit {
-                Some(_) if s.external.is_none() => feeds::lowered_note(s).into_iter().collect(),
+                Some(_) if s.external.is_none() => Vec::new(),
                 _ => feeds::not_held(&s.trace, machine),
             };
             for mut f in travel_findings(&s.trace, &s.program, machine).into_iter().chain(feeds) {

@@ -6,6 +6,7 @@ use crate::base::{Code, Finding, Result, Silent};
 use crate::geom::{Aabb, Rigid};
 use crate::job::external::given::GivenJob;
 use crate::job::external::{Followed, Missing, at_block, follow};
+use crate::job::facets::facets_note;
 use crate::job::feeds::not_held;
 use crate::job::held_feed::HeldFeed;
 use crate::job::time_terms::terms;
@@ -93,7 +94,9 @@ pub fn program_sheet(given: &GivenJob) -> Result<ProgramSheet> {
         None => None,
     };
     let reason = law.as_ref().and_then(|law| law.reason.clone());
-    findings.extend(reason.map(|f| *at_block(f.into(), program, &done.lines).0));
+    let facets = law.as_ref().zip(job.machine.as_ref());
+    let facets = facets.and_then(|(law, machine)| facets_note(&done.trace, law, machine));
+    findings.extend(facets.into_iter().chain(reason).map(|f| *at_block(f.into(), program, &done.lines).0));
     findings.sort_by_key(|f| std::cmp::Reverse(f.severity));
     let (programmed, time_has_rapids) = done.trace.duration();
     let counted = || done.trace.segments.iter().filter(|s| !s.alternative);

@@ -2,6 +2,7 @@
 
 mod axis_limits;
 mod changes;
+mod facets;
 mod held;
 mod joint;
 mod joints;
@@ -20,6 +21,7 @@ mod swing;
 mod times;
 
 pub use axis_limits::axis_limits;
+pub use facets::{Facets, facets};
 pub use held::{AxisBound, FeedBeyond, feeds_beyond};
 pub use program_time::{Changes, ProgramTime, Smoothing};
 pub use times::program_time;

@@ -4,6 +4,7 @@ use super::model::{PartView, ProgramPart, ProgramView, Report, ReportVerdict, To
 use super::{PathPiece, PathRole};
 use crate::base::at_most;
 use crate::geom::ProfileElement;
+use crate::job::feeds::lowered_words;
 use crate::job::held_feed::HeldFeed;
 use crate::job::time_terms::terms;
 use crate::job::{Outcome, PartSurface, SetupOutcome};
@@ -102,6 +103,8 @@ fn verdict(outcome: &Outcome) -> ReportVerdict {
         let line = |item: u32| s.lines.get(item as usize).copied().flatten();
         let held = s.time.as_ref().and_then(|law| HeldFeed::of(&s.trace, law).words(line));
         verdict.facts.extend(held.map(|(held, slowest)| Fact::new("Feed", held).note(slowest)));
+        let lowered = lowered_words(s);
+        verdict.facts.extend(lowered.map(|(blocks, lowest)| Fact::new("Feed words", blocks).note(lowest)));
     }
     let used: Vec<String> = outcome
         .job
