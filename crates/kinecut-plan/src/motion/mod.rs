@@ -29,7 +29,10 @@ pub use course::Course;
 pub use end::End;
 pub use law::TimeLaw;
 pub use pointwise::{Limits, RunLaw, RunPoint, pointwise};
-pub use program::{Changes, ProgramTime, Smoothing, axis_limits, program_time};
+pub use program::{
+    AxisMoment, Changes, MotionSample, ProgramTime, SampledMotion, Smoothing, axis_limits, program_samples,
+    program_time, sample_count,
+};
 pub use reach::WithoutJerk;
 pub use s_curve::{Moment, SCurve};
 pub use shares::Shares;

@@ -20,6 +20,8 @@ pub(super) struct Setting<'a> {
     pub(super) progress: &'a dyn Progress,
     /// Limits of the axes; jerk is not limited where the control does not limit it.
     pub(super) limits: [Option<AxisLimit>; AXES],
+    /// Whether the motion over time is kept, beside its times.
+    pub(super) keeps_motion: bool,
 }
 
 impl<'a> Setting<'a> {
@@ -31,7 +33,7 @@ impl<'a> Setting<'a> {
         ) {
             limits = without_jerk(&limits);
         }
-        Setting { machine, progress, limits }
+        Setting { machine, progress, limits, keeps_motion: false }
     }
 
     /// True if some axis has a limit of jerk.

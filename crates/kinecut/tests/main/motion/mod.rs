@@ -5,5 +5,6 @@ mod errors;
 mod metamorphic;
 mod program;
 mod random;
+mod samples;
 mod spirals;
 mod straight;
