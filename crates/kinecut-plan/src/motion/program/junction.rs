@@ -41,6 +41,16 @@ pub(super) struct Chords {
     segments: Vec<(usize, bool)>,
 }
 
+/// Motion at a moment.
+pub(super) struct OnChord {
+    /// Index of the segment, and whether its tip stands.
+    pub(super) of: (usize, bool),
+    /// Motion of the parameter along the chord.
+    pub(super) at: Moment,
+    /// Positions of the axes, and their rates by the parameter.
+    pub(super) axes: [[f64; 2]; AXES],
+}
+
 impl Chords {
     /// The run over a sequence without a stop; `None` if an axis that moves has no limits.
     pub(super) fn of(pieces: &[Piece], deviation: f64, limits: &[Option<AxisLimit>; AXES]) -> Option<Chords> {
@@ -66,14 +76,13 @@ impl Chords {
         self.blocks.last().map_or(0.0, |block| block.start + block.time())
     }
 
-    /// The segment at a moment [s] and whether its tip stands, the motion of the parameter along its chord, and positions and rates of the axes
-    /// there; `None` where nothing moves.
-    pub(super) fn at(&self, time: f64) -> Option<((usize, bool), Moment, [[f64; 2]; AXES])> {
+    /// The motion at a moment [s]; `None` where nothing moves.
+    pub(super) fn at(&self, time: f64) -> Option<OnChord> {
         let k = self.blocks.partition_point(|block| block.start <= time).checked_sub(1)?;
         let block = &self.blocks[k];
         let at = block.at(time - block.start);
         let axes = std::array::from_fn(|a| [block.from[a] + block.rates[a] * at.way, block.rates[a]]);
-        Some((self.segments[block.piece], at, axes))
+        Some(OnChord { of: self.segments[block.piece], at, axes })
     }
 }
 

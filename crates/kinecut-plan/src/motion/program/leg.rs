@@ -110,7 +110,7 @@ fn alone<'a>(piece: &Piece<'a>, rates: &[f64; AXES], setting: &Setting) -> Optio
         true => Motion::Apart {
             segment: piece.segment,
             from: piece.at(0.0).map(|jet| jet.q),
-            axes: Apart::new(&rates.map(|rate| rate * length), &setting.limits),
+            axes: Box::new(Apart::new(&rates.map(|rate| rate * length), &setting.limits)),
         },
         false => Motion::Straight {
             piece: piece.clone(),

@@ -2,7 +2,7 @@
 
 use super::super::{Moment, SCurve};
 use super::joint::AXES;
-use super::junction::Chords;
+use super::junction::{Chords, OnChord};
 use super::law::Law;
 use super::run::{Piece, Run};
 use super::straight::Apart;
@@ -37,7 +37,7 @@ pub(super) enum Motion<'a> {
     /// A straight move, its axes together.
     Straight { piece: Piece<'a>, curve: SCurve },
     /// Axes that run for themselves from these positions.
-    Apart { segment: usize, from: [f64; AXES], axes: Apart },
+    Apart { segment: usize, from: [f64; AXES], axes: Box<Apart> },
     /// Moves without a stop.
     Run(Box<RunMotion<'a>>),
     /// The same by chords.
@@ -52,7 +52,7 @@ impl<'a> Motion<'a> {
         }
         let [from, to] = around_ends(&piece.path)[end];
         let ways = std::array::from_fn(|a| to[a] - from[a]);
-        Some(Motion::Apart { segment: piece.segment, from, axes: Apart::new(&ways, limits) })
+        Some(Motion::Apart { segment: piece.segment, from, axes: Box::new(Apart::new(&ways, limits)) })
     }
 
     /// Time [s].
@@ -84,7 +84,7 @@ impl<'a> Motion<'a> {
             }
             Motion::Run(run) => run.at(time),
             Motion::Chords(chords) => {
-                let (of, at, axes) = chords.at(time)?;
+                let OnChord { of, at, axes } = chords.at(time)?;
                 Some(along(of, &axes.map(|[q, d1]| AxisJet { q, d1, d2: 0.0, d3: 0.0 }), at))
             }
         }

@@ -70,7 +70,7 @@ mod tests {
         use CycleStep::{Dwell, Feed, Rapid};
         // Wait on top, down, wait at the bottom, up to where it is, up.
         let steps = [Rapid(2.0), Dwell(0.1), Feed(-3.0), Dwell(0.2), Rapid(-3.0), Rapid(2.0)];
-        let place = |nth, count| place_in_cycle(&steps, nth, 10..10 + count);
+        let place = |nth, count: usize| place_in_cycle(&steps, nth, 10..10 + count);
         assert_eq!([place(0, 3), place(1, 3)], [11, 12]);
         // The tool stands on the first height already.
         assert_eq!([place(0, 2), place(1, 2)], [10, 11]);
