@@ -16,9 +16,10 @@ use crate::layouts::Layouts;
 use crate::machine::{Fk, Ik, Machine, Reach};
 use crate::planned::{Drill, Face, Hole};
 use crate::printing::Printing;
-use crate::program::{Check, Post, Run, Simulate, Time};
+use crate::program::{Check, Post, Run, Simulate};
 use crate::surface::Surface;
 use crate::swept::{Envelope, Grazing};
+use crate::time::Time;
 
 /// Plans, posts and proves metal cutting.
 #[derive(Debug, Parser)]

@@ -13,7 +13,6 @@ use kinecut::operations::OrientationName;
 use kinecut::verbs::check::program_sheet;
 use kinecut::verbs::post::translate;
 use kinecut::verbs::run::{self, MeshForm, ResultFiles};
-use kinecut::verbs::time::{time_of_job, time_of_program};
 
 use crate::answers::{Data, To, answer};
 use crate::numbers::{corners, triple, two_points};
@@ -142,9 +141,9 @@ impl Run {
 
 /// A program that others wrote, and what is known about it.
 #[derive(Debug, clap::Args)]
-struct ProgramOf {
+pub(crate) struct ProgramOf {
     /// The program
-    program: PathBuf,
+    pub(crate) program: PathBuf,
     /// Job file with tools, stock, machine, clamping and design; its own operations do not count
     #[arg(long, value_name = "JOB", conflicts_with_all = ["machine", "tools", "position"])]
     job: Option<PathBuf>,
@@ -167,7 +166,7 @@ struct ProgramOf {
 
 impl ProgramOf {
     /// The job about the program.
-    fn given(
+    pub(crate) fn given(
         &self,
         control: Option<&String>,
         stock: Option<&RawStock>,
@@ -200,7 +199,7 @@ impl ProgramOf {
 
 /// Raw stock as an option names it.
 #[derive(Clone, Debug)]
-enum RawStock {
+pub(crate) enum RawStock {
     /// A block between two corners.
     Block([f64; 6]),
     /// A file.
@@ -227,10 +226,10 @@ impl RawStock {
 
 /// A control that is not told by the file.
 #[derive(Debug, clap::Args)]
-struct RunBy {
+pub(crate) struct RunBy {
     /// The control that runs it; default: that of the job, then that of the file's ending (.mpf .ngc .gcode .h)
     #[arg(long, value_name = "CONTROL")]
-    control: Option<String>,
+    pub(crate) control: Option<String>,
 }
 
 #[derive(Debug, clap::Args)]
@@ -269,7 +268,7 @@ impl Simulate {
 }
 
 /// Whether a file is a job, not a program.
-fn is_job(path: &Path) -> bool {
+pub(crate) fn is_job(path: &Path) -> bool {
     path.extension().is_some_and(|e| e.eq_ignore_ascii_case("toml"))
 }
 
@@ -286,48 +285,6 @@ impl Check {
     pub(crate) fn answer(&self, args: &Printing) -> Result<u8, Error> {
         let given = self.of.given(self.by.control.as_ref(), None, false)?;
         answer(args, To::default(), program_sheet(&given)?)
-    }
-}
-
-#[derive(Debug, clap::Args)]
-#[command(mut_arg("program", |arg| arg.help("The program, or a job file (.toml)")))]
-#[command(after_help = "Examples:
-  kinecut time job.toml              the programs of a job, as run posts them
-  kinecut time O1234.nc --control fanuc --machine mill.toml --slowest 20
-  kinecut time O1234.nc --job job.toml --samples motion.csv --cycle 0.002
-Nothing is cut. The machine says how fast its axes are: rapid, acceleration and jerk in `dynamics`,
-rotary axes in [axis.C].")]
-pub(crate) struct Time {
-    #[command(flatten)]
-    of: ProgramOf,
-    #[command(flatten)]
-    by: RunBy,
-    /// Number of blocks in the table of those that lose most time
-    #[arg(long, value_name = "N", default_value_t = 10)]
-    slowest: usize,
-    /// File for samples of the motion, .csv or .json: time, line, and position, velocity, acceleration and jerk of each axis
-    #[arg(long, value_name = "FILE")]
-    samples: Option<PathBuf>,
-    /// Time between two samples, s
-    #[arg(long, value_name = "SECONDS", default_value_t = 0.001, requires = "samples")]
-    cycle: f64,
-}
-
-impl Time {
-    /// The time of a program of others, or of those of a job.
-    pub(crate) fn answer(&self, args: &Printing) -> Result<u8, Error> {
-        let bar = Bar::new();
-        let timed = if is_job(&self.of.program) {
-            time_of_job(&self.of.program, files::read(), &bar)?
-        } else {
-            time_of_program(&self.of.given(self.by.control.as_ref(), None, false)?, &bar)?
-        };
-        let mut sheet = timed.sheet(self.slowest);
-        if let Some(file) = &self.samples {
-            sheet.samples = Some(timed.write_samples(file, self.cycle, files::read(), &bar)?);
-        }
-        drop(bar);
-        answer(args, To::default(), sheet)
     }
 }
 
