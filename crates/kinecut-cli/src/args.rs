@@ -19,6 +19,7 @@ use crate::printing::Printing;
 use crate::program::{Check, Post, Run, Simulate};
 use crate::surface::Surface;
 use crate::swept::{Envelope, Grazing};
+use crate::time::Time;
 
 /// Plans, posts and proves metal cutting.
 #[derive(Debug, Parser)]
@@ -36,6 +37,7 @@ Examples:
   kinecut verify out/verdict.json                   does the verdict still hold?
   kinecut simulate O1234.nc --job job.toml          cut a program that others wrote
   kinecut check O1234.nc --control fanuc            read it, and say what is wrong with it
+  kinecut time O1234.nc --job job.toml              how long it takes on the machine, and where time is lost
   kinecut post O1234.nc --from fanuc --to linuxcnc  write it for another control
   kinecut hole hole.toml --compare --out out        all strategies on one hole, compared
   kinecut drill hole.toml --out out                 zones, Z, feeds and times of drilled holes
@@ -60,6 +62,8 @@ pub(crate) enum Verb {
     Simulate(Simulate),
     /// Read a program that others wrote and say what is wrong with it; nothing is cut
     Check(Check),
+    /// Time of a program or a job under the limits of the machine's axes, where it is lost, samples of the motion
+    Time(Time),
     /// Write a program for another control, and compare the two motions
     Post(Post),
     /// Plan one hole, or compare all strategies on it
@@ -107,6 +111,7 @@ impl Verb {
             Verb::Run(verb) => verb.answer(args),
             Verb::Simulate(verb) => verb.answer(args),
             Verb::Check(verb) => verb.answer(args),
+            Verb::Time(verb) => verb.answer(args),
             Verb::Post(verb) => verb.answer(args),
             Verb::Hole(verb) => verb.answer(args),
             Verb::Drill(verb) => verb.answer(args),

@@ -14,6 +14,7 @@ mod render;
 mod show;
 mod surface;
 mod swept;
+mod time;
 
 use std::process::ExitCode;
 

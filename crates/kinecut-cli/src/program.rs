@@ -141,9 +141,9 @@ impl Run {
 
 /// A program that others wrote, and what is known about it.
 #[derive(Debug, clap::Args)]
-struct ProgramOf {
+pub(crate) struct ProgramOf {
     /// The program
-    program: PathBuf,
+    pub(crate) program: PathBuf,
     /// Job file with tools, stock, machine, clamping and design; its own operations do not count
     #[arg(long, value_name = "JOB", conflicts_with_all = ["machine", "tools", "position"])]
     job: Option<PathBuf>,
@@ -166,7 +166,7 @@ struct ProgramOf {
 
 impl ProgramOf {
     /// The job about the program.
-    fn given(
+    pub(crate) fn given(
         &self,
         control: Option<&String>,
         stock: Option<&RawStock>,
@@ -199,7 +199,7 @@ impl ProgramOf {
 
 /// Raw stock as an option names it.
 #[derive(Clone, Debug)]
-enum RawStock {
+pub(crate) enum RawStock {
     /// A block between two corners.
     Block([f64; 6]),
     /// A file.
@@ -226,10 +226,10 @@ impl RawStock {
 
 /// A control that is not told by the file.
 #[derive(Debug, clap::Args)]
-struct RunBy {
+pub(crate) struct RunBy {
     /// The control that runs it; default: that of the job, then that of the file's ending (.mpf .ngc .gcode .h)
     #[arg(long, value_name = "CONTROL")]
-    control: Option<String>,
+    pub(crate) control: Option<String>,
 }
 
 #[derive(Debug, clap::Args)]
@@ -256,7 +256,7 @@ impl Simulate {
     /// Cuts a program of others.
     pub(crate) fn answer(&self, args: &Printing) -> Result<u8, Error> {
         let path = &self.of.program;
-        let done = if path.extension().is_some_and(|e| e.eq_ignore_ascii_case("toml")) {
+        let done = if is_job(path) {
             run::simulate_job(path, &self.cut.wants(), &self.results.files(), files::read(), &Bar::new())?
         } else {
             let mut given = self.of.given(self.by.control.as_ref(), self.stock.as_ref(), true)?;
@@ -265,6 +265,11 @@ impl Simulate {
         };
         answer(args, self.results.to(), done)
     }
+}
+
+/// Whether a file is a job, not a program.
+pub(crate) fn is_job(path: &Path) -> bool {
+    path.extension().is_some_and(|e| e.eq_ignore_ascii_case("toml"))
 }
 
 #[derive(Debug, clap::Args)]

@@ -18,3 +18,4 @@ mod machine;
 mod program;
 mod shown;
 mod surface;
+mod time;

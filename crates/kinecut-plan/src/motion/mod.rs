@@ -33,8 +33,8 @@ pub use feed_parts::{FeedPart, feed_parts, lowered};
 pub use law::TimeLaw;
 pub use pointwise::{Limits, RunLaw, RunPoint, pointwise};
 pub use program::{
-    AxisBound, Changes, Facets, FeedBeyond, ProgramTime, Smoothing, axis_limits, facets, feeds_beyond,
-    program_time,
+    AxisBound, AxisMoment, Changes, Facets, FeedBeyond, MotionSample, ProgramTime, SampledMotion, Smoothing,
+    axis_limits, facets, feeds_beyond, program_samples, program_time, sample_count,
 };
 pub use reach::WithoutJerk;
 pub use s_curve::{Moment, SCurve};

@@ -6,7 +6,7 @@
 //! upper line. Forward: as fast as may be inside of these intervals. The error is of second order in the length of cells.
 
 use super::shape::not_finite;
-use super::{AxisLimit, Course, End};
+use super::{AxisLimit, Course, End, Moment};
 use crate::base::Result;
 
 /// The run: the square of the speed is linear in the way inside each cell.
@@ -29,6 +29,20 @@ impl WithoutJerk {
     /// Rates of the parameter at both ends [mm/s].
     pub(super) fn ends(&self) -> [f64; 2] {
         [self.squares[0].sqrt(), self.squares[self.squares.len() - 1].sqrt()]
+    }
+
+    /// Motion of the parameter at a moment [s] after the start; its way is the place [mm]. Its jerk is that between jumps of
+    /// acceleration: none.
+    pub fn at(&self, time: f64) -> Moment {
+        let n = self.knots.len() - 1;
+        let k = self.moments.partition_point(|t| *t <= time).clamp(1, n) - 1;
+        let t = (time - self.moments[k]).max(0.0);
+        let cell = self.knots[k + 1] - self.knots[k];
+        let acceleration = 0.5 * (self.squares[k + 1] - self.squares[k]) / cell;
+        let before = self.squares[k].sqrt();
+        let way = t * (before + 0.5 * acceleration * t);
+        let velocity = (before + acceleration * t).max(0.0);
+        Moment { way: self.knots[k] + way.min(cell), velocity, acceleration, jerk: 0.0 }
     }
 
     /// Moment [s] at which the path reaches a place [mm].

@@ -1,5 +1,6 @@
 //! Speed over a path, and the way over time.
 
+use super::Moment;
 use super::spline::{basis, lengths};
 
 /// The square `b` of the rate of a path's parameter: a spline between the cells at rest (`motion/spline.rs`).
@@ -169,6 +170,25 @@ impl Speed {
         self.knots[k] + b.sqrt() * t * sine + 0.5 * d * t * t * cosine
     }
 
+    /// Motion of the parameter at a moment [s] after the start; its way is the place [mm].
+    pub fn at(&self, time: f64) -> Moment {
+        let [first, last] = self.rests();
+        if first > 0.0 && time <= self.moments[0] {
+            let at = from_rest(first, self.moments[0], time);
+            return Moment { way: self.stops[0] + at.way, ..at };
+        }
+        let left = self.duration - time;
+        let last_moment = self.moments[self.cells()];
+        if last > 0.0 && time >= last_moment {
+            let at = from_rest(last, self.duration - last_moment, left);
+            return Moment { way: self.stops[1] - at.way, acceleration: -at.acceleration, ..at };
+        }
+        let way = self.place(time);
+        let [b, b1, b2] = self.square(way);
+        let velocity = b.max(0.0).sqrt();
+        Moment { way, velocity, acceleration: 0.5 * b1, jerk: 0.5 * velocity * b2 }
+    }
+
     /// Moment [s] at which the path reaches a place [mm].
     pub fn moment(&self, s: f64) -> f64 {
         let n = self.cells();
@@ -188,6 +208,18 @@ impl Speed {
         }
         let k = self.knots.partition_point(|t| *t <= s).clamp(1, n) - 1;
         self.moments[k] + self.time_to(k, s - self.knots[k])
+    }
+}
+
+/// Motion in a cell at rest of length `h` that takes a time: its jerk is constant.
+fn from_rest(h: f64, duration: f64, time: f64) -> Moment {
+    let part = (time / duration).max(0.0);
+    let rate = h / duration;
+    Moment {
+        way: h * part.powi(3),
+        velocity: 3.0 * rate * part * part,
+        acceleration: 6.0 * rate / duration * part,
+        jerk: 6.0 * rate / (duration * duration),
     }
 }
 

@@ -88,14 +88,8 @@ pub(crate) fn run_checked(
 ) -> Result<Outcome> {
     progress.stage("plan", 1);
     let planned = plan(&job, progress).map_err(locate)?;
-    let post = |planned: &[SetupPlan], verdict_line: &str| -> Result<Vec<SetupOutcome>> {
-        let posted = planned.iter().enumerate().map(|(i, p)| match &job.setups[i].program {
-            Some(program) => external_setup(&job, i, program, p.clone()),
-            None => names::of_setup(&job.post, i, planned.len())
-                .and_then(|post| setup(&job, post, p.clone(), verdict_line)),
-        });
-        posted.collect::<Result<_>>().map_err(locate)
-    };
+    let post =
+        |planned: &[SetupPlan], verdict_line: &str| post_all(&job, planned, verdict_line).map_err(locate);
     let mut setups = post(&planned, &head_line(&[]))?;
     still_wanted(progress)?;
     let traces: Vec<&Trace> = setups.iter().map(|s| &s.trace).collect();
@@ -193,7 +187,7 @@ fn operation_key(job: &Job, number: u32) -> Option<String> {
 }
 
 /// The line in the head of a program that says what was found in it.
-fn head_line(found: &[Finding]) -> String {
+pub(super) fn head_line(found: &[Finding]) -> String {
     let advice = match Judgement::of(found) {
         Judgement::Safe => "",
         Judgement::NotProven => ", look before you run",
@@ -203,7 +197,7 @@ fn head_line(found: &[Finding]) -> String {
 }
 
 /// File name without folder and ending, kept to letters that every control and file system takes.
-fn stem(name: &str) -> String {
+pub(super) fn stem(name: &str) -> String {
     let mut parts = name.rsplit(['/', '\\']);
     let base = parts.next().unwrap_or(name);
     let base = base.strip_suffix(".toml").unwrap_or(base);
@@ -213,6 +207,19 @@ fn stem(name: &str) -> String {
     let clean: String =
         base.chars().map(|c| if c.is_ascii_alphanumeric() || c == '_' { c } else { '_' }).collect();
     if clean.is_empty() { "job".to_owned() } else { clean }
+}
+
+/// Posts each setup, reads its text back and follows it; of a setup with a program of others, that is read.
+///
+/// # Errors
+/// Those of posting, reading and following.
+pub(super) fn post_all(job: &Job, planned: &[SetupPlan], verdict_line: &str) -> Result<Vec<SetupOutcome>> {
+    let posted = planned.iter().enumerate().map(|(i, p)| match &job.setups[i].program {
+        Some(program) => external_setup(job, i, program, p.clone()),
+        None => names::of_setup(&job.post, i, planned.len())
+            .and_then(|post| setup(job, post, p.clone(), verdict_line)),
+    });
+    posted.collect()
 }
 
 fn setup(job: &Job, mut post: PostSettings, planned: SetupPlan, verdict_line: &str) -> Result<SetupOutcome> {

@@ -19,6 +19,7 @@ pub mod run;
 mod safe_height;
 pub mod schema;
 pub mod surface;
+pub mod time;
 mod unknown_stock;
 mod verify;
 

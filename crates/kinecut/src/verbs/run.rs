@@ -158,6 +158,12 @@ pub fn simulate_given(
 }
 
 fn outcome_of(job: &Path, wants: &RunWants, read: &FilesRead, progress: &dyn Progress) -> Result<Outcome> {
+    let (text, loader) = job_text(job, read)?;
+    job::run_with(&job.display().to_string(), &text, wants, &loader, progress)
+}
+
+/// The text of a job file, and a loader for what it names.
+pub(super) fn job_text(job: &Path, read: &FilesRead) -> Result<(String, DiskLoader)> {
     let folder = job.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
     let loader = DiskLoader::new(folder).noting(read);
     let file = job.file_name().map(|n| n.to_string_lossy().into_owned()).unwrap_or_default();
@@ -165,7 +171,7 @@ fn outcome_of(job: &Path, wants: &RunWants, read: &FilesRead, progress: &dyn Pro
         e.0.place = Some(Location::whole_file(job.display().to_string()));
         e
     })?;
-    job::run_with(&job.display().to_string(), &text, wants, &loader, progress)
+    Ok((text, loader))
 }
 
 fn done(outcome: Outcome, files: &ResultFiles, progress: &dyn Progress) -> Result<Done> {

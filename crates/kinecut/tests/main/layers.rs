@@ -20,6 +20,7 @@ const FILE_ACCESS: &[&str] = &[
     "base/loader.rs",
     "job/output/mod.rs",
     "job/output/disk.rs",
+    "job/output/streamed.rs",
     "job/output/turn.rs",
     "job/output/tests.rs",
 ];

@@ -1,6 +1,6 @@
 //! Law of a stretch of a run.
 
-use super::super::{TimeLaw, WithoutJerk};
+use super::super::{Moment, TimeLaw, WithoutJerk};
 use super::ramp::Ramp;
 
 /// Law of a stretch.
@@ -26,6 +26,15 @@ impl Law {
             Law::Straight(ramp) => ramp.without_jerk(),
             Law::Limited(law) => law.without_jerk(),
             Law::WithoutJerk(law) => law.duration(),
+        }
+    }
+
+    /// Motion along the stretch at a moment [s].
+    pub(super) fn at(&self, time: f64) -> Moment {
+        match self {
+            Law::Straight(ramp) => ramp.at(time),
+            Law::Limited(law) => law.speed().at(time),
+            Law::WithoutJerk(law) => law.at(time),
         }
     }
 

@@ -8,10 +8,11 @@ use super::super::{AxisLimit, Course, End, SCurve, TimeLaw, WithoutJerk};
 use super::joint::{AXES, Joint};
 use super::law::Law;
 use super::level::level;
+use super::motion::{Motion, Pace, RunMotion};
 use super::ramp::Ramp;
 use super::run::{Moving, Piece, Run};
 use super::setting::{Setting, without_jerk};
-use super::straight::{along, axis_by_axis, straight};
+use super::straight::{Apart, along, axis_by_axis, straight};
 use crate::base::Result;
 use crate::machine::Rapids;
 
@@ -38,7 +39,7 @@ pub(super) enum Task {
 
 /// Result for a leg.
 #[derive(Default)]
-pub(super) struct LegTime {
+pub(super) struct LegTime<'a> {
     /// Time of each move [s].
     pub(super) times: Vec<f64>,
     /// Time of all where jerk has no limit [s].
@@ -51,14 +52,18 @@ pub(super) struct LegTime {
     pub(super) dilation: f64,
     /// Cells times axes, of [`Task::Count`].
     pub(super) cells: usize,
+    /// Its motion, where that is kept.
+    pub(super) motion: Option<Motion<'a>>,
+    /// The laws of a run one after the other, where they are kept.
+    paces: Vec<Pace>,
 }
 
-impl Leg<'_> {
+impl<'a> Leg<'a> {
     /// The time of its moves; `None` if an axis that moves has no limits.
     ///
     /// # Errors
     /// Those of [`TimeLaw::between`].
-    pub(super) fn time(self, setting: &Setting, task: Task) -> Result<Option<LegTime>> {
+    pub(super) fn time(self, setting: &Setting, task: Task) -> Result<Option<LegTime<'a>>> {
         if let [piece] = &self.pieces[..]
             && let Some(rates) = straight(&piece.path)
         {
@@ -75,12 +80,18 @@ impl Leg<'_> {
             [a, b, c, d, e] => law(&run, [a, b, c, d, e], setting, task),
             _ => law(&run, [0, 1, 2, 3, 4, 5], setting, task),
         };
-        Ok(time?.map(|time| LegTime { farthest: run.farthest(), ..time }))
+        let Some(mut time) = time? else { return Ok(None) };
+        time.farthest = run.farthest();
+        if setting.keeps_motion && !time.paces.is_empty() {
+            let paces = std::mem::take(&mut time.paces);
+            time.motion = Some(Motion::Run(Box::new(RunMotion::new(run, paces))));
+        }
+        Ok(Some(time))
     }
 }
 
 /// The time of a straight move from rest to rest.
-fn alone(piece: &Piece, rates: &[f64; AXES], setting: &Setting) -> Option<LegTime> {
+fn alone<'a>(piece: &Piece<'a>, rates: &[f64; AXES], setting: &Setting) -> Option<LegTime<'a>> {
     let unbound = |(rate, limit): (&f64, &Option<AxisLimit>)| *rate != 0.0 && limit.is_none();
     if rates.iter().zip(&setting.limits).any(unbound) {
         return None;
@@ -95,16 +106,28 @@ fn alone(piece: &Piece, rates: &[f64; AXES], setting: &Setting) -> Option<LegTim
         }
     };
     let no_jerk = time(&without_jerk(&setting.limits));
-    Some(LegTime { times: vec![time(&setting.limits)], without_jerk: no_jerk, ..LegTime::default() })
+    let motion = setting.keeps_motion.then(|| match apart {
+        true => Motion::Apart {
+            segment: piece.segment,
+            from: piece.at(0.0).map(|jet| jet.q),
+            axes: Box::new(Apart::new(&rates.map(|rate| rate * length), &setting.limits)),
+        },
+        false => Motion::Straight {
+            piece: piece.clone(),
+            curve: SCurve::new(length, along(rates, &setting.limits, piece.feed)),
+        },
+    });
+    let times = vec![time(&setting.limits)];
+    Some(LegTime { times, without_jerk: no_jerk, motion, ..LegTime::default() })
 }
 
 /// The time of a run over these axes.
-fn law<const A: usize>(
-    run: &Run,
+fn law<'a, const A: usize>(
+    run: &Run<'_>,
     axes: [usize; A],
     setting: &Setting,
     task: Task,
-) -> Result<Option<LegTime>> {
+) -> Result<Option<LegTime<'a>>> {
     let mut limits = [AxisLimit { velocity: 0.0, acceleration: 0.0, jerk: 0.0 }; A];
     for (limit, axis) in limits.iter_mut().zip(axes) {
         match setting.limits[axis] {
@@ -125,12 +148,12 @@ fn law<const A: usize>(
     }
     let laws = laws(run, &course, &limits, &parts, setting, task)?;
     if arrive(&course, &parts, &laws) {
-        return Ok(Some(put_together(&course, &limits, &parts, &laws)));
+        return Ok(Some(put_together(&course, &limits, &parts, laws, setting.keeps_motion)));
     }
     // A run that does not get to its feed where it should go on evenly: all of it is solved.
     let whole = self::parts(&course, &[]);
     let laws = self::laws(run, &course, &limits, &whole, setting, task)?;
-    Ok(Some(put_together(&course, &limits, &whole, &laws)))
+    Ok(Some(put_together(&course, &limits, &whole, laws, setting.keeps_motion)))
 }
 
 /// A stretch that is to be solved, and the level one behind it [mm].
@@ -205,12 +228,13 @@ fn arrive<const A: usize>(course: &Moving<A>, parts: &[Parts], laws: &[Option<La
 }
 
 /// The times of all moves of a run.
-fn put_together<const A: usize>(
+fn put_together<'a, const A: usize>(
     course: &Moving<A>,
     limits: &[AxisLimit; A],
     parts: &[Parts],
-    laws: &[Option<Law>],
-) -> LegTime {
+    laws: Vec<Option<Law>>,
+    keeps: bool,
+) -> LegTime<'a> {
     let starts = course.run().starts();
     let mut time = LegTime { dilation: 1.0, ..LegTime::default() };
     let mut ends = starts[1..].iter().copied().peekable();
@@ -229,6 +253,9 @@ fn put_together<const A: usize>(
             clock += law.duration();
             time.without_jerk += law.without_jerk();
             time.dilation = time.dilation.max(law.dilation());
+            if keeps {
+                time.paces.push(Pace::of_law(from, law));
+            }
         }
         if part.level_to > to {
             let feed = course.feed(0.5 * (to + part.level_to));
@@ -238,6 +265,9 @@ fn put_together<const A: usize>(
             let even = (part.level_to - to) / feed;
             clock += even;
             time.without_jerk += even;
+            if keeps {
+                time.paces.push(Pace::even([to, part.level_to], feed));
+            }
         }
     }
     let mut before = 0.0;

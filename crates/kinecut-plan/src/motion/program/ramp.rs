@@ -1,6 +1,6 @@
 //! A straight stretch that begins or ends at rest, in closed form.
 
-use super::super::{AxisLimit, End, SCurve};
+use super::super::{AxisLimit, End, Moment, SCurve};
 use super::joint::AXES;
 
 /// A straight stretch with a rest at one end at least.
@@ -51,6 +51,17 @@ impl Ramp {
     /// Rates at both ends [mm/s].
     pub(super) fn rates(&self) -> [f64; 2] {
         self.ends.map(|end| if end == End::Rest { 0.0 } else { self.curve.peak() })
+    }
+
+    /// Motion along it at a moment [s].
+    pub(super) fn at(&self, time: f64) -> Moment {
+        match self.ends {
+            [End::Rest, _] => self.curve.at(time),
+            [End::Even, _] => {
+                let at = self.curve.at(0.5 * self.curve.duration() + time);
+                Moment { way: at.way - self.length, ..at }
+            }
+        }
     }
 
     /// Moment [s] at which a place is reached [mm].

@@ -4,14 +4,31 @@ use super::super::Course;
 use super::joint::{AXES, Joint};
 use super::joints::Joints;
 use super::straight::straight;
-use crate::trace::AxisPath;
+use super::swing::BESIDE;
+use crate::trace::{AxisJet, AxisPath};
 
 /// A move of a run.
+#[derive(Clone)]
 pub(super) struct Piece<'a> {
     /// The axes over the parameter of the move.
     pub(super) path: AxisPath<'a>,
     /// Rate of the parameter at the programmed feed [mm/s]; infinite for a rapid.
     pub(super) feed: f64,
+    /// Index of its segment in the trace.
+    pub(super) segment: usize,
+    /// Whether the tip stands: the parameter is then an angle.
+    pub(super) stands: bool,
+    /// Whether axes turn on the spot at its start and end.
+    pub(super) turned: [bool; 2],
+}
+
+impl Piece<'_> {
+    /// The axes at a place [mm], beside its ends where they turn on the spot there.
+    pub(super) fn at(&self, s: f64) -> [AxisJet; AXES] {
+        let length = self.path.length();
+        let [start, end] = self.turned.map(|turned| if turned { BESIDE * length } else { 0.0 });
+        self.path.at(s.clamp(start, length - end))
+    }
 }
 
 /// A run from rest to rest.
@@ -118,6 +135,23 @@ impl<'a> Run<'a> {
         let mut jets = derivatives(&self.pieces[i].path, s - self.starts[i]);
         self.joints.about(s, |joint| joint.smooth(s, &mut jets));
         jets
+    }
+
+    /// The move at a place [mm], and the axes there on the smoothed path.
+    pub(super) fn at(&self, s: f64) -> (&Piece<'a>, [AxisJet; AXES]) {
+        let i = self.piece(s);
+        let jets = self.pieces[i].at(s - self.starts[i]);
+        let mut places = jets.map(|jet| jet.q);
+        let mut derivatives = jets.map(|jet| [jet.d1, jet.d2, jet.d3]);
+        self.joints.about(s, |joint| {
+            joint.shift(s, &mut places);
+            joint.smooth(s, &mut derivatives);
+        });
+        let jet = |a: usize| {
+            let [d1, d2, d3] = derivatives[a];
+            AxisJet { q: places[a], d1, d2, d3 }
+        };
+        (&self.pieces[i], std::array::from_fn(jet))
     }
 
     /// Axes that move.

@@ -20,11 +20,13 @@ pub(super) struct Setting<'a> {
     pub(super) progress: &'a dyn Progress,
     /// Limits of the axes; jerk is not limited where the control does not limit it.
     pub(super) limits: [Option<AxisLimit>; AXES],
+    /// Whether the motion over time is kept, beside its times.
+    pub(super) keeps_motion: bool,
 }
 
 impl<'a> Setting<'a> {
     pub(super) fn new(machine: &'a Machine, progress: &'a dyn Progress) -> Setting<'a> {
-        Setting { machine, progress, limits: control_limits(machine) }
+        Setting { machine, progress, limits: control_limits(machine), keeps_motion: false }
     }
 
     /// True if some axis has a limit of jerk.

@@ -1,6 +1,6 @@
 //! Moves on which all axes go straight.
 
-use super::super::{AxisLimit, SCurve};
+use super::super::{AxisLimit, Moment, SCurve};
 use super::joint::AXES;
 use crate::trace::AxisPath;
 
@@ -36,9 +36,37 @@ pub(super) fn along(rates: &[f64; AXES], limits: &[Option<AxisLimit>; AXES], fee
 
 /// Time of a straight rapid on which each axis runs for itself [s]: that of the slowest one.
 pub(super) fn axis_by_axis(rates: &[f64; AXES], length: f64, limits: &[Option<AxisLimit>; AXES]) -> f64 {
-    rates
-        .iter()
-        .zip(limits)
-        .filter_map(|(rate, limit)| Some(SCurve::new(rate.abs() * length, (*limit)?).duration()))
-        .fold(0.0, f64::max)
+    Apart::new(&rates.map(|rate| rate * length), limits).duration()
+}
+
+/// Axes that run for themselves from rest to rest.
+pub(super) struct Apart([Option<(f64, SCurve)>; AXES]);
+
+impl Apart {
+    /// Over these ways [mm, rad]; an axis without limits stands.
+    pub(super) fn new(ways: &[f64; AXES], limits: &[Option<AxisLimit>; AXES]) -> Apart {
+        let curve = |a: usize| Some((ways[a].signum(), SCurve::new(ways[a].abs(), limits[a]?)));
+        Apart(std::array::from_fn(curve))
+    }
+
+    /// Time of the slowest one [s].
+    pub(super) fn duration(&self) -> f64 {
+        self.0.iter().flatten().map(|(_, curve)| curve.duration()).fold(0.0, f64::max)
+    }
+
+    /// Motion of each axis at a moment [s].
+    pub(super) fn at(&self, time: f64) -> [Moment; AXES] {
+        let none = Moment { way: 0.0, velocity: 0.0, acceleration: 0.0, jerk: 0.0 };
+        self.0.map(|axis| {
+            axis.map_or(none, |(sign, curve)| {
+                let Moment { way, velocity, acceleration, jerk } = curve.at(time);
+                Moment {
+                    way: sign * way,
+                    velocity: sign * velocity,
+                    acceleration: sign * acceleration,
+                    jerk: sign * jerk,
+                }
+            })
+        })
+    }
 }

@@ -1,8 +1,9 @@
 //! Consecutive moves without a wait between them.
 
 use super::joint::Step;
-use super::junction::junction_times;
+use super::junction::Chords;
 use super::leg::{Leg, Task};
+use super::motion::Motion;
 use super::passing::{Between, Passing, passings};
 use super::program_time::Smoothing;
 use super::run::{Piece, derivatives};
@@ -19,7 +20,7 @@ pub(super) struct Stretch {
 
 /// Result for a stretch.
 #[derive(Default)]
-pub(super) struct StretchTime {
+pub(super) struct StretchTime<'a> {
     /// Time of each segment [s].
     pub(super) times: Vec<f64>,
     /// Time of all where jerk has no limit [s].
@@ -33,6 +34,8 @@ pub(super) struct StretchTime {
     pub(super) swings: f64,
     /// Cells times axes, of [`Task::Count`].
     pub(super) cells: usize,
+    /// Its motion, where that is kept.
+    pub(super) motions: Vec<Motion<'a>>,
 }
 
 /// The segments of a trace in stretches; `mixed` where the control passes from rapids to feed without a stop.
@@ -73,7 +76,7 @@ impl Stretch {
     }
 
     /// Its moves in the time that the program gives them.
-    pub(super) fn as_programmed(&self, trace: &Trace) -> StretchTime {
+    pub(super) fn as_programmed(&self, trace: &Trace) -> StretchTime<'static> {
         let times = self.segments.iter().map(|i| trace.segments[*i].duration.unwrap_or(0.0)).collect();
         StretchTime { times, ..StretchTime::default() }
     }
@@ -82,20 +85,19 @@ impl Stretch {
     ///
     /// # Errors
     /// Those of [`TimeLaw::between`](super::super::TimeLaw::between).
-    pub(super) fn time(
+    pub(super) fn time<'a>(
         &self,
         program: &Program,
-        trace: &Trace,
+        trace: &'a Trace,
         setting: &Setting,
         task: Task,
-    ) -> Result<Option<StretchTime>> {
+    ) -> Result<Option<StretchTime<'a>>> {
         /// Length of a move that takes no time [mm].
         const NONE: f64 = 1e-9;
         let mut done = StretchTime { times: vec![0.0; self.segments.len()], ..StretchTime::default() };
-        // Moves with their places in the stretch, and whether an axis turns on the spot at their start and end.
+        // Moves with their places in the stretch.
         let mut pieces: Vec<Piece> = Vec::with_capacity(self.segments.len());
         let mut places: Vec<usize> = Vec::with_capacity(self.segments.len());
-        let mut turned: Vec<[bool; 2]> = Vec::with_capacity(self.segments.len());
         for (k, i) in self.segments.iter().enumerate() {
             let segment = &trace.segments[*i];
             let Some(path) = segment.axis_path() else { return Ok(None) };
@@ -103,7 +105,9 @@ impl Stretch {
             if !(length > NONE) {
                 continue;
             }
-            let swings = if segment.turning.is_some() { swings(&path) } else { [None; 2] };
+            // Chords have the turns on the spot in them.
+            let by_itself = segment.turning.is_some() && setting.junction_deviation().is_none();
+            let swings = if by_itself { swings(&path) } else { [None; 2] };
             for swing in swings.iter().flatten() {
                 let limits = [setting.limits, without_jerk(&setting.limits)];
                 let [Some(time), Some(no_jerk)] = limits.map(|limits| swing_time(swing, &limits)) else {
@@ -113,15 +117,24 @@ impl Stretch {
                 done.swings += time;
                 done.without_jerk += no_jerk;
             }
-            turned.push(swings.map(|swing| swing.is_some()));
             places.push(k);
-            pieces.push(Piece { feed: feed(segment, length), path });
+            let turned = swings.map(|swing| swing.is_some());
+            pieces.push(Piece {
+                feed: feed(segment, length),
+                path,
+                segment: *i,
+                stands: !(segment.curve.length() > NONE),
+                turned,
+            });
         }
         if let Some(deviation) = setting.junction_deviation() {
-            let Some(times) = junction_times(&pieces, deviation, &setting.limits) else { return Ok(None) };
-            for (k, time) in places.iter().zip(times) {
+            let Some(chords) = Chords::of(&pieces, deviation, &setting.limits) else { return Ok(None) };
+            for (k, time) in places.iter().zip(chords.times()) {
                 done.times[*k] += time;
                 done.without_jerk += time;
+            }
+            if setting.keeps_motion {
+                done.motions.push(Motion::Chords(chords));
             }
             return Ok(Some(done));
         }
@@ -135,7 +148,7 @@ impl Stretch {
                         &derivatives(&pieces[i].path, 0.0),
                     ),
                     tolerance: setting.tolerance(program, item),
-                    on_the_spot: turned[i - 1][1] || turned[i][0],
+                    on_the_spot: pieces[i - 1].turned[1] || pieces[i].turned[0],
                 }
             })
             .collect();
@@ -144,6 +157,12 @@ impl Stretch {
         let mut leg = Leg::default();
         let mut places = places.into_iter();
         for (piece, end) in pieces.into_iter().zip(passings.into_iter().chain([Passing::Stop])) {
+            let swing = |end: usize| {
+                let wanted = setting.keeps_motion && task != Task::Count;
+                wanted.then(|| Motion::swing(&piece, end, &setting.limits)).flatten()
+            };
+            done.motions.extend(swing(0));
+            let after = swing(1);
             leg.pieces.push(piece);
             if let Passing::Passed(joint, allowed) = end {
                 leg.joints.push(joint);
@@ -160,6 +179,8 @@ impl Stretch {
             done.smoothing.farthest = done.smoothing.farthest.max(time.farthest);
             done.dilation = done.dilation.max(time.dilation);
             done.cells += time.cells;
+            done.motions.extend(time.motion);
+            done.motions.extend(after);
         }
         Ok(Some(done))
     }

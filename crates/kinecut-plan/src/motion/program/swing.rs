@@ -6,16 +6,20 @@ use super::joint::AXES;
 use crate::trace::AxisPath;
 
 /// Part of a move beside its end.
-const BESIDE: f64 = 1e-6;
+pub(super) const BESIDE: f64 = 1e-6;
 /// Least turn that counts [rad]: far above that of a regular move on that part.
 const LEAST: f64 = 1e-3;
 
+/// Positions of the axes at the start of a move and beside it, and beside its end and at it [mm, rad].
+pub(super) fn around_ends(path: &AxisPath) -> [[[f64; AXES]; 2]; 2] {
+    let at = |part: f64| path.at(part * path.length()).map(|jet| jet.q);
+    [[at(0.0), at(BESIDE)], [at(1.0 - BESIDE), at(1.0)]]
+}
+
 /// Turn of the axes on the spot at the start and at the end of a move [mm, rad]; `None` where there is none.
 pub(super) fn swings(path: &AxisPath) -> [Option<[f64; AXES]>; 2] {
-    let length = path.length();
-    [[0.0, BESIDE], [1.0, 1.0 - BESIDE]].map(|[end, beside]| {
-        let [end, beside] = [end, beside].map(|part| path.at(part * length).map(|jet| jet.q));
-        let turn: [f64; AXES] = std::array::from_fn(|a| (beside[a] - end[a]).abs());
+    around_ends(path).map(|[from, to]| {
+        let turn: [f64; AXES] = std::array::from_fn(|a| (to[a] - from[a]).abs());
         turn[3..].iter().any(|t| *t > LEAST).then_some(turn)
     })
 }

@@ -33,34 +33,7 @@ pub fn program_time(
 ) -> Result<Option<ProgramTime>> {
     let setting = Setting::new(machine, progress);
     let stretches = stretches(program, trace, setting.junction_deviation().is_some());
-    let all = |task: Task| -> Vec<Result<Option<StretchTime>>> {
-        let time = |stretch: &Stretch| {
-            if progress.cancelled() {
-                return Ok(None);
-            }
-            let time = stretch.time(program, trace, &setting, task);
-            if task != Task::Count {
-                progress.advance(stretch.segments.len() as u64);
-            }
-            time
-        };
-        stretches.par_iter().with_max_len(1).map(time).collect()
-    };
-    let still_wanted = || match progress.cancelled() {
-        true => Err(Finding::error(Code::CANCELLED, "the run was cancelled")),
-        false => Ok(()),
-    };
-    // Of a long program the cells are counted before any of them is solved.
-    let mut task = Task::Solve;
-    if trace.segments.len() > UNCOUNTED && setting.limits_jerk() {
-        let cells: usize = all(Task::Count).into_iter().flatten().flatten().map(|time| time.cells).sum();
-        still_wanted()?;
-        if cells > MOST_CELLS {
-            task = Task::SolveWithoutJerk;
-        }
-    }
-    let done = all(task);
-    still_wanted()?;
+    let done = done(&stretches, (program, trace), &setting, task(&stretches, (program, trace), &setting)?)?;
     let [tool_changes, spindle_changes] = changes(program, &machine.control);
     let mut time = ProgramTime {
         segments: vec![0.0; trace.segments.len()],
@@ -108,4 +81,45 @@ pub fn program_time(
         Finding { value: reason.value, bound: reason.bound, ..Finding::note(reason.code, what) }.item(item)
     });
     Ok(Some(time))
+}
+
+/// The task that stretches can be given: of a long program the cells are counted before any of them is solved.
+///
+/// # Errors
+/// `KC0009` when it was cancelled.
+pub(super) fn task(stretches: &[Stretch], of: (&Program, &Trace), setting: &Setting) -> Result<Task> {
+    if of.1.segments.len() <= UNCOUNTED || !setting.limits_jerk() {
+        return Ok(Task::Solve);
+    }
+    let counted = done(stretches, of, setting, Task::Count)?;
+    let cells: usize = counted.into_iter().flatten().flatten().map(|time| time.cells).sum();
+    Ok(if cells > MOST_CELLS { Task::SolveWithoutJerk } else { Task::Solve })
+}
+
+/// This task done for stretches; an error of one is that of its law.
+///
+/// # Errors
+/// `KC0009` when it was cancelled.
+pub(super) fn done<'a>(
+    stretches: &[Stretch],
+    (program, trace): (&Program, &'a Trace),
+    setting: &Setting,
+    task: Task,
+) -> Result<Vec<Result<Option<StretchTime<'a>>>>> {
+    let progress = setting.progress;
+    let time = |stretch: &Stretch| {
+        if progress.cancelled() {
+            return Ok(None);
+        }
+        let time = stretch.time(program, trace, setting, task);
+        if task != Task::Count {
+            progress.advance(stretch.segments.len() as u64);
+        }
+        time
+    };
+    let done = stretches.par_iter().with_max_len(1).map(time).collect();
+    match progress.cancelled() {
+        true => Err(Finding::error(Code::CANCELLED, "the run was cancelled").into()),
+        false => Ok(done),
+    }
 }

@@ -1,6 +1,7 @@
 //! Writing results: whole or not at all, one run at a time, and never over what was read.
 
 mod disk;
+mod streamed;
 #[cfg(test)]
 mod tests;
 mod turn;
@@ -13,6 +14,8 @@ use crate::base::{Code, FilesRead, Finding, Location, Progress, Result, Silent};
 
 use disk::{Disk, RealDisk};
 use turn::Turn;
+
+pub(crate) use streamed::StreamedFile;
 
 /// Files to be written into one folder.
 #[derive(Clone, Debug, Default)]
@@ -65,11 +68,7 @@ impl Outputs {
         for (name, _) in self.files() {
             let path = folder.join(name);
             if self.read.holds(&path) {
-                let what = format!("`{}` was read by this run and would be replaced", path.display());
-                return Err(Finding::error(Code::INPUT_IN_THE_WAY, what)
-                    .at(Location::whole_file(path.display().to_string()))
-                    .help("choose another folder or name; nothing was written")
-                    .into());
+                return Err(in_the_way(&path).into());
             }
         }
         std::fs::create_dir_all(folder).map_err(|e| failed(folder, &e))?;
@@ -158,6 +157,13 @@ fn take_seal(
     disk.rename(place, &aside)?;
     disk.settle(folder);
     Ok(Some(aside))
+}
+
+fn in_the_way(path: &Path) -> Finding {
+    let what = format!("`{}` was read by this run and would be replaced", path.display());
+    Finding::error(Code::INPUT_IN_THE_WAY, what)
+        .at(Location::whole_file(path.display().to_string()))
+        .help("choose another folder or name; nothing was written")
 }
 
 fn failed(path: &Path, e: &io::Error) -> Finding {

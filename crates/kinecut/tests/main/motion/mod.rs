@@ -6,5 +6,6 @@ mod feeds;
 mod metamorphic;
 mod program;
 mod random;
+mod samples;
 mod spirals;
 mod straight;

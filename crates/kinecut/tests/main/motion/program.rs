@@ -14,22 +14,22 @@ use kinecut::program::{
     ToolNumber, WorkOffset,
 };
 use kinecut::tool::Tool;
-use kinecut::trace::{CompStart, RegisterState, TraceOptions, trace};
+use kinecut::trace::{CompStart, RegisterState, Trace, TraceOptions, trace};
 use kinecut::verbs::check::program_sheet;
 
 use crate::common::end_mill::end_mill;
 
-const X: AxisLimit = AxisLimit { velocity: 500.0, acceleration: 5000.0, jerk: 50_000.0 };
-const Y: AxisLimit = AxisLimit { velocity: 400.0, acceleration: 2000.0, jerk: 60_000.0 };
-const Z: AxisLimit = AxisLimit { velocity: 250.0, acceleration: 3000.0, jerk: 30_000.0 };
-const FEED: f64 = 60.0;
+pub(super) const X: AxisLimit = AxisLimit { velocity: 500.0, acceleration: 5000.0, jerk: 50_000.0 };
+pub(super) const Y: AxisLimit = AxisLimit { velocity: 400.0, acceleration: 2000.0, jerk: 60_000.0 };
+pub(super) const Z: AxisLimit = AxisLimit { velocity: 250.0, acceleration: 3000.0, jerk: 30_000.0 };
+pub(super) const FEED: f64 = 60.0;
 
-fn dynamics(limit: AxisLimit) -> Dynamics {
+pub(super) fn dynamics(limit: AxisLimit) -> Dynamics {
     Dynamics { rapid: Some(limit.velocity), acceleration: Some(limit.acceleration), jerk: Some(limit.jerk) }
 }
 
 /// X has the limits of the machine, Y and Z their own; rotary axes, if the code has any, those of none.
-fn machine_of(code: &str) -> Machine {
+pub(super) fn machine_of(code: &str) -> Machine {
     let mut machine = Machine::new(CoordinateCode::parse(code).unwrap(), [None; 3], dynamics(X)).unwrap();
     for (letter, limit) in [('Y', Y), ('Z', Z)] {
         let (place, _) = machine.joint(letter).unwrap();
@@ -38,7 +38,7 @@ fn machine_of(code: &str) -> Machine {
     machine
 }
 
-fn machine() -> Machine {
+pub(super) fn machine() -> Machine {
     machine_of("2103")
 }
 
@@ -47,13 +47,13 @@ fn tool(number: u32) -> Tool {
 }
 
 /// A program that stands at the origin, with what its next moves do.
-struct Written {
-    program: Program,
-    state: State,
+pub(super) struct Written {
+    pub(super) program: Program,
+    pub(super) state: State,
 }
 
 impl Written {
-    fn new() -> Written {
+    pub(super) fn new() -> Written {
         let setup = Setup {
             name: "setup 1".to_owned(),
             part_on_table: Rigid::IDENTITY,
@@ -72,23 +72,27 @@ impl Written {
         written
     }
 
-    fn at_feed(blend: Blend) -> Written {
+    pub(super) fn at_feed(blend: Blend) -> Written {
         let mut written = Written::new();
         written.state.speed = Speed::PerMinute(FEED);
         written.state.blend = blend;
         written
     }
 
-    fn to(&mut self, point: [f64; 3]) {
+    pub(super) fn to(&mut self, point: [f64; 3]) {
         self.turned_to(point, ToolAxis::Fixed);
     }
 
-    fn turned_to(&mut self, point: [f64; 3], axis: ToolAxis) {
+    pub(super) fn turned_to(&mut self, point: [f64; 3], axis: ToolAxis) {
         let end = Target::Tip { point: DVec3::from_array(point), axis };
         self.program.push_move(Move { end, path: Path::Line }, &self.state, Origin::default());
     }
 
-    fn time(&self, machine: &Machine) -> Option<ProgramTime> {
+    pub(super) fn time(&self, machine: &Machine) -> Option<ProgramTime> {
+        program_time(&self.program, &self.traced(machine), machine, &Silent).unwrap()
+    }
+
+    pub(super) fn traced(&self, machine: &Machine) -> Trace {
         let tools = [tool(1), tool(2)];
         let options = TraceOptions {
             machine: Some(machine),
@@ -99,7 +103,7 @@ impl Written {
             comp_start: CompStart::AtNext,
             chord: 1e-3,
         };
-        program_time(&self.program, &trace(&self.program, &options).unwrap(), machine, &Silent).unwrap()
+        trace(&self.program, &options).unwrap()
     }
 }
 
@@ -202,7 +206,7 @@ fn exact_stops_stop_in_every_corner_and_a_tolerance_is_never_slower() {
 }
 
 /// A circle of 20 mm radius, of facets of 5 degrees.
-fn facets(path: f64) -> Written {
+pub(super) fn facets(path: f64) -> Written {
     let mut written = Written::new();
     written.to([20.0, 0.0, 0.0]);
     written.state.speed = Speed::PerMinute(FEED);
@@ -230,7 +234,7 @@ fn facets_are_faster_within_a_wider_tolerance_and_stay_within_it() {
 }
 
 /// A contour with arcs, corners and short lines.
-fn contour(blend: Blend) -> Written {
+pub(super) fn contour(blend: Blend) -> Written {
     let mut written = Written::at_feed(blend);
     written.to([10.0, 0.0, 0.0]);
     let arc = Arc::new(DVec3::new(10.0, 0.0, 0.0), DVec3::new(10.0, 8.0, 0.0), DVec3::Z, 2.0, 0.0).unwrap();

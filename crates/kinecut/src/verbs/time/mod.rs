@@ -1,0 +1,15 @@
+//! The verb `kinecut time`: the time of a program on its machine, where it is lost, and the motion at a control's cycle.
+
+mod moving;
+mod sample_rows;
+mod samples;
+mod shares;
+mod sheet;
+mod slow_block;
+mod timed;
+
+pub use samples::SamplesWritten;
+pub use shares::TimeShares;
+pub use sheet::{TimeSheet, TimedProgram};
+pub use slow_block::SlowBlock;
+pub use timed::{Timed, time_of_job, time_of_program};
