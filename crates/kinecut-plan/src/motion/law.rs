@@ -2,7 +2,7 @@
 
 use super::reach::{WithoutJerk, without_jerk};
 use super::shape::{Shape, places};
-use super::shares::{Shares, of_run};
+use super::shares::{CellShares, Shares, of_cells, of_run};
 use super::start::Start;
 use super::windows::coefficients;
 use super::{AxisLimit, Course, End, Speed, grid};
@@ -19,6 +19,11 @@ pub struct TimeLaw {
     dilation: f64,
     steps: u32,
 }
+
+/// Times that the grid is made finer where limits are exceeded.
+const REFINEMENTS: u32 = 6;
+/// Factor of time by which a run may be slowed rather than solved on a finer grid, less 1.
+const SLOWED: f64 = 1e-4;
 
 /// A course with its knots.
 struct Gridded {
@@ -43,6 +48,35 @@ impl Gridded {
         }
         let knots = grid::knots(course, limits, start, ends)?;
         Ok(Gridded { length, ends, knots })
+    }
+
+    /// The fastest speed on these knots, and the steps of the solver.
+    fn solved<const A: usize, C: Course<A>>(
+        &self,
+        course: &C,
+        limits: &[AxisLimit; A],
+        progress: &dyn Progress,
+    ) -> Result<(Speed, u32)> {
+        let places = places(course, limits, &self.knots)?;
+        let shape = Shape::new(&self.knots, self.length, &places, limits);
+        let (coefficients, steps) = coefficients(course, limits, &shape, progress)?;
+        Ok((Speed::new([0.0, self.length], &self.knots, &coefficients), steps))
+    }
+
+    /// Halves the cells in which a limit is exceeded between the knots: the shape changes inside of them. False where no cell
+    /// is.
+    fn refined(&mut self, found: &[CellShares]) -> bool {
+        let mut knots = Vec::with_capacity(self.knots.len());
+        for (pair, cell) in self.knots.windows(2).zip(found) {
+            knots.push(pair[0]);
+            if cell.all.dilation() > 1.0 + SLOWED {
+                knots.push(0.5 * (pair[0] + pair[1]));
+            }
+        }
+        knots.extend(self.knots.last());
+        let is_finer = knots.len() > self.knots.len();
+        self.knots = knots;
+        is_finer
     }
 
     fn without_jerk<const A: usize, C: Course<A>>(
@@ -113,12 +147,17 @@ impl TimeLaw {
         ends: [End; 2],
         progress: &dyn Progress,
     ) -> Result<TimeLaw> {
-        let grid = Gridded::new(course, limits, ends)?;
-        let places = places(course, limits, &grid.knots)?;
-        let shape = Shape::new(&grid.knots, grid.length, &places, limits);
+        let mut grid = Gridded::new(course, limits, ends)?;
+        let (mut speed, mut steps) = grid.solved(course, limits, progress)?;
+        for _ in 0..REFINEMENTS {
+            if !grid.refined(&of_cells(course, limits, &speed, 0..grid.knots.len() - 1)) {
+                break;
+            }
+            let (finer, more) = grid.solved(course, limits, progress)?;
+            speed = finer;
+            steps += more;
+        }
         let without_jerk = grid.without_jerk(course, limits)?.duration();
-        let (coefficients, steps) = coefficients(course, limits, &shape, progress)?;
-        let speed = Speed::new([0.0, grid.length], &grid.knots, &coefficients);
         let dilation = of_run(course, limits, &speed).dilation();
         let speed = if dilation > 1.0 { speed.slower(dilation) } else { speed };
         if !(speed.duration().is_finite() && dilation.is_finite()) {

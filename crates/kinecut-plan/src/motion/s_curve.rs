@@ -38,6 +38,18 @@ pub struct Moment {
     pub jerk: f64,
 }
 
+impl Moment {
+    /// The same place on the way of a motion that is `factor` times as slow.
+    pub(super) fn slower(self, factor: f64) -> Moment {
+        Moment {
+            way: self.way,
+            velocity: self.velocity / factor,
+            acceleration: self.acceleration / factor.powi(2),
+            jerk: self.jerk / factor.powi(3),
+        }
+    }
+}
+
 impl SCurve {
     /// The move of this length [mm or rad], not negative; the limits are positive ([`AxisLimit::check`]).
     pub fn new(length: f64, limit: AxisLimit) -> SCurve {

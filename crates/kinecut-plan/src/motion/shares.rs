@@ -68,17 +68,34 @@ fn larger(a: f64, b: f64) -> f64 {
     if b > a || b.is_nan() { b } else { a }
 }
 
+/// Largest shares in a cell.
+#[derive(Clone, Copy)]
+pub(super) struct CellShares {
+    /// At its ends.
+    pub(super) ends: Shares,
+    /// At all places that are looked at, the ends too.
+    pub(super) all: Shares,
+}
+
 /// Shares in each of these cells.
 pub(super) fn of_cells<const A: usize, C: Course<A>>(
     course: &C,
     limits: &[AxisLimit; A],
     speed: &Speed,
     cells: Range<usize>,
-) -> Vec<Shares> {
+) -> Vec<CellShares> {
     let of_cell = |k: usize| {
-        let mut worst = Shares::default();
-        speed.in_cell(k, PLACES, BESIDE, |s, b| worst = worst.max(Shares::at(course, limits, s, b)));
-        worst
+        let mut found = CellShares { ends: Shares::default(), all: Shares::default() };
+        let mut place = 0;
+        speed.in_cell(k, PLACES, BESIDE, |s, b| {
+            let here = Shares::at(course, limits, s, b);
+            found.all = found.all.max(here);
+            if place == 0 || place == PLACES - 1 {
+                found.ends = found.ends.max(here);
+            }
+            place += 1;
+        });
+        found
     };
     cells.into_par_iter().with_min_len(TOGETHER).map(of_cell).collect()
 }
@@ -90,7 +107,7 @@ pub(super) fn of_run<const A: usize, C: Course<A>>(
     speed: &Speed,
 ) -> Shares {
     let cells = of_cells(course, limits, speed, 0..speed.knots().len() - 1);
-    let mut worst = cells.into_iter().fold(Shares::default(), Shares::max);
+    let mut worst = cells.into_iter().fold(Shares::default(), |worst, cell| worst.max(cell.all));
     speed.at_rest(PLACES_AT_REST, |s, b| worst = worst.max(Shares::at(course, limits, s, b)));
     worst
 }

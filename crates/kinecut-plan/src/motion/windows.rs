@@ -5,12 +5,13 @@
 //! other. Where two do not agree they are solved as one, up to a size.
 
 use std::ops::Range;
+use std::sync::atomic::{AtomicU32, Ordering};
 
 use rayon::prelude::*;
 
 use super::interior::solve;
 use super::shape::Shape;
-use super::shares::of_cells;
+use super::shares::{CellShares, of_cells};
 use super::start::way_to_speed;
 use super::{AxisLimit, Course, Speed};
 use crate::base::{Code, Finding, Progress, Result};
@@ -26,19 +27,26 @@ const MOST_CELLS: usize = 4 * CELLS;
 /// Largest difference of the coefficients of two windows, over their size, at which they agree.
 const AGREED: f64 = 1e-5;
 /// Rounds in which cells that exceed a limit between their knots get a smaller share of it.
-const ROUNDS: u32 = 3;
+const ROUNDS: u32 = 4;
+/// Rounds after which the cells beside such a cell get its share, too.
+const ALONE: u32 = 2;
 /// Excess that is left as it is.
 const EXCESS: f64 = 2e-4;
 
 /// A solved stretch of cells.
 struct Window {
+    /// The cells that it answers for.
+    own: Range<usize>,
+    /// Those that it was solved over.
     cells: Range<usize>,
     /// One a cell.
     coefficients: Vec<f64>,
-    steps: u32,
 }
 
 /// Coefficients of the fastest run over all cells, those at the ends included; second: steps of the solver.
+///
+/// A cell that exceeds a limit between its knots gets a smaller share of it, and the windows with such cells are solved
+/// again: shares are those of the cells, not of the windows, so that neighbours are asked the same.
 ///
 /// # Errors
 /// `KC0009` when it was cancelled.
@@ -52,48 +60,80 @@ pub(super) fn coefficients<const A: usize, C: Course<A>>(
     let start = shape.start();
     let parts = n.div_ceil(CELLS + CELLS / 2).max(1);
     let seams: Vec<usize> = (1..parts).map(|i| i * n / parts).collect();
-    let reach = Reach::new(shape, limits, &start);
-    let solve = |own: Range<usize>| -> Result<Window> {
-        if progress.cancelled() {
-            return Err(Finding::error(Code::CANCELLED, "the run was cancelled").into());
-        }
-        Ok(window(course, limits, shape, reach.around(own)))
-    };
     let bounds: Vec<usize> = [&[0][..], &seams, &[n]].concat();
-    let ranges: Vec<Range<usize>> = bounds.windows(2).map(|b| b[0]..b[1]).collect();
-    let windows: Result<Vec<Window>> = ranges.clone().into_par_iter().with_max_len(1).map(&solve).collect();
-    let windows = windows?;
-    let mut steps: u32 = windows.iter().map(|w| w.steps).sum();
-    // Windows with the cells that they answer for, and the joint of each with the one before.
-    let mut joined: Vec<(Range<usize>, Window, usize)> = Vec::new();
-    for (mut own, mut window) in ranges.into_iter().zip(windows) {
-        let joint = loop {
-            let Some((before, last, _)) = joined.last() else { break 0 };
-            let (joint, off) = agree(last, &window);
-            match off <= AGREED || own.end - before.start > MOST_CELLS {
-                true => break joint,
-                false => {
-                    own = before.start..own.end;
-                    joined.pop();
-                    window = solve(own.clone())?;
-                    steps += window.steps;
+    let reach = Reach::new(shape, limits, &start);
+    let solver = Solver { shape, reach, steps: AtomicU32::new(0), progress };
+    let mut share = vec![[1.0; 2]; n];
+    let ranges = bounds.par_windows(2).with_max_len(1);
+    let windows: Result<Vec<Window>> = ranges.map(|b| solver.first(b[0]..b[1], &share)).collect();
+    let mut windows = windows?;
+    let folds = shape.folds();
+    for round in 0.. {
+        let joined = solver.joined(windows, &share)?;
+        let all = together(&joined, n);
+        let all = [&[folds[0] * all[0]][..], &all, &[folds[1] * all[n - 1]]].concat();
+        if round + 1 < ROUNDS {
+            let speed = Speed::new(shape.stops, shape.knots, &all);
+            let lowered = lower(&mut share, &of_cells(course, limits, &speed, 0..n), round);
+            if !lowered.is_empty() {
+                let again = |(window, _): (Window, usize)| match lowered
+                    .get(lowered.partition_point(|k| *k < window.cells.start))
+                {
+                    Some(k) if window.cells.contains(k) => solver.again(window, &share),
+                    _ => Ok(window),
+                };
+                let solved: Result<Vec<Window>> = joined.into_par_iter().with_max_len(1).map(again).collect();
+                windows = solved?;
+                continue;
+            }
+        }
+        return Ok((all, solver.steps.into_inner()));
+    }
+    unreachable!("the last round returns")
+}
+
+/// Lowers the shares of cells that exceed a limit; the cells whose share is another one, in order.
+///
+/// The solver keeps to shares at the ends of cells: what these use of their limit goes down as the excess between them asks
+/// for, and from a round on in the cells beside them, too.
+fn lower(share: &mut [[f64; 2]], found: &[CellShares], round: u32) -> Vec<usize> {
+    /// Least part of its share that a cell keeps in one round.
+    const KEPT: f64 = 0.3;
+    let mut lowered = Vec::new();
+    let beside = usize::from(round >= ALONE);
+    for (k, CellShares { ends, all }) in found.iter().enumerate() {
+        for (kind, (ends, all)) in
+            [(ends.acceleration, all.acceleration), (ends.jerk, all.jerk)].into_iter().enumerate()
+        {
+            if all > 1.0 + EXCESS {
+                let excess = all * (1.0 + 0.1 * (all - 1.0));
+                let own = share[k][kind];
+                share[k][kind] = (own.min(ends) / excess).max(KEPT * own);
+                let cells = k.saturating_sub(beside)..(k + beside + 1).min(share.len());
+                lowered.extend(cells.clone());
+                for i in cells.filter(|i| *i != k) {
+                    share[i][kind] /= excess;
                 }
             }
-        };
-        joined.push((own, window, joint));
+        }
     }
+    lowered.sort_unstable();
+    lowered.dedup();
+    lowered
+}
+
+/// The coefficients of all cells: each window's, that go over into the next one's about the joint.
+fn together(joined: &[(Window, usize)], n: usize) -> Vec<f64> {
     let mut all = vec![0.0; n];
-    for (i, (_, window, joint)) in joined.iter().enumerate() {
-        let next = joined.get(i + 1).map(|(.., joint)| *joint);
+    for (i, (window, joint)) in joined.iter().enumerate() {
+        let next = joined.get(i + 1).map(|(_, joint)| *joint);
         for (k, c) in window.cells.clone().zip(&window.coefficients) {
             let rising = if i > 0 { fade(k, *joint) } else { 1.0 };
             let falling = next.map_or(1.0, |joint| 1.0 - fade(k, joint));
             all[k] += c * rising.min(falling);
         }
     }
-    let folds = shape.folds();
-    let (first, last) = (folds[0] * all[0], folds[1] * all[n - 1]);
-    Ok(([&[first][..], &all, &[last]].concat(), steps))
+    all
 }
 
 /// Share of the next window at a cell: from 0 to 1 over the cells about the joint.
@@ -113,47 +153,64 @@ fn agree(a: &Window, b: &Window) -> (usize, f64) {
     places.min_by(|a, b| a.1.total_cmp(&b.1)).unwrap_or((shared.start, f64::INFINITY))
 }
 
-/// Solves these cells from rest to rest.
-fn window<const A: usize, C: Course<A>>(
-    course: &C,
-    limits: &[AxisLimit; A],
-    shape: &Shape<A>,
-    cells: Range<usize>,
-) -> Window {
-    /// Distance from the nearest limit at which a solution starts, in the first round and in the others, which start from the
-    /// last solution; and the gap between time and bound to start from.
-    const START: [[f64; 2]; 2] = [[0.9, 10.0], [0.99, 1e-2]];
-    let part = shape.part(cells.clone());
-    let n = part.len();
-    let mut share = vec![[1.0; 2]; n];
-    let mut scale = part.start();
-    let mut steps = 0;
-    for round in 0..ROUNDS {
-        let problem = part.problem(&share, &scale);
-        let [room, gap] = START[usize::from(round > 0)];
-        let solved = solve(&problem, &vec![problem.feasible(room); n], gap);
-        steps += solved.steps;
-        for (scale, x) in scale.iter_mut().zip(&solved.x) {
-            *scale *= x;
-        }
-        let folds = part.folds();
-        let all = [&[folds[0] * scale[0]][..], &scale, &[folds[1] * scale[n - 1]]].concat();
-        let speed = Speed::new(part.stops, part.knots, &all);
-        let found = of_cells(course, limits, &speed, 0..n);
-        let mut exceeded = false;
-        for (share, found) in share.iter_mut().zip(&found) {
-            for (share, found) in share.iter_mut().zip([found.acceleration, found.jerk]) {
-                if found > 1.0 {
-                    exceeded |= found > 1.0 + EXCESS;
-                    *share /= found * (1.0 + 0.1 * (found - 1.0));
-                }
-            }
-        }
-        if !exceeded {
-            break;
-        }
+/// Solves windows.
+struct Solver<'a, const A: usize> {
+    shape: &'a Shape<'a, A>,
+    reach: Reach,
+    /// Steps so far.
+    steps: AtomicU32,
+    progress: &'a dyn Progress,
+}
+
+impl<const A: usize> Solver<'_, A> {
+    /// A window that answers for these cells, from the start of the whole.
+    fn first(&self, own: Range<usize>, share: &[[f64; 2]]) -> Result<Window> {
+        /// Distance from the nearest limit at which a solution starts, and the gap between time and bound to start from.
+        const START: [f64; 2] = [0.9, 10.0];
+        let cells = self.reach.around(own.clone());
+        let coefficients = self.shape.part(cells.clone()).start();
+        self.solve(Window { own, cells, coefficients }, share, START)
     }
-    Window { cells, coefficients: scale, steps }
+
+    /// A window with other shares, from where it is.
+    fn again(&self, window: Window, share: &[[f64; 2]]) -> Result<Window> {
+        const START: [f64; 2] = [0.99, 1e-2];
+        self.solve(window, share, START)
+    }
+
+    /// The fastest run over the cells of a window from rest to rest.
+    fn solve(&self, mut window: Window, share: &[[f64; 2]], [room, gap]: [f64; 2]) -> Result<Window> {
+        if self.progress.cancelled() {
+            return Err(Finding::error(Code::CANCELLED, "the run was cancelled").into());
+        }
+        let part = self.shape.part(window.cells.clone());
+        let problem = part.problem(&share[window.cells.clone()], &window.coefficients);
+        let solved = solve(&problem, &vec![problem.feasible(room); part.len()], gap);
+        self.steps.fetch_add(solved.steps, Ordering::Relaxed);
+        for (c, x) in window.coefficients.iter_mut().zip(&solved.x) {
+            *c *= x;
+        }
+        Ok(window)
+    }
+
+    /// The windows with the joint of each with the one before; those that do not agree are solved as one.
+    fn joined(&self, windows: Vec<Window>, share: &[[f64; 2]]) -> Result<Vec<(Window, usize)>> {
+        let mut joined: Vec<(Window, usize)> = Vec::with_capacity(windows.len());
+        for mut window in windows {
+            let joint = loop {
+                let Some((last, _)) = joined.last() else { break 0 };
+                let (joint, off) = agree(last, &window);
+                if off <= AGREED || window.own.end - last.own.start > MOST_CELLS {
+                    break joint;
+                }
+                let both = last.own.start..window.own.end;
+                joined.pop();
+                window = self.first(both, share)?;
+            };
+            joined.push((window, joint));
+        }
+        Ok(joined)
+    }
 }
 
 /// Influence of a stop over the cells.

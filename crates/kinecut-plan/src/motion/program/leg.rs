@@ -222,12 +222,16 @@ fn arrive<const A: usize>(course: &Moving<A>, parts: &[Parts], laws: &[Option<La
     const REST: f64 = 1e-4;
     parts.iter().zip(laws).all(|(part, law)| {
         let Some(law) = law else { return true };
-        (0..2)
-            .all(|e| part.ends[e] == End::Rest || law.ends()[e] >= (1.0 - REST) * course.feed(part.uneven[e]))
+        let arrives = |e: usize| {
+            // As it was found: the whole run is slowed by the same factor.
+            let rate = law.ends()[e] * law.dilation();
+            part.ends[e] == End::Rest || rate >= (1.0 - REST) * course.feed(part.uneven[e])
+        };
+        arrives(0) && arrives(1)
     })
 }
 
-/// The times of all moves of a run.
+/// The times of all moves of a run. All of it is slowed as the stretch that must be slowed most: its speed has no steps.
 fn put_together<'a, const A: usize>(
     course: &Moving<A>,
     limits: &[AxisLimit; A],
@@ -236,7 +240,8 @@ fn put_together<'a, const A: usize>(
     keeps: bool,
 ) -> LegTime<'a> {
     let starts = course.run().starts();
-    let mut time = LegTime { dilation: 1.0, ..LegTime::default() };
+    let dilation = laws.iter().flatten().map(Law::dilation).fold(1.0, f64::max);
+    let mut time = LegTime { dilation, ..LegTime::default() };
     let mut ends = starts[1..].iter().copied().peekable();
     let mut moments = Vec::with_capacity(starts.len() - 1);
     let mut clock = 0.0;
@@ -247,24 +252,24 @@ fn put_together<'a, const A: usize>(
                 let before = starts.partition_point(|s| *s <= from);
                 time.jerk_left_out += starts.partition_point(|s| *s < to) - before + 1;
             }
+            let slower = dilation / law.dilation();
             while let Some(s) = ends.next_if(|s| *s <= to) {
-                moments.push(clock + law.moment(s - from));
+                moments.push(clock + slower * law.moment(s - from));
             }
-            clock += law.duration();
+            clock += slower * law.duration();
             time.without_jerk += law.without_jerk();
-            time.dilation = time.dilation.max(law.dilation());
             if keeps {
-                time.paces.push(Pace::of_law(from, law));
+                time.paces.push(Pace::of_law(from, law, slower));
             }
         }
         if part.level_to > to {
-            let feed = course.feed(0.5 * (to + part.level_to));
+            let feed = course.feed(0.5 * (to + part.level_to)) / dilation;
             while let Some(s) = ends.next_if(|s| *s <= part.level_to) {
                 moments.push(clock + (s - to) / feed);
             }
             let even = (part.level_to - to) / feed;
             clock += even;
-            time.without_jerk += even;
+            time.without_jerk += even / dilation;
             if keeps {
                 time.paces.push(Pace::even([to, part.level_to], feed));
             }

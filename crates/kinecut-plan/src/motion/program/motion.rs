@@ -112,16 +112,16 @@ pub(super) struct Pace {
     /// Moment [s] after the start of the run.
     start: f64,
     duration: f64,
-    /// The law; none where the way is run at the feed.
-    law: Option<Law>,
+    /// The law with the factor by which it is slower here; none where the way is run at the feed.
+    law: Option<(Law, f64)>,
     /// The feed [mm/s].
     feed: f64,
 }
 
 impl Pace {
-    /// A law from a place on [mm].
-    pub(super) fn of_law(from: f64, law: Law) -> Pace {
-        Pace { from, start: 0.0, duration: law.duration(), law: Some(law), feed: 0.0 }
+    /// A law from a place on [mm], `slower` times as slow.
+    pub(super) fn of_law(from: f64, law: Law, slower: f64) -> Pace {
+        Pace { from, start: 0.0, duration: slower * law.duration(), law: Some((law, slower)), feed: 0.0 }
     }
 
     /// An even way between two places [mm] at a feed [mm/s].
@@ -133,7 +133,7 @@ impl Pace {
     fn at(&self, time: f64) -> Moment {
         let time = time - self.start;
         let even = || Moment { way: self.feed * time, velocity: self.feed, acceleration: 0.0, jerk: 0.0 };
-        let at = self.law.as_ref().map_or_else(even, |law| law.at(time));
+        let at = self.law.as_ref().map_or_else(even, |(law, slower)| law.at(time / slower).slower(*slower));
         Moment { way: self.from + at.way, ..at }
     }
 }
