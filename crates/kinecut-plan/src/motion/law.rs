@@ -17,6 +17,7 @@ pub struct TimeLaw {
     speed: Speed,
     without_jerk: f64,
     dilation: f64,
+    at_ends: f64,
     steps: u32,
 }
 
@@ -25,9 +26,14 @@ const REFINEMENTS: u32 = 6;
 /// Factor of time by which a run may be slowed rather than solved on a finer grid, less 1.
 const SLOWED: f64 = 1e-4;
 
+/// Ways from rest to the feed in which a run that is slowed inside gets to the speed of its ends.
+const BESIDE: f64 = 1.0;
+
 /// A course with its knots.
 struct Gridded {
     length: f64,
+    /// Shortest way from rest to the feed [mm].
+    way: f64,
     ends: [End; 2],
     knots: Vec<f64>,
 }
@@ -47,7 +53,7 @@ impl Gridded {
             return Err(Finding::error(Code::PLAN_VALUE, "a path needs a feed").bound(0.0, "mm/s").into());
         }
         let knots = grid::knots(course, limits, start, ends)?;
-        Ok(Gridded { length, ends, knots })
+        Ok(Gridded { length, way: start.way, ends, knots })
     }
 
     /// The fastest speed on these knots, and the steps of the solver.
@@ -158,12 +164,26 @@ impl TimeLaw {
             steps += more;
         }
         let without_jerk = grid.without_jerk(course, limits)?.duration();
-        let dilation = of_run(course, limits, &speed).dilation();
-        let speed = if dilation > 1.0 { speed.slower(dilation) } else { speed };
+        let mut dilation = of_run(course, limits, &speed).dilation();
+        let mut at_ends = 1.0;
+        if dilation > 1.0 && dilation.is_finite() {
+            // Ends that are no rests keep their speed; in the rest of the limits that is left there it goes over.
+            if ends.contains(&End::Even) {
+                let way = (BESIDE * grid.way).min(0.5 * grid.length);
+                speed = speed.slower_inside(dilation, ends, way);
+                at_ends = of_run(course, limits, &speed).dilation();
+                dilation *= at_ends;
+            } else {
+                at_ends = dilation;
+            }
+            if at_ends > 1.0 {
+                speed = speed.slower(at_ends);
+            }
+        }
         if !(speed.duration().is_finite() && dilation.is_finite()) {
             return Err(Finding::error(Code::PLAN_VALUE, "no law was found for this path").into());
         }
-        Ok(TimeLaw { speed, without_jerk, dilation, steps })
+        Ok(TimeLaw { speed, without_jerk, dilation, at_ends, steps })
     }
 
     /// Time from rest to rest [s].
@@ -190,6 +210,11 @@ impl TimeLaw {
     /// Factor by which the run was slowed so that every limit holds: 1 where none was exceeded.
     pub fn dilation(&self) -> f64 {
         self.dilation
+    }
+
+    /// Factor by which the speed at the ends was slowed: 1 where the inside alone was.
+    pub(super) fn dilation_at_ends(&self) -> f64 {
+        self.at_ends
     }
 
     /// Steps of the solver.

@@ -1,7 +1,7 @@
 //! Speed over a path, and the way over time.
 
-use super::Moment;
 use super::spline::{basis, lengths};
+use super::{End, Moment};
 
 /// The square `b` of the rate of a path's parameter: a spline between the cells at rest (`motion/spline.rs`).
 ///
@@ -53,6 +53,28 @@ impl Speed {
     /// The same way in this many times the time.
     pub(super) fn slower(&self, factor: f64) -> Speed {
         let coefficients: Vec<f64> = self.coefficients.iter().map(|c| c / (factor * factor)).collect();
+        Speed::new(self.stops, &self.knots, &coefficients)
+    }
+
+    /// The same way in this many times the time, but for the last `way` [mm] to ends that are no rests: there it goes over into
+    /// the speed that it has.
+    pub(super) fn slower_inside(&self, factor: f64, ends: [End; 2], way: f64) -> Speed {
+        let n = self.cells();
+        let least = 1.0 / (factor * factor);
+        let mut coefficients = self.coefficients.clone();
+        for (i, c) in coefficients.iter_mut().enumerate() {
+            // A coefficient counts most in the middle of its cell; those at the ends follow their neighbours.
+            let k = i.clamp(1, n) - 1;
+            let s = 0.5 * (self.knots[k] + self.knots[k + 1]);
+            let mut slower = 1.0_f64;
+            for (end, distance) in ends.into_iter().zip([s - self.stops[0], self.stops[1] - s]) {
+                if end == End::Even {
+                    let u = (distance / way).clamp(0.0, 1.0);
+                    slower *= u * u * u * (10.0 - u * (15.0 - 6.0 * u));
+                }
+            }
+            *c *= 1.0 - (1.0 - least) * slower;
+        }
         Speed::new(self.stops, &self.knots, &coefficients)
     }
 

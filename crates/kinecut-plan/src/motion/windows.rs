@@ -31,7 +31,9 @@ const ROUNDS: u32 = 4;
 /// Rounds after which the cells beside such a cell get its share, too.
 const ALONE: u32 = 2;
 /// Excess that is left as it is.
-const EXCESS: f64 = 2e-4;
+const EXCESS: f64 = 5e-5;
+/// Excess above which a cell gets a smaller share once one is too large.
+const ROUNDING: f64 = 1e-7;
 
 /// A solved stretch of cells.
 struct Window {
@@ -92,7 +94,7 @@ pub(super) fn coefficients<const A: usize, C: Course<A>>(
     unreachable!("the last round returns")
 }
 
-/// Lowers the shares of cells that exceed a limit; the cells whose share is another one, in order.
+/// Lowers the shares of cells that exceed a limit, if one does by too much; the cells whose share is another one, in order.
 ///
 /// The solver keeps to shares at the ends of cells: what these use of their limit goes down as the excess between them asks
 /// for, and from a round on in the cells beside them, too.
@@ -100,12 +102,16 @@ fn lower(share: &mut [[f64; 2]], found: &[CellShares], round: u32) -> Vec<usize>
     /// Least part of its share that a cell keeps in one round.
     const KEPT: f64 = 0.3;
     let mut lowered = Vec::new();
+    let is_close = |cell: &CellShares| !(larger_of(cell) > 1.0 + EXCESS);
+    if found.iter().all(is_close) {
+        return lowered;
+    }
     let beside = usize::from(round >= ALONE);
     for (k, CellShares { ends, all }) in found.iter().enumerate() {
         for (kind, (ends, all)) in
             [(ends.acceleration, all.acceleration), (ends.jerk, all.jerk)].into_iter().enumerate()
         {
-            if all > 1.0 + EXCESS {
+            if all > 1.0 + ROUNDING {
                 let excess = all * (1.0 + 0.1 * (all - 1.0));
                 let own = share[k][kind];
                 share[k][kind] = (own.min(ends) / excess).max(KEPT * own);
@@ -120,6 +126,10 @@ fn lower(share: &mut [[f64; 2]], found: &[CellShares], round: u32) -> Vec<usize>
     lowered.sort_unstable();
     lowered.dedup();
     lowered
+}
+
+fn larger_of(cell: &CellShares) -> f64 {
+    cell.all.acceleration.max(cell.all.jerk)
 }
 
 /// The coefficients of all cells: each window's, that go over into the next one's about the joint.

@@ -56,8 +56,8 @@ impl Law {
         }
     }
 
-    /// Factor by which it was slowed.
-    pub(super) fn dilation(&self) -> f64 {
-        if let Law::Limited(law) = self { law.dilation() } else { 1.0 }
+    /// Factor by which it was slowed: where most, and at its ends.
+    pub(super) fn dilations(&self) -> [f64; 2] {
+        if let Law::Limited(law) = self { [law.dilation(), law.dilation_at_ends()] } else { [1.0; 2] }
     }
 }

@@ -224,14 +224,14 @@ fn arrive<const A: usize>(course: &Moving<A>, parts: &[Parts], laws: &[Option<La
         let Some(law) = law else { return true };
         let arrives = |e: usize| {
             // As it was found: the whole run is slowed by the same factor.
-            let rate = law.ends()[e] * law.dilation();
+            let rate = law.ends()[e] * law.dilations()[1];
             part.ends[e] == End::Rest || rate >= (1.0 - REST) * course.feed(part.uneven[e])
         };
         arrives(0) && arrives(1)
     })
 }
 
-/// The times of all moves of a run. All of it is slowed as the stretch that must be slowed most: its speed has no steps.
+/// The times of all moves of a run. All of it is slowed as the stretch whose ends are slowed most: its speed has no steps.
 fn put_together<'a, const A: usize>(
     course: &Moving<A>,
     limits: &[AxisLimit; A],
@@ -240,8 +240,9 @@ fn put_together<'a, const A: usize>(
     keeps: bool,
 ) -> LegTime<'a> {
     let starts = course.run().starts();
-    let dilation = laws.iter().flatten().map(Law::dilation).fold(1.0, f64::max);
-    let mut time = LegTime { dilation, ..LegTime::default() };
+    let most = |i: usize| laws.iter().flatten().map(|law| law.dilations()[i]).fold(1.0, f64::max);
+    let slower_all = most(1);
+    let mut time = LegTime { dilation: most(0), ..LegTime::default() };
     let mut ends = starts[1..].iter().copied().peekable();
     let mut moments = Vec::with_capacity(starts.len() - 1);
     let mut clock = 0.0;
@@ -252,7 +253,7 @@ fn put_together<'a, const A: usize>(
                 let before = starts.partition_point(|s| *s <= from);
                 time.jerk_left_out += starts.partition_point(|s| *s < to) - before + 1;
             }
-            let slower = dilation / law.dilation();
+            let slower = slower_all / law.dilations()[1];
             while let Some(s) = ends.next_if(|s| *s <= to) {
                 moments.push(clock + slower * law.moment(s - from));
             }
@@ -263,13 +264,13 @@ fn put_together<'a, const A: usize>(
             }
         }
         if part.level_to > to {
-            let feed = course.feed(0.5 * (to + part.level_to)) / dilation;
+            let feed = course.feed(0.5 * (to + part.level_to)) / slower_all;
             while let Some(s) = ends.next_if(|s| *s <= part.level_to) {
                 moments.push(clock + (s - to) / feed);
             }
             let even = (part.level_to - to) / feed;
             clock += even;
-            time.without_jerk += even / dilation;
+            time.without_jerk += even / slower_all;
             if keeps {
                 time.paces.push(Pace::even([to, part.level_to], feed));
             }
