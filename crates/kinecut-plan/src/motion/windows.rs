@@ -21,7 +21,7 @@ const CELLS: usize = 2000;
 /// Cells over which a window goes over into the next one.
 const FADE: usize = 16;
 /// Times that a window could get to rest from its speed in the cells beside its own.
-const FORGOTTEN: f64 = 3.0;
+const FORGOTTEN: f64 = 5.0;
 /// Most cells that are solved as one because windows do not agree: beyond it they are joined where they agree best.
 const MOST_CELLS: usize = 4 * CELLS;
 /// Largest difference of the coefficients of two windows, over their size, at which they agree.
@@ -203,14 +203,39 @@ impl<const A: usize> Solver<'_, A> {
         Ok(window)
     }
 
-    /// The windows with the joint of each with the one before; those that do not agree are solved as one.
+    /// The windows with the joint of each with the one before. Where two do not agree, one about their seam goes between them;
+    /// where that does not agree with both, the two are solved as one.
     fn joined(&self, windows: Vec<Window>, share: &[[f64; 2]]) -> Result<Vec<(Window, usize)>> {
+        let between = |pair: &[Window]| -> Result<Option<Window>> {
+            if agree(&pair[0], &pair[1]).1 <= AGREED {
+                return Ok(None);
+            }
+            let seam = pair[1].own.start;
+            let own = seam.saturating_sub(CELLS / 2).max(pair[0].own.start)
+                ..(seam + CELLS / 2).min(pair[1].own.end);
+            self.first(own, share).map(Some)
+        };
+        let seams: Result<Vec<Option<Window>>> =
+            windows.par_windows(2).with_max_len(1).map(between).collect();
+        let mut seams = seams?.into_iter();
         let mut joined: Vec<(Window, usize)> = Vec::with_capacity(windows.len());
         for mut window in windows {
+            let seam = if joined.is_empty() { None } else { seams.next().flatten() };
+            if let Some(seam) = seam
+                && let Some((last, before)) = joined.last_mut()
+            {
+                let [(from, off), (to, off_too)] = [agree(last, &seam), agree(&seam, &window)];
+                if off.max(off_too) <= AGREED && *before + FADE < from && from + FADE < to {
+                    last.own.end = from;
+                    window.own.start = to;
+                    joined.push((Window { own: from..to, ..seam }, from));
+                }
+            }
             let joint = loop {
-                let Some((last, _)) = joined.last() else { break 0 };
+                let Some((last, before)) = joined.last() else { break 0 };
                 let (joint, off) = agree(last, &window);
-                if off <= AGREED || window.own.end - last.own.start > MOST_CELLS {
+                let agrees = off <= AGREED && *before + FADE < joint;
+                if agrees || window.own.end - last.own.start > MOST_CELLS {
                     break joint;
                 }
                 let both = last.own.start..window.own.end;
