@@ -2,6 +2,7 @@
 
 mod courses;
 mod errors;
+mod facets;
 mod feeds;
 mod metamorphic;
 mod program;
