@@ -24,6 +24,9 @@ pub(crate) struct Time {
     of: ProgramOf,
     #[command(flatten)]
     by: RunBy,
+    /// Folder for time.html, made if it is not there: the times with graphs of the motion
+    #[arg(long)]
+    out: Option<PathBuf>,
     /// Number of blocks in the table of those that lose most time
     #[arg(long, value_name = "N", default_value_t = 10)]
     slowest: usize,
@@ -44,11 +47,14 @@ impl Time {
         } else {
             time_of_program(&self.of.given(self.by.control.as_ref(), None, false)?, &bar)?
         };
-        let mut sheet = timed.sheet(self.slowest);
+        let mut sheet = match self.out {
+            Some(_) => timed.sheet_with_graphs(self.slowest, &bar)?,
+            None => timed.sheet(self.slowest),
+        };
         if let Some(file) = &self.samples {
             sheet.samples = Some(timed.write_samples(file, self.cycle, files::read(), &bar)?);
         }
         drop(bar);
-        answer(args, To::default(), sheet)
+        answer(args, To { out: self.out.as_deref(), ..To::default() }, sheet)
     }
 }

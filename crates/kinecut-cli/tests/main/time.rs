@@ -130,3 +130,29 @@ fn wrong_input_is_refused_before_anything_is_written() {
     assert_eq!(std::fs::read_dir(&folder).unwrap().count(), 3);
     std::fs::remove_dir_all(folder).unwrap();
 }
+
+#[test]
+fn the_page_has_graphs_of_feed_velocity_acceleration_and_jerk() {
+    let folder = folder("graphs");
+    let done = kinecut(&folder, &[&MILLED[..], &["--out", "page"]].concat());
+    assert_eq!(done.status.code(), Some(0), "{}", text(&done.stderr));
+    let page = std::fs::read_to_string(folder.join("page/time.html")).unwrap();
+    for said in [
+        "Feed, least and most of samples each 1 ms",
+        "Velocity of each axis over its limit",
+        "Acceleration of each axis over its limit",
+        "Jerk of each axis over its limit",
+        "X, of 30000 mm/min",
+        "Z, of 50 m/s³",
+        "line 9",
+    ] {
+        assert!(page.contains(said), "{said}");
+    }
+    assert!(!page.contains("NaN") && !page.contains("inf"));
+    // Without a limit of jerk there is nothing to be over.
+    std::fs::write(folder.join("mill.toml"), MACHINE.replace(", jerk = 50", "")).unwrap();
+    kinecut(&folder, &[&MILLED[..], &["--out", "page"]].concat());
+    let page = std::fs::read_to_string(folder.join("page/time.html")).unwrap();
+    assert!(page.contains("Acceleration of each axis") && !page.contains("Jerk of each axis"));
+    std::fs::remove_dir_all(folder).unwrap();
+}

@@ -3,11 +3,13 @@
 use serde::Serialize;
 
 use super::moving::MovingProgram;
+use super::page::time_html;
 use super::samples::SamplesWritten;
 use super::shares::TimeShares;
 use super::slow_block::SlowBlock;
 use super::timed::Timed;
-use crate::base::Finding;
+use crate::base::{Finding, Result};
+use crate::job::Outputs;
 use crate::job::held_feed::HeldFeed;
 use crate::job::time_terms::terms;
 use crate::motion::ProgramTime;
@@ -54,6 +56,9 @@ pub struct TimeSheet {
     pub shares: TimeShares,
     /// The blocks that lose most time, the worst first.
     pub slowest: Vec<SlowBlock>,
+    /// The graphs of the motion, where they are asked for.
+    #[serde(skip)]
+    pub graphs: Option<Section>,
     /// The samples that were written.
     pub samples: Option<SamplesWritten>,
     /// Findings.
@@ -84,6 +89,7 @@ impl TimeSheet {
             time_terms: terms(&laws, Some(&timed.machine)),
             shares: TimeShares::of(all),
             slowest: SlowBlock::most(all, slowest),
+            graphs: None,
             samples: None,
             findings,
             remarks: all.iter().flat_map(|(program, _)| program.remarks.iter().cloned()).collect(),
@@ -118,6 +124,12 @@ impl TimedProgram {
 }
 
 impl Answer for TimeSheet {
+    fn files(answers: &[&TimeSheet]) -> Result<Outputs> {
+        let mut outputs = Outputs::default();
+        answers.iter().for_each(|sheet| outputs.add("time.html", time_html(sheet)));
+        Ok(outputs)
+    }
+
     fn findings(&self) -> Vec<&Finding> {
         self.findings.iter().collect()
     }
@@ -125,10 +137,9 @@ impl Answer for TimeSheet {
     fn sections(&self) -> Vec<Section> {
         let several = self.programs.len() > 1;
         let mut facts: Vec<Fact> = self.programs.iter().flat_map(|program| program.facts(several)).collect();
-        let time = format!("{}, {}", page::duration(self.time), self.time_terms);
-        facts.push(Fact::new("Time", time));
+        facts.push(Fact::new("Time", page::duration(self.time)).note(self.time_terms.as_str()));
         let programmed = page::duration(self.time_at_programmed_feeds);
-        facts.push(Fact::new("At programmed feeds", format!("{programmed}, rapids at full speed")));
+        facts.push(Fact::new("At programmed feeds", programmed).note("rapids at full speed"));
         facts.push(Fact::new("Shares", self.shares.words()));
         facts.extend(self.samples.as_ref().map(|samples| Fact::new("Samples", samples.words())));
         facts.extend(self.remarks.iter().map(|remark| Fact::new("Remark", remark.as_str())));

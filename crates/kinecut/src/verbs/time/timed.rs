@@ -88,6 +88,16 @@ impl Timed {
         TimeSheet::of(self, slowest)
     }
 
+    /// The same with graphs of the motion.
+    ///
+    /// # Errors
+    /// `KC0009` when it was cancelled.
+    pub fn sheet_with_graphs(&self, slowest: usize, progress: &dyn Progress) -> Result<TimeSheet> {
+        let sheet = self.sheet(slowest);
+        let graphs = Some(self.graphs(&sheet.slowest, progress)?);
+        Ok(TimeSheet { graphs, ..sheet })
+    }
+
     /// Time of all programs [s].
     pub fn total(&self) -> f64 {
         self.programs.iter().map(|(_, time)| time.total()).sum()
