@@ -70,7 +70,8 @@ pub(super) fn coefficients<const A: usize, C: Course<A>>(
     let windows: Result<Vec<Window>> = ranges.map(|b| solver.first(b[0]..b[1], &share)).collect();
     let mut windows = windows?;
     let folds = shape.folds();
-    for round in 0.. {
+    let mut round = 0;
+    loop {
         let joined = solver.joined(windows, &share)?;
         let all = together(&joined, n);
         let all = [&[folds[0] * all[0]][..], &all, &[folds[1] * all[n - 1]]].concat();
@@ -86,12 +87,12 @@ pub(super) fn coefficients<const A: usize, C: Course<A>>(
                 };
                 let solved: Result<Vec<Window>> = joined.into_par_iter().with_max_len(1).map(again).collect();
                 windows = solved?;
+                round += 1;
                 continue;
             }
         }
         return Ok((all, solver.steps.into_inner()));
     }
-    unreachable!("the last round returns")
 }
 
 /// Lowers the shares of cells that exceed a limit, if one does by too much; the cells whose share is another one, in order.
@@ -102,8 +103,8 @@ fn lower(share: &mut [[f64; 2]], found: &[CellShares], round: u32) -> Vec<usize>
     /// Least part of its share that a cell keeps in one round.
     const KEPT: f64 = 0.3;
     let mut lowered = Vec::new();
-    let is_close = |cell: &CellShares| !(larger_of(cell) > 1.0 + EXCESS);
-    if found.iter().all(is_close) {
+    let exceeds = |cell: &CellShares| cell.all.acceleration.max(cell.all.jerk) > 1.0 + EXCESS;
+    if !found.iter().any(exceeds) {
         return lowered;
     }
     let beside = usize::from(round >= ALONE);
@@ -126,10 +127,6 @@ fn lower(share: &mut [[f64; 2]], found: &[CellShares], round: u32) -> Vec<usize>
     lowered.sort_unstable();
     lowered.dedup();
     lowered
-}
-
-fn larger_of(cell: &CellShares) -> f64 {
-    cell.all.acceleration.max(cell.all.jerk)
 }
 
 /// The coefficients of all cells: each window's, that go over into the next one's about the joint.
