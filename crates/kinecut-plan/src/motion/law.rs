@@ -8,7 +8,7 @@ use super::windows::coefficients;
 use super::{AxisLimit, Course, End, Speed, grid};
 use crate::base::{Code, Finding, Progress, Result, Silent};
 
-/// The fastest run: feed, speed, acceleration and jerk of each axis hold at eight places of each cell; where they did not
+/// The fastest run: feed, speed, acceleration and jerk of each axis hold at fifteen places of each cell; where they did not
 /// to the last digit, the whole run was slowed ([`TimeLaw::dilation`]).
 ///
 /// The path is followed exactly. Which of its joints may be passed without a stop is the course's matter.

@@ -9,6 +9,8 @@ use super::{AxisLimit, Course, Speed};
 
 /// Places of a cell at which limits are looked at.
 const PLACES: usize = 8;
+/// The same in the last look: those, and the ones between them.
+const LAST_PLACES: usize = 2 * PLACES - 1;
 /// Places in a cell at rest.
 const PLACES_AT_REST: usize = 20;
 /// Cells that one thread looks at in one go.
@@ -84,13 +86,23 @@ pub(super) fn of_cells<const A: usize, C: Course<A>>(
     speed: &Speed,
     cells: Range<usize>,
 ) -> Vec<CellShares> {
+    at_places(course, limits, speed, cells, PLACES)
+}
+
+fn at_places<const A: usize, C: Course<A>>(
+    course: &C,
+    limits: &[AxisLimit; A],
+    speed: &Speed,
+    cells: Range<usize>,
+    places: usize,
+) -> Vec<CellShares> {
     let of_cell = |k: usize| {
         let mut found = CellShares { ends: Shares::default(), all: Shares::default() };
         let mut place = 0;
-        speed.in_cell(k, PLACES, BESIDE, |s, b| {
+        speed.in_cell(k, places, BESIDE, |s, b| {
             let here = Shares::at(course, limits, s, b);
             found.all = found.all.max(here);
-            if place == 0 || place == PLACES - 1 {
+            if place == 0 || place == places - 1 {
                 found.ends = found.ends.max(here);
             }
             place += 1;
@@ -106,7 +118,7 @@ pub(super) fn of_run<const A: usize, C: Course<A>>(
     limits: &[AxisLimit; A],
     speed: &Speed,
 ) -> Shares {
-    let cells = of_cells(course, limits, speed, 0..speed.knots().len() - 1);
+    let cells = at_places(course, limits, speed, 0..speed.knots().len() - 1, LAST_PLACES);
     let mut worst = cells.into_iter().fold(Shares::default(), |worst, cell| worst.max(cell.all));
     speed.at_rest(PLACES_AT_REST, |s, b| worst = worst.max(Shares::at(course, limits, s, b)));
     worst
