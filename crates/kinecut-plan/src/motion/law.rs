@@ -2,7 +2,7 @@
 
 use super::reach::{WithoutJerk, without_jerk};
 use super::shape::{Shape, places};
-use super::shares::{CellShares, Shares, of_cells, of_run};
+use super::shares::{CellShares, Shares, of_cells_at_last, of_run};
 use super::start::Start;
 use super::windows::coefficients;
 use super::{AxisLimit, Course, End, Speed, grid};
@@ -156,7 +156,7 @@ impl TimeLaw {
         let mut grid = Gridded::new(course, limits, ends)?;
         let (mut speed, mut steps) = grid.solved(course, limits, progress)?;
         for _ in 0..REFINEMENTS {
-            if !grid.refined(&of_cells(course, limits, &speed, 0..grid.knots.len() - 1)) {
+            if !grid.refined(&of_cells_at_last(course, limits, &speed)) {
                 break;
             }
             let (finer, more) = grid.solved(course, limits, progress)?;

@@ -89,6 +89,15 @@ pub(super) fn of_cells<const A: usize, C: Course<A>>(
     at_places(course, limits, speed, cells, PLACES)
 }
 
+/// The same at the places of the last look, of all cells.
+pub(super) fn of_cells_at_last<const A: usize, C: Course<A>>(
+    course: &C,
+    limits: &[AxisLimit; A],
+    speed: &Speed,
+) -> Vec<CellShares> {
+    at_places(course, limits, speed, 0..speed.knots().len() - 1, LAST_PLACES)
+}
+
 fn at_places<const A: usize, C: Course<A>>(
     course: &C,
     limits: &[AxisLimit; A],
@@ -118,7 +127,7 @@ pub(super) fn of_run<const A: usize, C: Course<A>>(
     limits: &[AxisLimit; A],
     speed: &Speed,
 ) -> Shares {
-    let cells = at_places(course, limits, speed, 0..speed.knots().len() - 1, LAST_PLACES);
+    let cells = of_cells_at_last(course, limits, speed);
     let mut worst = cells.into_iter().fold(Shares::default(), |worst, cell| worst.max(cell.all));
     speed.at_rest(PLACES_AT_REST, |s, b| worst = worst.max(Shares::at(course, limits, s, b)));
     worst
