@@ -151,8 +151,10 @@ fn the_page_has_graphs_of_feed_velocity_acceleration_and_jerk() {
     assert!(!page.contains("NaN") && !page.contains("inf"));
     // Without a limit of jerk there is nothing to be over.
     std::fs::write(folder.join("mill.toml"), MACHINE.replace(", jerk = 50", "")).unwrap();
-    kinecut(&folder, &[&MILLED[..], &["--out", "page"]].concat());
+    let done = kinecut(&folder, &[&MILLED[..], &["--out", "page", "--samples", "s.csv"]].concat());
+    assert!(text(&done.stdout).contains("accelerations jump"), "{}", text(&done.stdout));
     let page = std::fs::read_to_string(folder.join("page/time.html")).unwrap();
     assert!(page.contains("Acceleration of each axis") && !page.contains("Jerk of each axis"));
+    assert!(page.contains("jerk is not limited on all moves, and not drawn"));
     std::fs::remove_dir_all(folder).unwrap();
 }

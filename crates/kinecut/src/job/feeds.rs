@@ -79,6 +79,7 @@ fn worst(trace: &Trace, beyond: &[FeedBeyond], bound: AxisBound, name: &str) -> 
     items.dedup();
     let further = match items.len() {
         1 => String::new(),
+        2 => ", nor in one other block".to_owned(),
         more => format!(", nor in {} other blocks", more - 1),
     };
     let what = format!("{} does not hold the feed within its {name} here{further}", worst.axis);

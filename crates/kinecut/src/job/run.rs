@@ -318,11 +318,8 @@ fn findings(
         found.extend(s.planned.operations.iter().flat_map(|o| o.plan.remarks().iter().cloned()));
         found.extend(simulate::findings(&s.trace, &simulation.effects[i], &job.tools, place));
         if let Some(machine) = &job.machine {
-            // Those of a planned program are within limits where they are to be.
-            let feeds = match job.feed_limit {
-                Some(_) if s.external.is_none() => Vec::new(),
-                _ => feeds::not_held(&s.trace, machine),
-            };
+            // Of a planned program too: moves on which the tool turns, and those of a template, are not lowered to them.
+            let feeds = feeds::not_held(&s.trace, machine);
             for mut f in travel_findings(&s.trace, &s.program, machine).into_iter().chain(feeds) {
                 f.place = f.item.take().and_then(place);
                 found.push(f);

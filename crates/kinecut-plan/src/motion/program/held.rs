@@ -41,47 +41,46 @@ const LETTERS: [char; AXES] = ['X', 'Y', 'Z', 'A', 'B', 'C'];
 /// Shares that are 1 but for rounding.
 const ROUNDING: f64 = 1e-6;
 
-/// The moves at feed that the axes cannot run evenly at their feed, in the order of the trace: with the speed `f` along the
-/// move an axis `q` needs `q' f`, `q'' f^2`, `q''' f^3`. Looked at where a curve turns by 0.1 rad, of moves on which the
-/// tool turns at the ends and in the middle. Joints of moves are not looked at, nor axes whose limits are not known.
+/// The moves at feed that the axes cannot run evenly at their feed, in the order of the trace; each once for each kind of limit
+/// that is in the way. With the speed `f` along the move an axis `q` needs `q' f`, `q'' f^2`, `q''' f^3`. Looked at where a
+/// curve turns by 0.1 rad, of moves on which the tool turns at the ends and in the middle. Joints of moves are not looked at,
+/// nor axes whose limits are not known.
 pub fn feeds_beyond(trace: &Trace, machine: &Machine) -> Vec<FeedBeyond> {
     let limits = control_limits(machine);
-    let beyond = |(i, segment): (usize, &Segment)| -> Option<FeedBeyond> {
+    let beyond = |(i, segment): (usize, &Segment)| -> Option<[Option<FeedBeyond>; 3]> {
         if segment.alternative || !matches!(segment.motion, SegmentPace::Feed(_)) {
             return None;
         }
         let path = segment.axis_path()?;
         let feed = feed(segment, path.length());
-        let held = held(&path, &places_of(segment, &path), &limits)?;
-        let share = held.rate / feed;
-        let axis = LETTERS[held.axis];
-        let is_beyond = feed.is_finite() && share < 1.0 - ROUNDING;
-        is_beyond.then_some(FeedBeyond { segment: i, share, axis, bound: held.bound })
+        let held = held(&path, &places_of(segment, &path), &limits);
+        let found = held.map(|(bound, rate, axis)| {
+            let share = rate / feed;
+            let is_beyond = feed.is_finite() && share < 1.0 - ROUNDING;
+            is_beyond.then_some(FeedBeyond { segment: i, share, axis: LETTERS[axis], bound })
+        });
+        Some(found)
     };
-    trace.segments.par_iter().enumerate().filter_map(beyond).collect()
+    trace.segments.par_iter().enumerate().filter_map(beyond).flatten_iter().flatten_iter().collect()
 }
 
-/// Largest rate of the parameter of a move [mm/s] at which it can be run evenly, and the axis and limit that allow no more.
-struct Held {
-    rate: f64,
-    axis: usize,
-    bound: AxisBound,
-}
-
-fn held(path: &AxisPath, places: &[f64], limits: &[Option<AxisLimit>; AXES]) -> Option<Held> {
-    let mut least: Option<Held> = None;
+/// For each kind of limit the largest rate of the parameter of a move [mm/s] at which it can be run evenly, and the axis that
+/// allows no more.
+fn held(path: &AxisPath, places: &[f64], limits: &[Option<AxisLimit>; AXES]) -> [(AxisBound, f64, usize); 3] {
+    let kinds = [AxisBound::Velocity, AxisBound::Acceleration, AxisBound::Jerk];
+    let mut least = kinds.map(|bound| (bound, f64::INFINITY, 0));
     for s in places {
         for (axis, (jet, limit)) in derivatives(path, *s).iter().zip(limits).enumerate() {
             let Some(limit) = limit else { continue };
-            let bounds = [
-                (limit.velocity / jet[0].abs(), AxisBound::Velocity),
-                ((limit.acceleration / jet[1].abs()).sqrt(), AxisBound::Acceleration),
-                ((limit.jerk / jet[2].abs()).cbrt(), AxisBound::Jerk),
+            let rates = [
+                limit.velocity / jet[0].abs(),
+                (limit.acceleration / jet[1].abs()).sqrt(),
+                (limit.jerk / jet[2].abs()).cbrt(),
             ];
-            for (rate, bound) in bounds {
+            for ((_, most, by), rate) in least.iter_mut().zip(rates) {
                 // A cusp allows no even rate at all, and is passed from or to a stop.
-                if rate > 0.0 && least.as_ref().is_none_or(|least| rate < least.rate) {
-                    least = Some(Held { rate, axis, bound });
+                if rate > 0.0 && rate < *most {
+                    (*most, *by) = (rate, axis);
                 }
             }
         }

@@ -160,7 +160,7 @@ fn law<'a, const A: usize>(
 struct Parts {
     uneven: [f64; 2],
     ends: [End; 2],
-    /// End of the level stretch that begins where the uneven one ends; the same place where there is none.
+    /// End of the level stretch behind the uneven one; without a level stretch, the end of the uneven one [mm].
     level_to: f64,
 }
 

@@ -45,7 +45,7 @@ pub(super) enum Motion<'a> {
 }
 
 impl<'a> Motion<'a> {
-    /// The turn on the spot at the start (0) or at the end (1) of a move; `None` where there is none.
+    /// The turn on the spot at the start (0) or at the end (1) of a move, if an axis makes one.
     pub(super) fn swing(piece: &Piece<'a>, end: usize, limits: &Limits) -> Option<Motion<'a>> {
         if !piece.turned[end] {
             return None;

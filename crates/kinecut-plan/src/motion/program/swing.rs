@@ -16,7 +16,7 @@ pub(super) fn around_ends(path: &AxisPath) -> [[[f64; AXES]; 2]; 2] {
     [[at(0.0), at(BESIDE)], [at(1.0 - BESIDE), at(1.0)]]
 }
 
-/// Turn of the axes on the spot at the start and at the end of a move [mm, rad]; `None` where there is none.
+/// Turn of the axes on the spot at the start and at the end of a move [mm, rad], if they make one.
 pub(super) fn swings(path: &AxisPath) -> [Option<[f64; AXES]>; 2] {
     around_ends(path).map(|[from, to]| {
         let turn: [f64; AXES] = std::array::from_fn(|a| (to[a] - from[a]).abs());

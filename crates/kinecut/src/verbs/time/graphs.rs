@@ -1,12 +1,13 @@
 //! Graphs of the motion over time: the feed, and what each axis uses of its limits.
 
 use super::Timed;
+use super::in_order::{InOrder, gaps};
 use super::moving::MovingProgram;
 use super::slow_block::SlowBlock;
 use super::timed::LETTERS;
 use crate::base::{Progress, Result};
-use crate::motion::{AxisLimit, MotionSample, axis_limits, program_samples};
-use crate::page::{self, Chart, Section};
+use crate::motion::{AxisLimit, MotionSample, axis_limits};
+use crate::page::{self, Block, Chart, Section};
 use crate::program::Speed;
 
 /// Columns of a graph.
@@ -86,41 +87,40 @@ impl Timed {
     pub(super) fn graphs(&self, slowest: &[SlowBlock], progress: &dyn Progress) -> Result<Section> {
         let total = self.total();
         let cycle = CYCLE.max(total / SAMPLES);
-        let limits = axis_limits(&self.machine);
-        let moves: usize = self.programs.iter().map(|(program, _)| program.trace.segments.len()).sum();
-        progress.stage("graphs", moves as u64);
+        let mut limits = axis_limits(&self.machine);
         let mut gathered = Gathered {
             width: (total / COLUMNS as f64).max(f64::MIN_POSITIVE),
             feed: Columns::new(),
             programmed: Columns::new(),
             shares: std::array::from_fn(|_| std::array::from_fn(|_| Columns::new())),
         };
-        let mut marks: Vec<(f64, u32)> = Vec::new();
-        let mut before = 0.0;
-        for (program, _) in &self.programs {
-            let marked: Vec<u32> =
-                slowest.iter().filter(|b| b.file == program.file).take(MARKS).map(|b| b.line).collect();
-            let sampled = program_samples(
-                &program.program,
-                &program.trace,
-                &self.machine,
-                cycle,
-                progress,
-                &mut |sample| {
-                    let time = before + sample.time;
-                    gathered.add(time, sample, programmed(program, sample), &limits);
-                    let line = program.line(sample.item).map(|line| line + 1);
-                    if let Some(line) = line.filter(|line| marked.contains(line))
-                        && marks.iter().all(|(_, other)| *other != line)
-                    {
-                        marks.push((time, line));
-                    }
-                    Ok(())
-                },
-            )?;
-            before += sampled.unwrap_or_default().time;
+        let mut marks: Vec<(f64, usize, u32)> = Vec::new();
+        let marked = |one: &InOrder, line: u32| {
+            slowest.iter().take(MARKS).any(|block| block.line == line && block.file == one.program.file)
+        };
+        let sampled = self.in_order(cycle, "graphs", progress, &mut |one| {
+            let time = one.before + one.sample.time;
+            gathered.add(time, one.sample, programmed(one.program, one.sample), &limits);
+            if let Some(line) = one.line.filter(|line| marked(one, *line))
+                && marks.iter().all(|(_, number, other)| (*number, *other) != (one.number, line))
+            {
+                marks.push((time, one.number, line));
+            }
+            Ok(())
+        })?;
+        let mut notes = gaps(sampled.left_out, sampled.left_out_time, sampled.jumps);
+        if cycle > CYCLE {
+            let each = page::trimmed(cycle * 1e3, 1);
+            notes.push(format!("the samples are {each} ms apart: what is shorter does not show"));
         }
-        Ok(section(&gathered, &marks, cycle, &limits))
+        if self.accelerations_jump() {
+            notes.push("jerk is not limited on all moves, and not drawn".to_owned());
+            for limit in limits.iter_mut().flatten() {
+                limit.jerk = f64::INFINITY;
+            }
+        }
+        let section = section(&gathered, &marks, cycle, &limits);
+        Ok(if notes.is_empty() { section } else { section.with(Block::List(notes)) })
     }
 }
 
@@ -134,13 +134,13 @@ fn programmed(program: &MovingProgram, sample: &MotionSample) -> f64 {
 
 fn section(
     gathered: &Gathered,
-    marks: &[(f64, u32)],
+    marks: &[(f64, usize, u32)],
     cycle: f64,
     limits: &[Option<AxisLimit>; 6],
 ) -> Section {
     let each = page::trimmed(cycle * 1e3, 3);
     let with_marks = |chart: Chart| {
-        marks.iter().fold(chart, |chart, (time, line)| chart.mark(*time, format!("line {line}")))
+        marks.iter().fold(chart, |chart, (time, _, line)| chart.mark(*time, format!("line {line}")))
     };
     let time = ("time", "s");
     let feed =

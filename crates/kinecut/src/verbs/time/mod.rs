@@ -1,6 +1,7 @@
 //! The verb `kinecut time`: the time of a program on its machine, where it is lost, and the motion at a control's cycle.
 
 mod graphs;
+mod in_order;
 mod moving;
 mod page;
 mod sample_rows;

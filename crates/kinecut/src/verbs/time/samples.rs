@@ -4,11 +4,12 @@ use std::path::Path;
 
 use serde::Serialize;
 
+use super::in_order::gaps;
 use super::sample_rows::{Form, SampleRows};
 use super::timed::Timed;
 use crate::base::{Code, FilesRead, Finding, Location, Progress, Result};
 use crate::job::StreamedFile;
-use crate::motion::{SampledMotion, program_samples, sample_count};
+use crate::motion::sample_count;
 use crate::page;
 
 /// Most samples of a file: some gigabytes.
@@ -29,6 +30,9 @@ pub struct SamplesWritten {
     pub time_left_out: f64,
     /// Places at which an axis is somewhere else than the move before left it: what is between could not be followed.
     pub jumps: usize,
+    /// Whether accelerations jump somewhere, because jerk is not limited or not on all moves: jerk is then that between the
+    /// jumps.
+    pub accelerations_jump: bool,
 }
 
 impl Timed {
@@ -47,44 +51,30 @@ impl Timed {
     ) -> Result<SamplesWritten> {
         let form = form(file)?;
         self.bounded(cycle)?;
-        let moves: usize = self.programs.iter().map(|(program, _)| program.trace.segments.len()).sum();
         let mut output = StreamedFile::begin(file, read, progress)?;
-        progress.stage("samples", moves as u64);
         let mut rows = SampleRows::new(form, &self.machine, self.programs.len() > 1);
         output.put(&rows.head(cycle))?;
-        let mut written = SamplesWritten {
-            file: file.display().to_string(),
-            count: 0,
-            cycle,
-            moves_left_out: 0,
-            time_left_out: 0.0,
-            jumps: 0,
-        };
-        let mut before = 0.0;
-        for (i, (program, _)) in self.programs.iter().enumerate() {
-            let sampled = program_samples(
-                &program.program,
-                &program.trace,
-                &self.machine,
-                cycle,
-                progress,
-                &mut |sample| {
-                    let line = program.line(sample.item).map(|line| line + 1);
-                    output.put(&rows.row(sample, before, i + 1, line))
-                },
-            )?;
-            before += written.add(&sampled.unwrap_or_default());
-        }
+        let sampled = self.in_order(cycle, "samples", progress, &mut |one| {
+            output.put(&rows.row(one.sample, one.before, one.number, one.line))
+        })?;
         output.put(rows.tail())?;
         output.finish()?;
-        Ok(written)
+        Ok(SamplesWritten {
+            file: file.display().to_string(),
+            count: sampled.count,
+            cycle,
+            moves_left_out: sampled.left_out,
+            time_left_out: sampled.left_out_time,
+            jumps: sampled.jumps,
+            accelerations_jump: self.accelerations_jump(),
+        })
     }
 
     /// That there are not too many samples.
     fn bounded(&self, cycle: f64) -> Result<()> {
         let count =
             |cycle: f64| self.programs.iter().map(|(_, time)| sample_count(time.total(), cycle)).sum::<f64>();
-        // A cycle that is none is an error of its own.
+        // A cycle that is not positive is another error.
         if !(cycle > 0.0) || count(cycle) <= MOST {
             return Ok(());
         }
@@ -125,29 +115,14 @@ fn form(file: &Path) -> Result<Form> {
 }
 
 impl SamplesWritten {
-    /// Counts those of a program, too; the time of it.
-    fn add(&mut self, sampled: &SampledMotion) -> f64 {
-        self.count += sampled.count;
-        self.moves_left_out += sampled.left_out;
-        self.time_left_out += sampled.left_out_time;
-        self.jumps += sampled.jumps;
-        sampled.time
-    }
-
     pub(super) fn words(&self) -> String {
-        let mut words =
-            format!("{} in {}, one each {} ms", self.count, self.file, page::trimmed(self.cycle * 1e3, 6));
-        if self.moves_left_out > 0 {
-            let time = page::duration(self.time_left_out);
-            words +=
-                &format!("; {} moves of {time} have none: no law was found for them", self.moves_left_out);
+        let each = page::trimmed(self.cycle * 1e3, 6);
+        let mut words = vec![format!("{} in {}, one each {each} ms", self.count, self.file)];
+        words.extend(gaps(self.moves_left_out, self.time_left_out, self.jumps));
+        if self.accelerations_jump {
+            words.push("accelerations jump: jerk is that between the jumps".to_owned());
         }
-        if self.jumps > 0 {
-            let places = if self.jumps == 1 { "place" } else { "places" };
-            words +=
-                &format!("; the axes jump at {} {places}: what is between could not be followed", self.jumps);
-        }
-        words
+        words.join("; ")
     }
 }
 

@@ -10,6 +10,8 @@ use super::slow_block::SlowBlock;
 use super::timed::Timed;
 use crate::base::{Finding, Result};
 use crate::job::Outputs;
+use crate::job::facets::facets_note;
+use crate::job::feeds::not_held;
 use crate::job::held_feed::HeldFeed;
 use crate::job::time_terms::terms;
 use crate::motion::ProgramTime;
@@ -77,7 +79,9 @@ impl TimeSheet {
         let mut findings: Vec<Finding> = Vec::new();
         for (program, time) in all {
             findings.extend(program.findings.iter().cloned());
-            findings.extend(time.reason.clone().map(|reason| program.at_line(reason)));
+            let facets = facets_note(&program.trace, time, &timed.machine);
+            let found = not_held(&program.trace, &timed.machine).into_iter().chain(facets);
+            findings.extend(found.chain(time.reason.clone()).map(|finding| program.at_line(finding)));
         }
         findings.sort_by_key(|f| std::cmp::Reverse(f.severity));
         TimeSheet {

@@ -1,16 +1,15 @@
 //! Times of whole programs on machines with dynamics.
 
-use std::collections::BTreeMap;
 use std::f64::consts::TAU;
 
 use glam::DVec3;
 use kinecut::base::Silent;
-use kinecut::geom::{Arc, Rigid};
+use kinecut::geom::Arc;
 use kinecut::job::{GivenFile, ProgramWants, given_alone};
 use kinecut::machine::{CoordinateCode, Dynamics, Interpolator, Machine, Rapids};
 use kinecut::motion::{AxisLimit, Changes, ProgramTime, SCurve, axis_limits, program_time};
 use kinecut::program::{
-    Blend, Frame, Move, Origin, Path, Program, Setup, SetupId, Speed, Spindle, State, Target, Tcp, ToolAxis,
+    Blend, Frame, Move, Origin, Path, Program, SetupId, Speed, Spindle, State, Target, Tcp, ToolAxis,
     ToolNumber, WorkOffset,
 };
 use kinecut::tool::Tool;
@@ -18,6 +17,7 @@ use kinecut::trace::{CompStart, RegisterState, Trace, TraceOptions, trace};
 use kinecut::verbs::check::program_sheet;
 
 use crate::common::end_mill::end_mill;
+use crate::common::setup::setup;
 
 pub(super) const X: AxisLimit = AxisLimit { velocity: 500.0, acceleration: 5000.0, jerk: 50_000.0 };
 pub(super) const Y: AxisLimit = AxisLimit { velocity: 400.0, acceleration: 2000.0, jerk: 60_000.0 };
@@ -54,15 +54,7 @@ pub(super) struct Written {
 
 impl Written {
     pub(super) fn new() -> Written {
-        let setup = Setup {
-            name: "setup 1".to_owned(),
-            part_on_table: Rigid::IDENTITY,
-            work_offsets: BTreeMap::from([(WorkOffset::G54, Rigid::IDENTITY)]),
-            located: true,
-            stock: None,
-            fixtures: Vec::new(),
-        };
-        let mut program = Program::new(vec![setup]);
+        let mut program = Program::new(vec![setup()]);
         let frame = program.add_frame(Frame::Work(WorkOffset::G54));
         let mut state = State::start(SetupId(0), frame);
         state.speed = Speed::Rapid { linear: true };
