@@ -274,3 +274,74 @@ impl Reach {
         first..(last + 2 * FADE).min(n).max(own.end)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use std::f64::consts::TAU;
+
+    use super::super::shape::places;
+    use super::super::start::Start;
+    use super::super::{End, grid};
+    use super::*;
+    use crate::base::Silent;
+
+    const LIMIT: AxisLimit = AxisLimit { velocity: 500.0, acceleration: 5000.0, jerk: 50_000.0 };
+
+    /// A path whose heading goes to and fro by 2 rad in 160 mm, no wave like the one before.
+    struct Wave;
+
+    impl Course<2> for Wave {
+        fn length(&self) -> f64 {
+            1300.0
+        }
+
+        fn derivatives(&self, s: f64) -> [[f64; 3]; 2] {
+            let w = TAU / 160.0;
+            let (sine, cosine) = (w * s).sin_cos();
+            let swell = 1.0 + 0.3 * (0.1 * w * s).sin();
+            let [angle, bend, slope] =
+                [2.0 * swell * sine, 2.0 * swell * w * cosine, -2.0 * swell * w * w * sine];
+            let (y, x) = angle.sin_cos();
+            [[x, -bend * y, -slope * y - bend * bend * x], [y, bend * x, slope * x - bend * bend * y]]
+        }
+
+        fn feed(&self, _: f64) -> f64 {
+            300.0
+        }
+
+        fn knots(&self) -> &[f64] {
+            &[]
+        }
+
+        fn finest(&self, _: f64) -> f64 {
+            0.2
+        }
+    }
+
+    #[test]
+    fn windows_together_are_the_run_that_is_solved_as_one() {
+        let limits = [LIMIT; 2];
+        let knots = grid::knots(&Wave, &limits, Start::of(&Wave, &limits), [End::Rest; 2]).unwrap();
+        let places = places(&Wave, &limits, &knots).unwrap();
+        let shape = Shape::new(&knots, Wave.length(), &places, &limits);
+        let n = shape.len();
+        assert!(n > 3 * CELLS, "{n}");
+        let whole = |own: Vec<f64>| {
+            let folds = shape.folds();
+            let all = [&[folds[0] * own[0]][..], &own, &[folds[1] * own[n - 1]]].concat();
+            Speed::new(shape.stops, shape.knots, &all).duration()
+        };
+        let reach = Reach::new(&shape, &limits, &shape.start());
+        let solver = Solver { shape: &shape, reach, steps: AtomicU32::new(0), progress: &Silent };
+        let share = vec![[1.0; 2]; n];
+        let one = whole(solver.first(0..n, &share).unwrap().coefficients);
+        let seams = [0, n / 3, 2 * n / 3, n];
+        let windows = seams.windows(2).map(|b| solver.first(b[0]..b[1], &share).unwrap()).collect();
+        let joined = solver.joined(windows, &share).unwrap();
+        for pair in joined.windows(2) {
+            assert!(agree(&pair[0].0, &pair[1].0).1 <= AGREED);
+        }
+        let several = whole(together(&joined, n));
+        assert!((several / one - 1.0).abs() < 1e-7, "{several} {one}");
+    }
+}

@@ -42,7 +42,7 @@ pub(super) fn lower(job: &Job, done: &SetupOutcome) -> Option<SetupPlan> {
 }
 
 /// Lowered feeds in words: the blocks, and the lowest feed with its line.
-pub(crate) fn lowered_words(done: &SetupOutcome) -> Option<(String, String)> {
+pub(crate) fn lowered_words(done: &SetupOutcome) -> Option<String> {
     let own = |segment: &Segment| {
         let SegmentPace::Feed(feed) = segment.motion else { return None };
         let asked = done.planned.lowered.get(&done.planned_item(segment.item)?)?;
@@ -56,9 +56,8 @@ pub(crate) fn lowered_words(done: &SetupOutcome) -> Option<(String, String)> {
     let place = place.map_or(String::new(), |line| format!(" in line {}", line + 1));
     let [feed, asked] = [feed, asked].map(|feed| (feed * 60.0).round());
     let blocks = if items.len() == 1 { "one block".to_owned() } else { format!("{} blocks", items.len()) };
-    Some((
-        format!("lowered in {blocks}"),
-        format!("to what the axes can hold; the lowest{place}: {feed} of {asked} mm/min"),
+    Some(format!(
+        "feed words lowered in {blocks} to what the axes hold, the lowest{place}: {feed} of {asked} mm/min"
     ))
 }
 

@@ -102,9 +102,11 @@ fn verdict(outcome: &Outcome) -> ReportVerdict {
     for s in &outcome.setups {
         let line = |item: u32| s.lines.get(item as usize).copied().flatten();
         let held = s.time.as_ref().and_then(|law| HeldFeed::of(&s.trace, law).words(line));
-        verdict.facts.extend(held.map(|(held, slowest)| Fact::new("Feed", held).note(slowest)));
-        let lowered = lowered_words(s);
-        verdict.facts.extend(lowered.map(|(blocks, lowest)| Fact::new("Feed words", blocks).note(lowest)));
+        let note = |slowest: String| {
+            let words = Some(slowest).filter(|words| !words.is_empty()).into_iter().chain(lowered_words(s));
+            words.collect::<Vec<_>>().join("; ")
+        };
+        verdict.facts.extend(held.map(|(held, slowest)| Fact::new("Feed", held).note(note(slowest))));
     }
     let used: Vec<String> = outcome
         .job

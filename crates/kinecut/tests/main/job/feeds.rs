@@ -54,8 +54,9 @@ fn no_block_asks_an_axis_for_more_than_it_has_on_any_control() {
         );
         assert!(found(&outcome).is_empty(), "{control}");
         let words = kinecut::job::report::of_job_in_words(&outcome);
-        let fact = words.verdict.facts.iter().find(|fact| fact.label == "Feed words").unwrap();
-        assert!(fact.value.starts_with("lowered in "), "{fact:?}");
+        let fact = words.verdict.facts.iter().find(|fact| fact.label == "Feed").unwrap();
+        let note = &fact.note;
+        assert!(note.contains("feed words lowered in ") && note.contains(" of 6000 mm/min"), "{fact:?}");
     }
 }
 
