@@ -1,10 +1,10 @@
 //! Curves in space, parametrised by arc length, with derivatives to the third.
 
-use std::sync::Arc as Shared;
+use std::sync::{Arc as Shared, OnceLock};
 
 use glam::{DVec2, DVec3};
 
-use super::spiral::by_arc_length;
+use super::spiral::{Places, by_arc_length};
 use super::{Aabb, Arc, CubicSpan, InvoluteRecord, Jet, Line, PlanarJet, Rigid, Rise, Spiral};
 use crate::num::quadrature::gauss;
 use crate::num::root::bracketed_newton;
@@ -23,7 +23,21 @@ pub struct Curve {
 #[derive(Clone, Debug, PartialEq)]
 enum Kept {
     Line(Line),
-    Other(Shared<CurveKind>),
+    Other(Shared<Other>),
+}
+
+/// A curve that is no line.
+#[derive(Clone, Debug)]
+struct Other {
+    kind: CurveKind,
+    /// Places along a spiral that was looked at.
+    places: OnceLock<Places>,
+}
+
+impl PartialEq for Other {
+    fn eq(&self, other: &Other) -> bool {
+        self.kind == other.kind
+    }
 }
 
 /// The kind of a curve.
@@ -77,6 +91,18 @@ fn lifted(j: &PlanarJet, frame: &Rigid, z: f64) -> Jet {
     Jet { p: frame.point(j.p.extend(z)), d1: lift(j.d1), d2: lift(j.d2), d3: lift(j.d3) }
 }
 
+/// A planar jet in space at an arc length `s` [mm] in space, where the curve rises by `slope` and advances by `c` in its plane
+/// for each length in space: each derivative is scaled by its power.
+fn risen(j: &PlanarJet, frame: &Rigid, c: f64, slope: f64, s: f64) -> Jet {
+    let lift = |v: DVec2, z: f64| frame.vector(v.extend(z));
+    Jet {
+        p: frame.point(j.p.extend(s * slope)),
+        d1: lift(j.d1 * c, slope),
+        d2: lift(j.d2 * (c * c), 0.0),
+        d3: lift(j.d3 * (c * c * c), 0.0),
+    }
+}
+
 /// The planar arc length of a spiral at a length in space [mm].
 fn planar_length(spiral: &Spiral, rise: &Rise, s: f64, length: f64) -> f64 {
     let whole = spiral.length();
@@ -92,9 +118,10 @@ fn planar_length(spiral: &Spiral, rise: &Rise, s: f64, length: f64) -> f64 {
     bracketed_newton(f, whole * (s / length), 0.0, whole, STEPS).0
 }
 
-/// Point of a spiral in space as a series by arc length, in the coordinates of its plane.
-fn spiral_series<const N: usize>(spiral: &Spiral, rise: &Rise, planar: f64) -> [Taylor<N>; 3] {
-    let [x, y] = spiral.arc_series::<N>(spiral.parameter(planar));
+/// Point of a spiral in space as a series by arc length, at a planar length and its parameter, in the coordinates of its
+/// plane.
+fn spiral_series<const N: usize>(spiral: &Spiral, rise: &Rise, planar: f64, u: f64) -> [Taylor<N>; 3] {
+    let [x, y] = spiral.arc_series::<N>(u);
     let whole = spiral.length();
     let mut fraction = Taylor::<N>::constant(planar / whole);
     if N > 1 {
@@ -147,7 +174,7 @@ impl Curve {
     fn of(kind: CurveKind, length: f64) -> Curve {
         let kind = match kind {
             CurveKind::Line(line) => Kept::Line(line),
-            other => Kept::Other(Shared::new(other)),
+            other => Kept::Other(Shared::new(Other { kind: other, places: OnceLock::new() })),
         };
         Curve { kind, length }
     }
@@ -157,7 +184,15 @@ impl Curve {
     pub fn kind(&self) -> CurveKind {
         match &self.kind {
             Kept::Line(line) => CurveKind::Line(*line),
-            Kept::Other(other) => **other,
+            Kept::Other(other) => other.kind,
+        }
+    }
+
+    /// Parameter of a spiral at a planar arc length [mm].
+    fn parameter(&self, spiral: &Spiral, planar: f64) -> f64 {
+        match &self.kind {
+            Kept::Other(other) => other.places.get_or_init(|| Places::of(spiral)).parameter(spiral, planar),
+            Kept::Line(_) => spiral.parameter(planar),
         }
     }
 
@@ -172,27 +207,23 @@ impl Curve {
             CurveKind::Line(line) => line.at(s),
             CurveKind::Arc(arc) => arc.at(s),
             CurveKind::Involute { record, frame, rise } => {
-                let planar = record.length();
-                // ds_planar/ds is constant, so each derivative is scaled by its power.
-                let c = if self.length > 0.0 { planar / self.length } else { 0.0 };
-                let j = record.at(s * c);
-                let lift = |v: DVec2, z: f64| frame.vector(DVec3::new(v.x, v.y, z));
-                let slope = if self.length > 0.0 { rise / self.length } else { 0.0 };
-                Jet {
-                    p: frame.point(DVec3::new(j.p.x, j.p.y, s * slope)),
-                    d1: lift(j.d1 * c, slope),
-                    d2: lift(j.d2 * (c * c), 0.0),
-                    d3: lift(j.d3 * (c * c * c), 0.0),
-                }
+                let length = self.length;
+                let [c, slope] =
+                    if length > 0.0 { [record.length() / length, rise / length] } else { [0.0; 2] };
+                risen(&record.at(s * c), frame, c, slope, s)
             }
             CurveKind::Spiral { spiral, frame, rise } => {
                 let planar = planar_length(spiral, rise, s, self.length);
-                let j = spiral.at(planar);
-                let [x, y, z] = spiral_series::<4>(spiral, rise, planar);
+                let u = self.parameter(spiral, planar);
+                if let Some(rise) = rise.is_even() {
+                    let [c, slope] = [spiral.length(), rise].map(|way| way / self.length);
+                    return risen(&spiral.at_parameter(u), frame, c, slope, s);
+                }
+                let [x, y, z] = spiral_series::<4>(spiral, rise, planar, u);
                 let order = |k: usize| DVec3::new(x.derivative(k), y.derivative(k), z.derivative(k));
                 if !order(2).is_finite() {
                     // A cusp.
-                    return lifted(&j, frame, rise.at(planar / spiral.length()));
+                    return lifted(&spiral.at_parameter(u), frame, rise.at(planar / spiral.length()));
                 }
                 let lift = |k: usize| frame.vector(order(k));
                 Jet { p: frame.point(order(0)), d1: lift(1), d2: lift(2), d3: lift(3) }
@@ -232,7 +263,7 @@ impl Curve {
             }
             CurveKind::Spiral { spiral, frame, rise } => {
                 let planar = planar_length(spiral, rise, s, self.length);
-                (spiral_series(spiral, rise, planar), *frame)
+                (spiral_series(spiral, rise, planar, self.parameter(spiral, planar)), *frame)
             }
             CurveKind::Bezier { span, frame } => {
                 let [x, y] = span.arc_series(span.parameter(s));

@@ -17,7 +17,7 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use glam::DVec2;
 use serde::Serialize;
 
-use crate::num::quadrature::gauss;
+use crate::num::quadrature::{gauss, gauss_short};
 use crate::num::series::one_minus_cos;
 use crate::num::taylor::Taylor;
 
@@ -358,6 +358,24 @@ impl SpiralLaw {
                     carrier * carrier + fast * fast + 2.0 * carrier * fast * ((rate - 1.0) * u).cos();
                 squared.clamp(0.0, f64::INFINITY).sqrt()
             }
+        }
+    }
+
+    /// A part of the parameter that is short: [`Self::short_length`] is exact to rounding on it, and the parameter nearly a
+    /// cubic of the arc length.
+    pub(super) fn short(&self) -> f64 {
+        const SHORT: f64 = 0.06;
+        match *self {
+            SpiralLaw::Trochoid { rate, .. } => SHORT / (rate - 1.0).abs().max(1.0),
+            _ => SHORT,
+        }
+    }
+
+    /// Arc length on a short part from `a` to `b` [mm], negative when `b < a`.
+    pub(super) fn short_length(&self, a: f64, b: f64) -> f64 {
+        match self {
+            SpiralLaw::Support(Support::Lens { .. }) | SpiralLaw::Archimedes { .. } => self.length(a, b),
+            _ => gauss_short(a, b, |u| self.speed(u)),
         }
     }
 

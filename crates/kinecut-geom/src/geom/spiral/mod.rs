@@ -1,6 +1,10 @@
 //! A part of a spiral in its place in the plane.
 
+mod places;
+
 use glam::DVec2;
+
+pub(super) use places::Places;
 
 use super::PlanarJet;
 use super::spiral_law::SpiralLaw;
@@ -87,11 +91,14 @@ impl Spiral {
             return self.to;
         }
         let d = self.direction();
-        // Parameter counted from the start, so that the function grows.
+        // Parameter counted from the start, so that the function grows; the length goes on from the last one.
         let width = (self.to - self.from).abs();
+        let (mut last, mut length) = (self.from, 0.0);
         let f = |v: f64| {
             let u = self.from + d * v;
-            (self.law.length(self.from, u) * d - s, self.law.speed(u))
+            length += self.law.length(last, u) * d;
+            last = u;
+            (length - s, self.law.speed(u))
         };
         /// Newton from the proportion; more steps only where it had to halve (a near-cusp).
         const STEPS: u32 = 60;
