@@ -11,8 +11,12 @@ const BESIDE: f64 = 2.0;
 /// Ways to speed below which a stretch is not worth an own treatment, those at its ends included.
 const LEAST: f64 = 6.0;
 
-/// The stretches that are run at their feed from end to end [mm], in order. Looked at in the middle, at both ends and at the
-/// quarters of each move, at its joints and in the middle of their smoothings.
+/// Most parts of a move.
+const MOST_PARTS: f64 = 1e5;
+
+/// The stretches that are run at their feed from end to end [mm], in order. Moves are cut into parts in which the speed can
+/// just change; each is looked at in the middle, at both ends and at its quarters, and at the joints and in the middle of the
+/// smoothings that it has.
 pub(super) fn level<const A: usize>(course: &Moving<A>, limits: &[AxisLimit; A]) -> Vec<[f64; 2]> {
     let run = course.run();
     let starts = run.starts();
@@ -26,6 +30,8 @@ pub(super) fn level<const A: usize>(course: &Moving<A>, limits: &[AxisLimit; A])
             found.push([start + BESIDE * way, end - BESIDE * way]);
         }
     };
+    let least = |of: fn(&AxisLimit) -> f64| limits.iter().map(of).fold(f64::INFINITY, f64::min);
+    let (a, j) = (least(|limit| limit.acceleration), least(|limit| limit.jerk));
     for i in 0..starts.len() - 1 {
         let [from, to] = [starts[i], starts[i + 1]];
         let feed = course.feed(0.5 * (from + to));
@@ -34,22 +40,22 @@ pub(super) fn level<const A: usize>(course: &Moving<A>, limits: &[AxisLimit; A])
             shares.velocity <= 1.0 + 1e-9 && shares.acceleration <= SHARE && shares.jerk <= SHARE
         };
         let inside = 1e-6 * (to - from);
-        let is_level = feed.is_finite()
-            && [
-                from + inside,
-                0.75 * from + 0.25 * to,
-                0.5 * (from + to),
-                0.25 * from + 0.75 * to,
-                to - inside,
-            ]
-            .into_iter()
-            .all(at_feed)
-            && run.marks(i).into_iter().flatten().all(at_feed);
-        if open.is_some_and(|(_, before)| !is_level || (before - feed).abs() > 1e-9 * feed) {
-            close(&mut open, from);
-        }
-        if is_level {
-            open.get_or_insert((from, feed));
+        let (first, last) = (from + inside, to - inside);
+        let marks = run.marks(i);
+        let parts = ((last - first) / way_to_speed(feed, a, j)).ceil().clamp(1.0, MOST_PARTS) as u32;
+        for part in 0..parts {
+            let at = |share: f64| first + (last - first) * (f64::from(part) + share) / f64::from(parts);
+            let [start, end] = [at(0.0), at(1.0)];
+            let is_level = feed.is_finite()
+                && [0.0, 0.25, 0.5, 0.75, 1.0].into_iter().all(|share| at_feed(at(share)))
+                && marks.into_iter().flatten().filter(|s| (start..=end).contains(s)).all(at_feed);
+            let start = if part == 0 { from } else { start };
+            if open.is_some_and(|(_, before)| !is_level || (before - feed).abs() > 1e-9 * feed) {
+                close(&mut open, start);
+            }
+            if is_level {
+                open.get_or_insert((start, feed));
+            }
         }
     }
     close(&mut open, starts[starts.len() - 1]);

@@ -3,6 +3,7 @@
 mod axis_limits;
 mod changes;
 mod facets;
+mod gathering;
 mod held;
 mod joint;
 mod joints;

@@ -96,11 +96,16 @@ type Limits = [Option<super::super::AxisLimit>; AXES];
 /// Axes along the path of a segment whose parameter moves so; second: whether the tip stands there.
 fn along((segment, stands): (usize, bool), jets: &[AxisJet; AXES], at: Moment) -> AllAxes {
     let Moment { velocity: v, acceleration: a, jerk: j, .. } = at;
-    let axes = jets.map(|jet| AxisMoment {
-        position: jet.q,
-        velocity: jet.d1 * v,
-        acceleration: jet.d2 * v * v + jet.d1 * a,
-        jerk: jet.d3 * v * v * v + 3.0 * jet.d2 * v * a + jet.d1 * j,
+    // A cusp is left from rest, where its endless curvature is none of the motion yet.
+    let bent = |derivative: f64| if v == 0.0 { 0.0 } else { derivative };
+    let axes = jets.map(|jet| {
+        let [d2, d3] = [jet.d2, jet.d3].map(bent);
+        AxisMoment {
+            position: jet.q,
+            velocity: jet.d1 * v,
+            acceleration: d2 * v * v + jet.d1 * a,
+            jerk: d3 * v * v * v + 3.0 * d2 * v * a + jet.d1 * j,
+        }
     });
     AllAxes { segment, feed: if stands { 0.0 } else { v }, axes }
 }

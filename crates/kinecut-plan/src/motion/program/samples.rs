@@ -2,7 +2,9 @@
 //!
 //! The moves are solved again, some thousand at a time in order, and looked at at multiples of the cycle; nothing is kept.
 
+use super::gathering::Gathering;
 use super::motion::AxisMoment;
+use super::program_time::ProgramTime;
 use super::sampler::{Sampler, multiples};
 use super::setting::Setting;
 use super::stretch::{Stretch, stretches};
@@ -49,10 +51,10 @@ pub fn sample_count(time: f64, cycle: f64) -> f64 {
     multiples(time, cycle) + 1.0
 }
 
-/// Hands the motion of a program to `sink`, in order: at each multiple of `cycle` [s], and at its end. `None` if an axis that
-/// moves has no rapid speed or no acceleration.
+/// Hands the motion of a program to `sink`, in order: at each multiple of `cycle` [s], and at its end; then its time. `None`
+/// if an axis that moves has no rapid speed or no acceleration.
 ///
-/// It is the motion whose time [`program_time`](super::program_time) tells. Rests have samples too: before the first move
+/// The time is that of [`program_time`](super::program_time). Rests have samples too: before the first move
 /// that was followed the axes stand where that begins. A spindle that changes its speed within moves without a stop is waited
 /// for before the first of them.
 ///
@@ -65,7 +67,7 @@ pub fn program_samples(
     cycle: f64,
     progress: &dyn Progress,
     sink: &mut dyn FnMut(&MotionSample) -> Result<()>,
-) -> Result<Option<SampledMotion>> {
+) -> Result<Option<(ProgramTime, SampledMotion)>> {
     if !(cycle > 0.0 && cycle.is_finite()) {
         let what = "the cycle of samples must be positive and finite";
         return Err(Finding::error(Code::PLAN_VALUE, what)
@@ -80,6 +82,7 @@ pub fn program_samples(
     let waits = waits(program, trace, &machine.control);
     let mut waits = waits.iter().peekable();
     let mut sampler = Sampler::new(trace, cycle, progress, sink);
+    let mut gathering = Gathering::new(program, trace, &setting);
     let mut left = &stretches[..];
     while !left.is_empty() {
         let mut moves = 0;
@@ -96,13 +99,15 @@ pub fn program_samples(
             while let Some(wait) = waits.next_if(|wait| wait.before <= last) {
                 sampler.rest(wait)?;
             }
+            if !gathering.add(stretch, &solved) {
+                return Ok(None);
+            }
             match solved {
                 Ok(Some(solved)) => sampler.moves(&solved)?,
-                Ok(None) => return Ok(None),
-                Err(_) => sampler.leave_out(stretch),
+                _ => sampler.leave_out(stretch),
             }
         }
     }
     waits.try_for_each(|wait| sampler.rest(wait))?;
-    sampler.end().map(Some)
+    Ok(Some((gathering.time(), sampler.end()?)))
 }

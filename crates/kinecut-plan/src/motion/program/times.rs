@@ -2,9 +2,9 @@
 
 use rayon::prelude::*;
 
-use super::changes::changes;
+use super::gathering::Gathering;
 use super::leg::Task;
-use super::program_time::{ProgramTime, Smoothing};
+use super::program_time::ProgramTime;
 use super::setting::Setting;
 use super::stretch::{Stretch, StretchTime, stretches};
 use crate::base::{Code, Finding, Progress, Result};
@@ -34,53 +34,13 @@ pub fn program_time(
     let setting = Setting::new(machine, progress);
     let stretches = stretches(program, trace, setting.junction_deviation().is_some());
     let done = done(&stretches, (program, trace), &setting, task(&stretches, (program, trace), &setting)?)?;
-    let [tool_changes, spindle_changes] = changes(program, &machine.control);
-    let mut time = ProgramTime {
-        segments: vec![0.0; trace.segments.len()],
-        moves: 0.0,
-        without_jerk: 0.0,
-        limits_jerk: setting.limits_jerk(),
-        // The sum of nothing is the other zero.
-        dwells: trace.dwells.iter().fold(0.0, |sum, d| sum + d.1),
-        tool_changes,
-        spindle_changes,
-        smoothing: Smoothing::default(),
-        dilation: 1.0,
-        jerk_left_out: 0,
-        refused: 0,
-        reason: None,
-        swings: 0.0,
-    };
-    let mut first: Option<(u32, Finding)> = None;
-    for (stretch, done) in stretches.iter().zip(done) {
-        let done = match done {
-            Ok(Some(done)) => done,
-            Ok(None) => return Ok(None),
-            Err(reason) => {
-                time.refused += stretch.segments.len();
-                let item = stretch.segments.first().map_or(0, |i| trace.segments[*i].item);
-                first.get_or_insert((item, *reason.0));
-                stretch.as_programmed(trace)
-            }
-        };
-        for (i, own) in stretch.segments.iter().zip(&done.times) {
-            time.segments[*i] = *own;
-            time.moves += own;
+    let mut gathering = Gathering::new(program, trace, &setting);
+    for (stretch, done) in stretches.iter().zip(&done) {
+        if !gathering.add(stretch, done) {
+            return Ok(None);
         }
-        time.without_jerk += done.without_jerk;
-        time.smoothing.add(&done.smoothing);
-        time.dilation = time.dilation.max(done.dilation);
-        time.jerk_left_out += done.jerk_left_out;
-        time.swings += done.swings;
     }
-    time.reason = first.map(|(item, reason)| {
-        let what = format!(
-            "the time of {} moves is that at their programmed feed, without the limits of the axes: {}",
-            time.refused, reason.message
-        );
-        Finding { value: reason.value, bound: reason.bound, ..Finding::note(reason.code, what) }.item(item)
-    });
-    Ok(Some(time))
+    Ok(Some(gathering.time()))
 }
 
 /// The task that stretches can be given: of a long program the cells are counted before any of them is solved.

@@ -41,7 +41,7 @@ impl Timed {
             };
             let (text, trace) = (&program.program, &program.trace);
             let own = program_samples(text, trace, &self.machine, cycle, progress, &mut one)?;
-            let own = own.unwrap_or_default();
+            let own = own.map_or_else(SampledMotion::default, |(_, own)| own);
             all.count += own.count;
             all.time += own.time;
             all.left_out += own.left_out;

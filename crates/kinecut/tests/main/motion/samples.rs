@@ -18,8 +18,10 @@ fn sampled_at(written: &Written, machine: &Machine, cycle: f64) -> (Vec<MotionSa
         samples.push(*sample);
         Ok(())
     });
-    let extent = extent.unwrap().unwrap();
-    let total = written.time(machine).unwrap().total();
+    let (time, extent) = extent.unwrap().unwrap();
+    let alone = written.time(machine).unwrap();
+    let total = alone.total();
+    assert_eq!(time, alone);
     assert_eq!(extent.count, samples.len() as u64);
     assert_eq!(extent.count as f64, sample_count(total, cycle));
     assert!((extent.time - total).abs() < 1e-9 * (1.0 + total), "{} {total}", extent.time);
