@@ -19,6 +19,8 @@ pub struct MotionControl {
     pub turn_tolerance: Option<f64>,
     /// Junction deviation of [`Interpolator::JunctionDeviation`], and only of that [mm].
     pub junction_deviation: Option<f64>,
+    /// Frequency of a motion that the position loops of the axes pass with 0.707 of its size [Hz].
+    pub servo_bandwidth: Option<f64>,
     /// Time of a tool change, chip to chip without the moves [s].
     pub tool_change: Option<f64>,
     /// Time in which the spindle gets from rest to `max_speed`, which must be given beside it [s].
@@ -35,6 +37,7 @@ impl MotionControl {
             tolerance: self.tolerance.or(before.tolerance),
             turn_tolerance: self.turn_tolerance.or(before.turn_tolerance),
             junction_deviation: self.junction_deviation.or(before.junction_deviation),
+            servo_bandwidth: self.servo_bandwidth.or(before.servo_bandwidth),
             tool_change: self.tool_change.or(before.tool_change),
             spindle_ramp: self.spindle_ramp.or(before.spindle_ramp),
         }
@@ -43,10 +46,14 @@ impl MotionControl {
     /// Checks its numbers, and that none of them lacks the value that gives it a meaning.
     ///
     /// # Errors
-    /// `KC0703`, with the key in a machine file: a feed or a speed that is not positive, another number that is negative or
+    /// `KC0703`, with the key in a machine file: a feed, a speed or a bandwidth that is not positive, another number that is negative or
     /// not finite, `spindle_ramp` without `max_speed`, `junction_deviation` with another interpolator.
     pub fn check(&self) -> Result<()> {
-        for (name, value) in [("max_feed", self.max_feed), ("max_speed", self.max_speed)] {
+        for (name, value) in [
+            ("max_feed", self.max_feed),
+            ("max_speed", self.max_speed),
+            ("servo_bandwidth", self.servo_bandwidth),
+        ] {
             positive("dynamics", name, value)?;
         }
         for (name, value) in [

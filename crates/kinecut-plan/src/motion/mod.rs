@@ -3,8 +3,7 @@
 //! - [`SCurve`]: a straight move from rest to rest, in closed form.
 //! - [`TimeLaw`]: the fastest run along a [`Course`] under velocity, acceleration and jerk of each axis.
 //! - [`feed_parts`](fn@feed_parts): a curve with feeds that the axes can hold; [`feeds_beyond`]: where they cannot.
-//! - [`pointwise`](fn@pointwise): a run along a chain of curves whose limits hold in every point for itself, for
-//!   comparing shapes.
+//! - [`Servo`]: what position loops make of a motion.
 
 mod axis_limit;
 mod course;
@@ -14,10 +13,10 @@ mod grid;
 mod interior;
 mod law;
 mod pentadiagonal;
-mod pointwise;
 mod program;
 mod reach;
 mod s_curve;
+mod servo;
 mod shape;
 mod shares;
 mod speed;
@@ -31,13 +30,13 @@ pub use course::Course;
 pub use end::End;
 pub use feed_parts::{FeedPart, feed_parts, lowered};
 pub use law::TimeLaw;
-pub use pointwise::{Limits, RunLaw, RunPoint, pointwise};
 pub use program::{
     AxisBound, AxisMoment, Changes, Facets, FeedBeyond, MotionSample, ProgramTime, SampledMotion, Smoothing,
     axis_limits, facets, feeds_beyond, program_samples, program_time, sample_count,
 };
 pub use reach::WithoutJerk;
 pub use s_curve::{Moment, SCurve};
+pub use servo::{Followed, Following, Servo};
 pub use shares::Shares;
 pub use speed::Speed;
 pub use station::{PathByLength, Station};

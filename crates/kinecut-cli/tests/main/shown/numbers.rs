@@ -123,7 +123,7 @@ fn the_paper_s_hole_by_every_strategy() {
     let rows = sheet["comparison"]["rows"].as_array().unwrap();
     let time = |name: &str| {
         let row = rows.iter().find(|r| r["strategy"] == name).unwrap();
-        row["figures"]["times"][0]["time"].as_f64().unwrap()
+        row["figures"]["runs"][0]["time"].as_f64().unwrap()
     };
     says(
         "examples/12_compare/README.md",

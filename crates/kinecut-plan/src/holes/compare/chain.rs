@@ -5,6 +5,7 @@ use glam::DVec2;
 use crate::geom::{Curve, PlaneCurve};
 
 /// Consecutive curves.
+#[derive(Clone, Debug, PartialEq)]
 pub(super) struct Chain {
     pub(super) curves: Vec<PlaneCurve>,
     /// Arc length at the start of each curve, and the whole [mm].

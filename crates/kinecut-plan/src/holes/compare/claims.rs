@@ -11,7 +11,7 @@ use super::chain::Chain;
 use super::joints::joints;
 use super::lead::LeadGrowth;
 use super::load::{Load, load};
-use super::{ComparedStrategy, Figures, Terms};
+use super::{ComparedStrategy, Figures, Run, Terms};
 use crate::base::Result;
 use crate::holes::clearing::{Clearing, Disc};
 use crate::holes::engagement::engagement;
@@ -133,6 +133,7 @@ pub(super) fn claims(
         visible_turns(terms)?,
     ];
     claims.extend(time(rows));
+    claims.extend(positioning(terms, rows));
     claims.extend(contact_for_nothing(rows, lead_ins));
     Ok(claims)
 }
@@ -324,13 +325,13 @@ fn time(rows: &[ComparedStrategy]) -> Option<Claim> {
     let timed = |i: usize| {
         others
             .iter()
-            .filter_map(|&name| Some((name, of(rows, name)?.times.get(i)?.time)))
+            .filter_map(|&name| Some((name, of(rows, name)?.runs.get(i)?.time)))
             .min_by(|a, b| a.1.total_cmp(&b.1))
     };
     let mut parts = Vec::new();
     let mut numbers = Vec::new();
     let mut fastest = true;
-    for (i, run) in paper.times.iter().enumerate() {
+    for (i, run) in paper.runs.iter().enumerate() {
         let (name, best) = timed(i)?;
         fastest &= run.time <= best;
         parts.push(format!(
@@ -346,6 +347,40 @@ fn time(rows: &[ComparedStrategy]) -> Option<Claim> {
     found.push_str(" What it wins is shock, not time; the time is won by fewer turns at an even load.");
     let holds = if fastest { Holds::Yes } else { Holds::No };
     Some(Claim::new("The involute path is the fastest", holds, found, &numbers))
+}
+
+fn positioning(terms: &Terms, rows: &[ComparedStrategy]) -> Option<Claim> {
+    /// Share by which an error must be smaller, to be smaller.
+    const LESS: f64 = 0.95;
+    let names = ["involute", "arcs-2", "arcs-4"];
+    let [paper, two, four] = names.map(|name| of(rows, name).map(|f| &f.runs));
+    let (mut parts, mut numbers, mut smaller) = (Vec::new(), Vec::new(), Vec::new());
+    for ((paper, two), four) in paper?.iter().zip(two?).zip(four?) {
+        let [own, a, b] = [paper, two, four].map(|run| 1e3 * run.servo.at_wall);
+        let [off, by_two, by_four] = [paper, two, four].map(|run| 1e3 * run.farthest);
+        parts.push(format!(
+            "at {} m/min {own:.3} \u{3bc}m, with arcs {a:.3} (two poles) and {b:.3} (four)",
+            digits(paper.feed * 0.06)
+        ));
+        smaller.push(own < LESS * a.min(b) && off <= by_two.min(by_four));
+        numbers.extend([own, a, b, off, by_two, by_four]);
+    }
+    let all = |runs: &[Run]| runs.iter().map(|run| 1e3 * run.farthest).fold(0.0, f64::max);
+    let found = format!(
+        "Position loops of {} Hz (a model) leave the circle at the wall by this much: {}. Besides, the control itself leaves the \
+         path where it smooths joints, by up to {:.2} \u{3bc}m on the involute, {:.2} and {:.2} \u{3bc}m on the arcs.",
+        digits(terms.servo.bandwidth),
+        parts.join("; "),
+        all(paper?),
+        all(two?),
+        all(four?),
+    );
+    let holds = match smaller.iter().filter(|is| **is).count() {
+        0 => Holds::No,
+        n if n == smaller.len() => Holds::Yes,
+        _ => Holds::Partly,
+    };
+    Some(Claim::new("Smooth motion lowers the positioning error of the axes", holds, found, &numbers))
 }
 
 fn contact_for_nothing(rows: &[ComparedStrategy], lead_ins: &[LeadGrowth]) -> Option<Claim> {

@@ -6,37 +6,12 @@ use super::chain::Chain;
 use super::joints::{self, JointStep};
 use super::load::{self, Load};
 use super::peaks::{self, AxisPeaks, Sampled};
+use super::run::{ProfilePlace, Run};
 use super::{Terms, posted};
 use crate::base::{Code, CountBound, Result};
 use crate::geom::InvoluteRecord;
 use crate::holes::clearing::Clearing;
-use crate::motion::{Limits, PathByLength as _, RunLaw, pointwise};
-
-/// Time at a feed.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct RunTime {
-    /// Feed [mm/s].
-    pub feed: f64,
-    /// Time from rest to rest, the circles at entry and wall included [s].
-    pub time: f64,
-    /// Relative change by the last refinement.
-    pub uncertainty: f64,
-}
-
-/// A place of the run at the feed.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct ProfilePlace {
-    /// Arc length from the start of the run [mm].
-    pub s: f64,
-    /// Time [s].
-    pub time: f64,
-    /// Path speed [mm/s].
-    pub speed: f64,
-    /// Acceleration [mm/s^2].
-    pub acceleration: f64,
-    /// Jerk [mm/s^3], the steps at joints not counted.
-    pub jerk: f64,
-}
+use crate::motion::PathByLength as _;
 
 /// The figures of a strategy on a hole.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -77,23 +52,22 @@ pub struct Figures {
     pub closing_sampled: Sampled,
     /// Load along path and wall circle.
     pub load: Load,
-    /// Times at once, three and six times the feed.
-    pub times: Vec<RunTime>,
-    /// The run at the feed.
+    /// The run at once, three and six times the feed.
+    pub runs: Vec<Run>,
+    /// The motion of the first of them.
     pub profile: Vec<ProfilePlace>,
     /// The whole run as drawn [mm].
     #[serde(skip)]
     pub drawing: Vec<[f64; 2]>,
+    /// The whole run.
+    #[serde(skip)]
+    pub(super) chain: Chain,
 }
 
 /// Time step of the differences [s].
 const TIME_STEP: f64 = 1e-3;
-/// Stretches of a run; the profile keeps the slowest and the hardest place of each.
-const STRETCHES: usize = 400;
 /// Heading between two drawn points [rad]: a chord is off by 1/800 of its radius.
 const DRAWN_TURN: f64 = 0.1;
-/// Feeds for which the time is given, in feeds asked for.
-const FEEDS: [f64; 3] = [1.0, 3.0, 6.0];
 
 /// Turns of a path that is compared: its loads and times are sampled along all of it.
 const TURNS: CountBound = CountBound {
@@ -106,6 +80,7 @@ const TURNS: CountBound = CountBound {
 /// Curves of a path that is compared.
 const CURVES: CountBound = CountBound { what: "curves to compare", most: 5000.0, bytes: 50_000, ..TURNS };
 
+/// The figures of a strategy but for its runs.
 pub(super) fn figures(clearing: Clearing, terms: &Terms) -> Result<Figures> {
     let path = clearing.path(&terms.disc())?;
     TURNS.check(path.turns)?;
@@ -123,15 +98,6 @@ pub(super) fn figures(clearing: Clearing, terms: &Terms) -> Result<Figures> {
             "the path has no joint with the wall circle",
         )
     })?;
-    let mut times = Vec::with_capacity(FEEDS.len());
-    let mut profile = Vec::new();
-    for factor in FEEDS {
-        let law = pointwise(&chain.curves, &Limits { feed: factor * feed, ..terms.limits })?;
-        times.push(RunTime { feed: factor * feed, time: law.time, uncertainty: law.uncertainty });
-        if profile.is_empty() {
-            profile = thinned(&law);
-        }
-    }
     let posted = posted::posted(clearing, terms)?;
     let entry_length = entry.map_or(0.0, |c| c.length());
     Ok(Figures {
@@ -153,39 +119,14 @@ pub(super) fn figures(clearing: Clearing, terms: &Terms) -> Result<Figures> {
         closing_sampled: peaks::sampled_at_last(&chain, feed, TIME_STEP),
         load: load::load(&cutting, terms)?,
         joints,
-        times,
-        profile,
+        runs: Vec::new(),
+        profile: Vec::new(),
         drawing: chain
             .curves
             .iter()
             .flat_map(|c| c.stations(DRAWN_TURN))
             .map(|p| p.point.truncate().to_array())
             .collect(),
+        chain,
     })
-}
-
-/// Of each stretch the slowest place and the one of most jerk, so that no stop and no peak is lost.
-fn thinned(law: &RunLaw) -> Vec<ProfilePlace> {
-    let stretch = law.length / STRETCHES as f64;
-    let mut kept: Vec<ProfilePlace> = Vec::new();
-    let places: Vec<ProfilePlace> = law
-        .places
-        .iter()
-        .map(|p| ProfilePlace {
-            s: p.s,
-            time: p.time,
-            speed: p.speed,
-            acceleration: p.acceleration,
-            jerk: p.jerk,
-        })
-        .collect();
-    for group in places.chunk_by(|a, b| (a.s / stretch).floor() == (b.s / stretch).floor()) {
-        let slowest = group.iter().min_by(|a, b| a.speed.total_cmp(&b.speed));
-        let hardest = group.iter().max_by(|a, b| a.jerk.total_cmp(&b.jerk));
-        let mut both: Vec<ProfilePlace> = slowest.into_iter().chain(hardest).copied().collect();
-        both.sort_by(|a, b| a.s.total_cmp(&b.s));
-        both.dedup();
-        kept.extend(both);
-    }
-    kept
 }

@@ -4,8 +4,9 @@
 //! terms: the same wall circle, cutter, step, entry circle, feed and limits; the path in one plane, from the entry circle
 //! (run in full, as at the foot of a helix) or the centre, to the circle at the wall, run in full.
 //!
-//! Everything comes from the exact curves: contact and steps from derivatives, times from the pointwise law of
-//! [`crate::motion`], load from all former positions of the cutter. Posted is what a control would get.
+//! Everything comes from the exact curves: contact and steps from derivatives, times and motion from the laws of
+//! [`crate::motion`] on a machine with these limits, load from all former positions of the cutter. Posted is what a control
+//! would get.
 //!
 //! Source: Sorokin, But, Kombarov 2013, whose claims are `claims`.
 
@@ -14,28 +15,33 @@ mod claims;
 mod figures;
 mod joints;
 mod lead;
+mod limits;
 mod load;
 mod peaks;
 mod posted;
+mod program;
+mod run;
+mod runs;
 #[cfg(test)]
 mod tests;
-#[cfg(test)]
-mod times;
 
 use rayon::prelude::*;
 use serde::Serialize;
 
 pub use claims::{Claim, Holds};
-pub use figures::{Figures, ProfilePlace, RunTime};
+pub use figures::Figures;
 pub use joints::{JointStep, Steps};
 pub use lead::LeadGrowth;
+pub use limits::Limits;
 pub use load::{Load, LoadSample, radial_depth};
 pub use peaks::{AxisPeaks, Sampled, feed_cap};
+pub use run::{ProfilePlace, Run, ServoError};
 
 use super::clearing::{Clearing, Disc};
 use crate::base::{Finding, Result};
 use crate::geom::LensOrder;
-use crate::motion::Limits;
+use crate::machine::Interpolator;
+use crate::motion::Servo;
 use crate::nc::{Control, PostSettings};
 
 /// The strategies that clear a hole in a plane, in the order of the table.
@@ -76,6 +82,14 @@ pub struct Terms {
     pub lead_turns: u32,
     /// Feed and limits of the machine.
     pub limits: Limits,
+    /// The control's way of running along a path.
+    pub interpolator: Interpolator,
+    /// Distance by which the control may leave the path at joints [mm]; `None`: the usual one.
+    pub tolerance: Option<f64>,
+    /// Junction deviation of a control that looks ahead by it [mm]; `None`: the usual one.
+    pub junction_deviation: Option<f64>,
+    /// Position loops of the axes.
+    pub servo: Servo,
     /// Decimals of coordinates, which the posted involutes are fitted to.
     pub decimals: u8,
     /// The control that the blocks are counted for.
@@ -91,7 +105,11 @@ impl Terms {
     /// Engagement limit when none is given [rad]: 60 degrees.
     pub const USUAL_ENGAGEMENT: f64 = std::f64::consts::PI / 3.0;
 
-    /// A hole from the centre at a feed [mm/s]: engagement 60 degrees, a lead-in of two turns, the usual limits, SINUMERIK.
+    /// Bandwidth of the position loops when none is given [Hz].
+    pub const USUAL_BANDWIDTH: f64 = 30.0;
+
+    /// A hole from the centre at a feed [mm/s]: engagement 60 degrees, a lead-in of two turns, the usual limits, a control
+    /// that limits jerk, SINUMERIK.
     pub fn new(wall: f64, cutter: f64, step: f64, feed: f64) -> Terms {
         Terms {
             wall,
@@ -103,6 +121,10 @@ impl Terms {
             allowance: 0.0,
             lead_turns: 2,
             limits: Limits::usual(feed),
+            interpolator: Interpolator::JerkLimited,
+            tolerance: None,
+            junction_deviation: None,
+            servo: Servo { bandwidth: Terms::USUAL_BANDWIDTH },
             decimals: 4,
             control: Control::Sinumerik840d,
         }
@@ -176,6 +198,13 @@ impl Comparison {
 /// # Errors
 /// `KC0404` for terms on which nothing can be planned. What one strategy alone cannot do stands in its row.
 pub fn compare(terms: &Terms) -> Result<Comparison> {
+    let mut rows = shapes(terms)?;
+    runs::add(&mut rows, terms)?;
+    judged(terms, rows)
+}
+
+/// The strategies without their runs.
+fn shapes(terms: &Terms) -> Result<Vec<ComparedStrategy>> {
     terms.limits.check()?;
     // The one strategy that is always possible, so that an error of the terms themselves is reported once.
     Clearing::Involute.path(&terms.disc())?;
@@ -185,13 +214,17 @@ pub fn compare(terms: &Terms) -> Result<Comparison> {
     let after = tasks.iter().position(|t| t.1 == even).map_or(tasks.len(), |i| i + 1);
     // A step as large as the cutter allows: the engagement alone binds.
     tasks.insert(after, (FREE, even, Terms { step: 2.0 * terms.cutter, ..*terms }));
-    let rows: Vec<ComparedStrategy> = tasks
-        .par_iter()
-        .map(|(strategy, clearing, terms)| match figures::figures(*clearing, terms) {
-            Ok(figures) => ComparedStrategy { strategy, figures: Some(figures), error: None },
-            Err(e) => ComparedStrategy { strategy, figures: None, error: Some(*e.0) },
-        })
-        .collect();
+    let shape = |(strategy, clearing, terms): &(&'static str, Clearing, Terms)| match figures::figures(
+        *clearing, terms,
+    ) {
+        Ok(figures) => ComparedStrategy { strategy, figures: Some(figures), error: None },
+        Err(e) => ComparedStrategy { strategy, figures: None, error: Some(*e.0) },
+    };
+    Ok(tasks.par_iter().map(shape).collect())
+}
+
+/// The claims on these strategies.
+fn judged(terms: &Terms, rows: Vec<ComparedStrategy>) -> Result<Comparison> {
     let lead_ins = lead::lead_ins(terms)?;
     let claims = claims::claims(terms, &rows, &lead_ins)?;
     Ok(Comparison {

@@ -11,7 +11,8 @@
 use serde::Serialize;
 
 use super::chain::Chain;
-use crate::motion::{Limits, PathByLength as _};
+use super::limits::Limits;
+use crate::motion::PathByLength as _;
 use crate::num::bisect::bisected;
 
 /// Peaks along a path [mm/s, mm/s^2, mm/s^3].

@@ -2,11 +2,11 @@
 
 use super::Terms;
 use super::chain::Chain;
+use super::program::program;
 use crate::base::Result;
-use crate::geom::{InvoluteRecord, Line};
+use crate::geom::InvoluteRecord;
 use crate::holes::clearing::{Clearing, Disc};
 use crate::nc;
-use crate::program::{Frame, Move, Origin, Program, SetupId, Speed, State, WorkOffset};
 
 /// A path as text.
 pub(super) struct PostedPath {
@@ -33,18 +33,7 @@ pub(super) fn posted(clearing: Clearing, terms: &Terms) -> Result<PostedPath> {
     }
     curves.extend(path.curves);
     curves.push(path.closing.into());
-    let chain = Chain::new(curves).in_space();
-    let mut program = Program::default();
-    let frame = program.add_frame(Frame::Work(WorkOffset::G54));
-    let mut state = State::start(SetupId(0), frame);
-    state.speed = Speed::Rapid { linear: true };
-    let start = chain.first().map_or(glam::DVec3::ZERO, crate::geom::Curve::start);
-    program.push_move(Move::along(&Line { start, end: start }.into()), &state, Origin::default());
-    let first = program.items.len() as u32;
-    state.speed = Speed::PerMinute(terms.limits.feed);
-    for curve in &chain {
-        program.push_move(Move::along(curve), &state, Origin::default());
-    }
+    let (program, first) = program(&Chain::new(curves).in_space(), terms.limits.feed);
     let posted = nc::write(&program, &[], &settings)?;
     let lines = posted.text.lines().zip(&posted.lines).filter(|(_, item)| item.is_some_and(|i| i >= first));
     let (blocks, characters) = lines.fold((0, 0), |(n, c), (line, _)| (n + 1, c + line.len() + 1));

@@ -2,6 +2,7 @@
 
 use std::sync::OnceLock;
 
+use super::chain::Chain;
 use super::*;
 
 /// R = 79, n = 20, 6 m/min, from the centre.
@@ -9,7 +10,8 @@ fn paper() -> &'static Comparison {
     static PAPER: OnceLock<Comparison> = OnceLock::new();
     PAPER.get_or_init(|| {
         let limits = Limits { axis_velocity: 1e4, ..Limits::usual(100.0) };
-        compare(&Terms { allowance: 1.0, limits, ..Terms::new(79.0, 20.0, 4.0, 100.0) }).unwrap()
+        let terms = Terms { allowance: 1.0, limits, ..Terms::new(79.0, 20.0, 4.0, 100.0) };
+        judged(&terms, shapes(&terms).unwrap()).unwrap()
     })
 }
 
@@ -128,7 +130,6 @@ fn the_claims_on_the_papers_own_hole() {
     numbers("constant feed", &[15_907.0, 3.1623], 1e-4);
     // From 56.57 mm as in the paper's finishing example.
     numbers("n_B", &[56.5685, 0.560473, 0.585786], 1e-5);
-    assert_eq!(claim("fastest").holds, Holds::No);
     assert_eq!(claim("No smoother path").holds, Holds::No);
 }
 
@@ -137,7 +138,11 @@ fn the_time_is_won_by_even_engagement_without_the_cap_of_the_step() {
     let terms = Terms { entry: 10.0, ..Terms::new(79.0, 20.0, 4.0, 100.0) };
     let free = figures::figures(Clearing::ConstantEngagement(LensOrder::One), &Terms { step: 40.0, ..terms })
         .unwrap();
-    near(free.times[0].time, 33.61, 0.0051);
+    near(free.length, 3358.87, 0.0051);
+    let (run, _) = run::run(&free.chain, &terms, 100.0).unwrap();
+    // 33.61 s where jerk has no limit, as in the table of the specification.
+    near(run.without_jerk, 33.61, 0.0051);
+    assert!(run.time > run.without_jerk && run.time < run.without_jerk + 0.1, "{run:?}");
     assert_eq!((free.closing.contact, free.start.unwrap().contact), ("G4", "G4"));
     // The entry circle is open: nowhere more than the limit, by brute force.
     assert!(free.load.most <= terms.engagement + 0.5f64.to_radians(), "{}", free.load.most.to_degrees());
@@ -159,4 +164,101 @@ fn terms_that_cannot_be_planned_are_one_error() {
     assert!(compare(&Terms::new(-1.0, 20.0, 4.0, 100.0)).is_err());
     assert!(compare(&Terms::new(79.0, 20.0, 41.0, 100.0)).is_err());
     assert!(compare(&Terms::new(79.0, 20.0, 4.0, f64::NAN)).is_err());
+}
+
+/// R = 16, step 1.5, 2.4 m/min, from the centre, with its runs.
+fn small() -> &'static Comparison {
+    static SMALL: OnceLock<Comparison> = OnceLock::new();
+    SMALL.get_or_init(|| compare(&Terms::new(16.0, 4.0, 1.5, 40.0)).unwrap())
+}
+
+/// The spiral of 20 turns of the specification's table of laws, without the circle at the wall.
+#[test]
+fn the_time_of_the_papers_spiral_is_that_of_the_table_of_laws() {
+    let limits = Limits { jerk: 5e4, ..Limits::usual(100.0) };
+    let terms = Terms { limits, ..Terms::new(79.0, 20.0, 4.0, 100.0) };
+    let path = Clearing::Involute.path(&terms.disc()).unwrap();
+    let (run, profile) = run::run(&Chain::new(path.curves), &terms, 100.0).unwrap();
+    near(run.time, 49.7857, 1e-3);
+    near(run.without_jerk, 49.6613, 1e-3);
+    assert_eq!((run.stops, run.smoothed, run.farthest), (0, 0, 0.0));
+    let last = profile.last().unwrap();
+    near(last.s, 4963.716, 0.01);
+    near(last.time, run.time, 1e-9);
+    // From rest in the cusp, at the feed from the first turn on.
+    assert_eq!((profile[0].speed, last.speed), (0.0, 0.0));
+    let even = profile.iter().filter(|p| p.s > 20.0 && p.s < 4900.0);
+    assert!(even.clone().all(|p| (p.speed - 100.0).abs() < 0.1), "{:?}", even.last());
+    for place in &profile {
+        assert!(place.acceleration < 5000.0 * 1.415 && place.jerk < 5e4 * 1.415, "{place:?}");
+    }
+    // Third differences of the specification: up to 50 000.
+    assert!(profile.iter().any(|p| p.jerk > 4.9e4));
+}
+
+#[test]
+fn no_run_is_faster_than_its_feed_or_than_one_without_limit_of_jerk() {
+    for row in &small().rows {
+        let Some(figures) = &row.figures else { continue };
+        assert_eq!(figures.runs.len(), 3);
+        for (run, feed) in figures.runs.iter().zip([40.0, 120.0, 240.0]) {
+            assert_eq!(run.feed, feed);
+            assert!(run.time > run.without_jerk && run.without_jerk > figures.length / feed, "{run:?}");
+            assert!(run.farthest <= 0.010_001 && run.servo.at_wall <= run.servo.most, "{run:?}");
+            assert!(run.servo.most > 0.0 && run.servo.most < 0.05, "{} {run:?}", row.strategy);
+        }
+        let profile = &figures.profile;
+        // The control's smoothing makes the way a little shorter.
+        near(profile.last().unwrap().s, figures.length, 0.02 + 0.01 * figures.joints.len() as f64);
+        assert!(profile.windows(2).all(|p| p[0].time <= p[1].time));
+    }
+}
+
+#[test]
+fn joints_stop_the_tool_or_are_smoothed_and_a_smooth_path_has_none() {
+    let runs = |name: &str| &small().of(name).unwrap().runs;
+    for name in ["involute", "lens-1", "lens-2"] {
+        for run in runs(name) {
+            assert_eq!((run.stops, run.smoothed, run.farthest), (0, 0, 0.0), "{name}");
+        }
+    }
+    for run in runs("rings") {
+        assert_eq!(run.stops + run.smoothed, small().of("rings").unwrap().joints.len(), "{run:?}");
+        assert!(run.stops > 0);
+    }
+    for run in runs("arcs-2") {
+        assert!(run.smoothed > 0 && run.farthest > 0.0, "{run:?}");
+    }
+    // A tenth of the tolerance: smoothed nearer to the path, and slower.
+    let exact = Terms { tolerance: Some(1e-3), ..Terms::new(16.0, 4.0, 1.5, 40.0) };
+    let arcs = small().of("arcs-2").unwrap();
+    let (near_by, _) = run::run(&arcs.chain, &exact, 240.0).unwrap();
+    assert!(near_by.farthest <= 1.000_1e-3 && near_by.time > arcs.runs[2].time, "{near_by:?}");
+    // A control that stops at every joint.
+    let stops = Terms { interpolator: Interpolator::ExactStop, ..exact };
+    let (stopped, _) = run::run(&arcs.chain, &stops, 240.0).unwrap();
+    assert_eq!(stopped.stops, arcs.joints.len());
+    assert!(stopped.time > near_by.time);
+}
+
+#[test]
+fn claims_on_time_and_position_are_those_of_the_runs() {
+    let claim = |part: &str| small().claims.iter().find(|c| c.claim.contains(part)).unwrap();
+    let runs = |name: &str| &small().of(name).unwrap().runs;
+    let fastest = claim("fastest");
+    let others = small().rows.iter().filter(|r| !["involute", "lens-2", "trochoidal"].contains(&r.strategy));
+    let best =
+        others.filter_map(|r| r.figures.as_ref()).map(|f| f.runs[0].time).fold(f64::INFINITY, f64::min);
+    assert_eq!(fastest.numbers[..2], [runs("involute")[0].time, best]);
+    assert_eq!(fastest.holds == Holds::Yes, fastest.numbers.chunks(2).all(|pair| pair[0] <= pair[1]));
+    let position = claim("positioning error");
+    assert_eq!(position.numbers.len(), 18);
+    for (i, numbers) in position.numbers.chunks(6).enumerate() {
+        let names = ["involute", "arcs-2", "arcs-4"];
+        let run = |k: usize| runs(names[k])[i];
+        for k in 0..3 {
+            near(numbers[k], 1e3 * run(k).servo.at_wall, 1e-12);
+            near(numbers[3 + k], 1e3 * run(k).farthest, 1e-12);
+        }
+    }
 }

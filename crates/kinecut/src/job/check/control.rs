@@ -11,6 +11,8 @@ use crate::machine::MotionControl;
 const MOST_TOLERANCE: f64 = 1.0;
 /// Largest tolerance of rotary axes [degrees].
 const MOST_TURN: f64 = 5.0;
+/// Largest bandwidth of position loops [Hz]: those of linear motors have a tenth of it.
+const MOST_BANDWIDTH: f64 = 1000.0;
 /// Longest tool change [s]: by hand, too.
 const LONGEST_CHANGE: f64 = 600.0;
 /// Longest ramp of a spindle [s].
@@ -32,6 +34,10 @@ pub(crate) fn control(t: &DynamicsTable) -> Result<MotionControl> {
         tolerance: up_to("tolerance", t.tolerance, MOST_TOLERANCE, "mm")?,
         turn_tolerance: up_to("turn_tolerance", t.turn_tolerance, MOST_TURN, "deg")?.map(f64::to_radians),
         junction_deviation: up_to("junction_deviation", t.junction_deviation, MOST_TOLERANCE, "mm")?,
+        servo_bandwidth: t
+            .servo_bandwidth
+            .map(|v| positive("dynamics.servo_bandwidth", v, MOST_BANDWIDTH, "Hz"))
+            .transpose()?,
         tool_change: up_to("tool_change", t.tool_change, LONGEST_CHANGE, "s")?,
         spindle_ramp: up_to("spindle_ramp", t.spindle_ramp, LONGEST_RAMP, "s")?,
     })

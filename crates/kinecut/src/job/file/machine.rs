@@ -155,6 +155,10 @@ pub struct DynamicsTable {
     /// Junction deviation of the interpolator "junction-deviation", mm; 0 to 1. Grbl's `$11`, which is 0.01 as delivered.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub junction_deviation: Option<f64>,
+    /// Bandwidth of the position loops of the axes: the frequency of a motion that they pass with 0.707 of its size, Hz; up
+    /// to 1000, 30 in `kinecut hole --compare` where it is not given.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub servo_bandwidth: Option<f64>,
     /// Time of a tool change, chip to chip without the moves, s; 0 to 600.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub tool_change: Option<f64>,

@@ -32,6 +32,7 @@ pub fn machine_toml(machine: &Machine) -> String {
         ("tolerance", control.tolerance, 1.0),
         ("turn_tolerance", control.turn_tolerance, 1f64.to_degrees()),
         ("junction_deviation", control.junction_deviation, 1.0),
+        ("servo_bandwidth", control.servo_bandwidth, 1.0),
         ("tool_change", control.tool_change, 1.0),
         ("spindle_ramp", control.spindle_ramp, 1.0),
     ] {

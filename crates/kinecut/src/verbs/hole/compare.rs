@@ -3,6 +3,7 @@
 use super::HoleComparison;
 use crate::holes::compare::{Claim, ComparedStrategy, Comparison, FREE, Figures, Holds};
 use crate::job::report::PathRole;
+use crate::machine::Interpolator;
 use crate::page::{
     Block, Cell, Chart, Circle, Column, Fact, Plan, PlanLine, Row, Section, Table, fixed, length, trimmed,
 };
@@ -36,7 +37,7 @@ pub(super) fn step(v: Option<f64>) -> String {
 /// All sections of one hole.
 pub(super) fn sections(hole: &HoleComparison) -> Vec<Section> {
     let c = &hole.comparison;
-    let mut sections = vec![overview(hole), smoothness(c), load(c), motion(c), plans(c)];
+    let mut sections = vec![overview(hole), smoothness(c), load(c), runs(c), motion(c), plans(c)];
     sections.extend(leads(c));
     sections.push(claims(&c.claims));
     sections
@@ -45,7 +46,7 @@ pub(super) fn sections(hole: &HoleComparison) -> Vec<Section> {
 /// Those that say something without pictures.
 pub(super) fn words(hole: &HoleComparison) -> Vec<Section> {
     let c = &hole.comparison;
-    let mut sections = vec![overview(hole), smoothness(c)];
+    let mut sections = vec![overview(hole), smoothness(c), runs(c)];
     sections.extend(leads(c));
     sections.push(claims(&c.claims));
     sections
@@ -85,14 +86,14 @@ fn overview(hole: &HoleComparison) -> Section {
              on average [\u{b0}]",
     );
     let feeds: Vec<f64> =
-        measured(c).next().map_or(Vec::new(), |(_, f)| f.times.iter().map(|t| t.feed).collect());
+        measured(c).next().map_or(Vec::new(), |(_, f)| f.runs.iter().map(|t| t.feed).collect());
     for feed in &feeds {
         table.columns.push(Column::number(format!("Time at {} m/min", number(Some(feed * 0.06))), "s"));
     }
     let best: Vec<f64> = (0..feeds.len())
         .map(|i| {
             measured(c)
-                .filter_map(|(_, f)| Some(f.times.get(i)?.time))
+                .filter_map(|(_, f)| Some(f.runs.get(i)?.time))
                 .fold(f64::INFINITY, |a, b| if b < a { b } else { a })
         })
         .collect();
@@ -105,10 +106,11 @@ fn overview(hole: &HoleComparison) -> Section {
     let refused = c.rows.iter().filter(|row| row.figures.is_none());
     table.notes = refused.map(why).collect();
     table.notes.extend([
-        "Length, time: circle at the entry, path and circle at the wall together. Each time is held to the limits in every \
-         point: the feed, the acceleration and jerk of the shape, steps at joints smoothed within 1 ms; the jerk of the feed \
-         itself is not limited, so joints are under-penalised."
-            .to_owned(),
+        format!(
+            "Length, time: circle at the entry, path and circle at the wall together, from rest to rest. Each time is that of \
+             the fastest run within the limits of each axis, on a control of the kind {}; the table of runs has the joints.",
+            interpolator(t.interpolator)
+        ),
         format!("Blocks: as posted for {}, in brackets the control\u{2019}s own involutes.", t.control.title()),
         format!("{FREE}: the engagement alone limits the step; for the others the step asked for does."),
         "A helix at the wall and a ramping spiral also go down and are not compared in a plane.".to_owned(),
@@ -128,7 +130,7 @@ fn figures_row(row: &ComparedStrategy, f: &Figures, best: &[f64]) -> Row {
         Cell::new(fixed(f.load.most.to_degrees(), 1)),
         Cell::new(fixed(f.load.mean.to_degrees(), 1)),
     ];
-    cells.extend(f.times.iter().zip(best).map(|(t, best)| {
+    cells.extend(f.runs.iter().zip(best).map(|(t, best)| {
         let text = fixed(t.time, 2);
         if t.time <= *best { Cell::right(text) } else { Cell::new(text) }
     }));
@@ -256,10 +258,61 @@ fn load(c: &Comparison) -> Section {
     section
 }
 
+/// Name of an interpolator as in a machine file.
+fn interpolator(of: Interpolator) -> &'static str {
+    match of {
+        Interpolator::JerkLimited => "jerk-limited",
+        Interpolator::Trapezoid => "trapezoid",
+        Interpolator::ExactStop => "exact-stop",
+        Interpolator::JunctionDeviation => "junction-deviation",
+    }
+}
+
+/// The runs of each strategy, at each feed.
+fn runs(c: &Comparison) -> Section {
+    let t = &c.terms;
+    let mut table = Table::new(
+        "Runs of all strategies",
+        "Strategy; Feed [m/min]; Time [s]; without limit of jerk [s]; Stops []; Joints smoothed []; \
+             off the path by [um]; Axes off the command by [um]; at R [mm]; on the circle at the wall by [um]",
+    );
+    for (name, f) in measured(c) {
+        for run in &f.runs {
+            let smoothed =
+                if run.smoothed > 0 { fixed(run.farthest * 1e3, 2) } else { "\u{2013}".to_owned() };
+            let cells = [
+                name.to_owned(),
+                number(Some(run.feed * 0.06)),
+                fixed(run.time, 3),
+                fixed(run.without_jerk, 3),
+                run.stops.to_string(),
+                run.smoothed.to_string(),
+                smoothed,
+                fixed(run.servo.most * 1e3, 2),
+                fixed(run.servo.radius, 1),
+                fixed(run.servo.at_wall * 1e3, 3),
+            ];
+            table.rows.push(Row::new(cells.map(Cell::new).to_vec()));
+        }
+    }
+    table.notes = vec![
+        "Time: found; without limit of jerk: no run is faster. The control stops at a joint or smooths it within its tolerance, \
+         whichever is faster; so it leaves the programmed path by as much as it says."
+            .to_owned(),
+        format!(
+            "Axes off the command: what position loops of {} Hz bandwidth make of the motion, by a model: each axis of second \
+             order, damping 0.71, nothing fed forward, the machine stiff. All of the run, start and stop too; at the wall on \
+             the first three quarters of the circle.",
+            number(Some(t.servo.bandwidth))
+        ),
+    ];
+    Section::new("Runs on the machine").with(table)
+}
+
 fn motion(c: &Comparison) -> Section {
     let mut section = Section::new("Speed, acceleration and jerk along the path");
     section.blocks.push(Block::Text(format!(
-        "The run at {} m/min within the limits; jerk without the steps at joints, which the table above gives.",
+        "The run at {} m/min. Acceleration and jerk of both axes together, along the path and across it, joints included.",
         number(Some(c.terms.limits.feed * 0.06))
     )));
     let run = |pick: fn(&crate::holes::compare::ProfilePlace) -> f64| {

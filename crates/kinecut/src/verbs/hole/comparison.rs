@@ -9,7 +9,7 @@ use super::compare;
 use super::compare_page::compare_html;
 use super::job::job;
 use crate::base::{Code, Error, Finding, Result, Silent};
-use crate::holes::compare::{Comparison, Terms, compare as compared};
+use crate::holes::compare::{Comparison, Limits, Terms, compare as compared};
 use crate::holes::entry::chosen;
 use crate::holes::{BoreSpec, Entry};
 use crate::job::Outputs;
@@ -17,7 +17,8 @@ use crate::job::check::Job;
 use crate::job::check::control::control;
 use crate::job::check::joint::linear_axes;
 use crate::job::plan::setting;
-use crate::motion::Limits;
+use crate::machine::Interpolator;
+use crate::motion::Servo;
 use crate::operations::Operation;
 use crate::operations::bore::spec;
 use crate::page::Section;
@@ -104,8 +105,8 @@ fn terms(spec: &BoreSpec, job: &Job, table: &HoleTable) -> Result<Terms> {
     let usual = Limits::usual(rough.feed);
     let dynamics = table.dynamics.clone().unwrap_or_default();
     let given = linear_axes(&dynamics)?;
-    // Not asked for here, and right all the same.
-    control(&dynamics)?.check()?;
+    let control = control(&dynamics)?;
+    control.check()?;
     let limits = Limits {
         axis_velocity: given.rapid.unwrap_or(usual.axis_velocity),
         acceleration: given.acceleration.unwrap_or(usual.acceleration),
@@ -119,6 +120,10 @@ fn terms(spec: &BoreSpec, job: &Job, table: &HoleTable) -> Result<Terms> {
         allowance: rough.allowance,
         lead_turns: spec.finish.as_ref().map_or(2, |f| f.turns),
         limits,
+        interpolator: control.interpolator.unwrap_or(Interpolator::JerkLimited),
+        tolerance: control.tolerance,
+        junction_deviation: control.junction_deviation,
+        servo: Servo::new(control.servo_bandwidth.unwrap_or(Terms::USUAL_BANDWIDTH))?,
         decimals: job.post.decimals,
         control: job.post.control,
         ..Terms::new(wall, cutter, rough.stepover, rough.feed)

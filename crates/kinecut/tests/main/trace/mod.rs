@@ -3,4 +3,3 @@
 mod axis_path;
 mod linear;
 mod rotary;
-mod times;
