@@ -121,18 +121,10 @@ impl BoreSpec {
     }
 
     fn check_rough(&self, rough: &Rough) -> Result<()> {
-        positive("stepover", rough.stepover)?;
+        self.check_stepover(rough)?;
         not_negative("allowance", rough.allowance)?;
         positive("feed", rough.feed)?;
         positive("plunge_feed", rough.plunge_feed())?;
-        if rough.stepover > self.cutter.diameter {
-            return Err(out_of_range(
-                "stepover",
-                "must not exceed the cutter diameter: it would leave ridges",
-                rough.stepover,
-                self.cutter.diameter,
-            ));
-        }
         if let Some(angle) = rough.engagement
             && !(angle > 0.0 && angle < std::f64::consts::PI)
         {
@@ -144,6 +136,35 @@ impl BoreSpec {
                 .into());
         }
         self.axial(rough.stepdown)
+    }
+
+    fn check_stepover(&self, rough: &Rough) -> Result<()> {
+        // A helix has its turns one below the other, none side by side.
+        let one_turn = matches!(self.strategy, Strategy::Helix | Strategy::OutlineHelix);
+        if one_turn && rough.stepover.is_none() {
+            return Ok(());
+        }
+        if self.strategy == Strategy::ConstantEngagement && rough.engagement.is_none() {
+            return Err(Finding::error(
+                Code::PLAN_VALUE,
+                "the strategy `constant-engagement` needs `engagement`",
+            )
+            .bound(180.0, "deg")
+            .help("write engagement = 60, the largest engagement angle in degrees")
+            .key("engagement")
+            .into());
+        }
+        let step = self.stepover(rough)?;
+        positive("stepover", step)?;
+        if step > self.cutter.diameter {
+            return Err(out_of_range(
+                "stepover",
+                "must not exceed the cutter diameter: it would leave ridges",
+                step,
+                self.cutter.diameter,
+            ));
+        }
+        Ok(())
     }
 
     fn check_finish(&self, finish: &Finish) -> Result<()> {

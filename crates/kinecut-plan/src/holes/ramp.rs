@@ -48,7 +48,8 @@ pub(super) fn by_ramp(
         .key("entry.radius")
         .into());
     }
-    let turns = turns(wall - inner, rough.stepover).map_err(|e| e.under("rough.stepover"))?;
+    let step = spec.stepover(rough).map_err(|e| e.under("rough"))?;
+    let turns = turns(wall - inner, step).map_err(|e| e.under("rough.stepover"))?;
     let base = (wall - inner) / (TAU * f64::from(turns));
     let law = Support::Lens { inner, base_radius: base, order: LensOrder::One };
     let out: PlaneCurve = Spiral::new(law.into(), 0.0, TAU * f64::from(turns))?.into();

@@ -61,12 +61,13 @@ pub(super) fn by_clearing(
 /// The way that clears a level to the path radius `wall` [mm], counter-clockwise about the origin.
 fn opening(spec: &BoreSpec, rough: &Rough, entry: Entry, clearing: Clearing, wall: f64) -> Result<Opening> {
     let a = spec.cutter_radius();
+    let step = spec.stepover(rough).map_err(|e| e.under("rough"))?;
     let disc = |inner: f64, inner_most: f64| Disc {
         inner,
         inner_most,
         outer: wall,
         cutter: a,
-        step: rough.stepover,
+        step,
         engagement: rough.engagement,
         psi: 0.0,
         resolution: spec.resolution,
@@ -77,7 +78,7 @@ fn opening(spec: &BoreSpec, rough: &Rough, entry: Entry, clearing: Clearing, wal
         (Entry::Helix { radius: helix, .. }, _) => Ok(Opening::of(clear(disc(helix, a))?)),
         (Entry::Plunge, None) => Ok(Opening::of(clear(disc(0.0, 0.0))?)),
         (_, Some(point)) if clearing == Clearing::Involute => {
-            from_point(spec, rough, wall, spec.about_centre(point))
+            from_point(spec, step, wall, spec.about_centre(point))
         }
         (_, Some(_)) => Err(Finding::error(
             Code::PLAN_VALUE,
@@ -97,7 +98,7 @@ fn opening(spec: &BoreSpec, rough: &Rough, entry: Entry, clearing: Clearing, wal
                     .into());
             }
             // In a hole hardly larger than the cutter the turn to its wall would be tiny: go as from the centre.
-            let tiny = inner <= wall / f64::from(turns(wall, rough.stepover)?);
+            let tiny = inner <= wall / f64::from(turns(wall, step)?);
             if tiny && !matches!(clearing, Clearing::ConstantEngagement(_)) {
                 return Ok(Opening::of(clear(disc(0.0, 0.0))?));
             }
@@ -114,8 +115,8 @@ fn opening(spec: &BoreSpec, rough: &Rough, entry: Entry, clearing: Clearing, wal
 }
 
 /// The spiral from a point off the centre: a lead-in that reaches the wall in steps of at most the limit.
-fn from_point(spec: &BoreSpec, rough: &Rough, radius: f64, start: [f64; 2]) -> Result<Opening> {
-    let n = turns(radius, rough.stepover)?;
+fn from_point(spec: &BoreSpec, step: f64, radius: f64, start: [f64; 2]) -> Result<Opening> {
+    let n = turns(radius, step)?;
     let lead =
         lead(radius, n, start, 0.0, spec.resolution, Rounding::Down).map_err(|e| e.under("rough.start"))?;
     // After its first turn the cutter must still sweep the centre.

@@ -8,6 +8,7 @@ use serde::{Deserialize, Serialize};
 
 use super::strategy::Strategy;
 use crate::base::unit::{Deg, MmPerMin};
+use crate::base::{Code, Finding, Result};
 use crate::geom::LensOrder;
 use crate::tool::Tool;
 
@@ -71,9 +72,10 @@ pub enum Entry {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Rough {
-    /// Largest distance of neighbouring turns.
-    #[serde(alias = "step")]
-    pub stepover: f64,
+    /// Largest distance of neighbouring turns; `constant-engagement` may leave it to the engagement, and the helices have
+    /// no turns side by side.
+    #[serde(default, alias = "step")]
+    pub stepover: Option<f64>,
     /// Largest engagement angle of the cutter, for `constant-engagement`; degrees in a file.
     #[serde(default, with = "Deg::<Option<f64>>")]
     pub engagement: Option<f64>,
@@ -101,7 +103,33 @@ impl Rough {
     /// Roughing in radial steps of `stepover` [mm] at `feed` [mm/s], down at a quarter of it, no allowance, levels as deep
     /// as the flutes.
     pub fn new(stepover: f64, feed: f64) -> Rough {
-        let (engagement, pitch, plunge_feed, stepdown, start) = (None, None, None, None, None);
+        Rough { stepover: Some(stepover), ..Rough::at(feed) }
+    }
+
+    /// Roughing for `constant-engagement` whose steps the engagement angle [rad] alone limits, at `feed` [mm/s]; the
+    /// rest as of [`Rough::new`].
+    ///
+    /// ```
+    /// # use kinecut_plan as kinecut;
+    /// use kinecut::holes::*;
+    /// let cutter = CutterData { diameter: 40.0, centre_cutting: false, max_ramp_angle: None, flute_length: 45.0 };
+    /// let spec = BoreSpec {
+    ///     strategy: Strategy::ConstantEngagement,
+    ///     entry: Some(Entry::Helix { radius: 10.0, pitch: 2.0 }),
+    ///     rough: Some(Rough { allowance: 1.0, ..Rough::by_engagement(60f64.to_radians(), 100.0) }),
+    ///     ..BoreSpec::new(200.0, 30.0, cutter)
+    /// };
+    /// // From 10 mm to 79 mm; steps of 3.95 mm would take 18.
+    /// assert_eq!(plan_bore(&spec).unwrap().rough.unwrap().turns, 11.0);
+    /// ```
+    pub fn by_engagement(engagement: f64, feed: f64) -> Rough {
+        Rough { engagement: Some(engagement), ..Rough::at(feed) }
+    }
+
+    /// Roughing at a feed [mm/s], without a limit of its steps.
+    fn at(feed: f64) -> Rough {
+        let (stepover, engagement, pitch, plunge_feed, stepdown, start) =
+            (None, None, None, None, None, None);
         Rough { stepover, engagement, pitch, allowance: 0.0, feed, plunge_feed, stepdown, start }
     }
 
@@ -109,6 +137,14 @@ impl Rough {
     pub fn plunge_feed(&self) -> f64 {
         self.plunge_feed.unwrap_or(self.feed / 4.0)
     }
+}
+
+/// The error of a roughing without a step where it needs one; `most` is the largest [mm].
+pub(super) fn no_stepover(what: &str, most: f64) -> Finding {
+    Finding::error(Code::PLAN_VALUE, format!("{what} needs `stepover`"))
+        .bound_mm(most)
+        .help(format!("write stepover = .., up to the cutter's diameter of {most} mm"))
+        .key("stepover")
 }
 
 /// Start of the lead-in, or end of the lead-out.
@@ -252,6 +288,26 @@ impl BoreSpec {
     /// Diameter of the hole that is there before [mm], if there is one.
     pub fn drilled(&self) -> Option<f64> {
         if let Some(Entry::PreDrilled { diameter }) = self.entry { Some(diameter) } else { None }
+    }
+
+    /// Largest distance of neighbouring turns of roughing [mm]: that given, or the cutter's diameter, which no step of
+    /// constant engagement reaches.
+    ///
+    /// # Errors
+    /// `KC0404` when none is given and nothing else limits the steps of the strategy.
+    pub fn stepover(&self, rough: &Rough) -> Result<f64> {
+        if let Some(given) = rough.stepover {
+            return Ok(given);
+        }
+        if self.strategy == Strategy::ConstantEngagement && rough.engagement.is_some() {
+            return Ok(self.cutter.diameter);
+        }
+        Err(no_stepover(&format!("the strategy `{}`", self.strategy.name()), self.cutter.diameter)
+            .help(format!(
+                "write stepover = .., up to the cutter's diameter of {} mm, or use `constant-engagement` with `engagement`",
+                self.cutter.diameter
+            ))
+            .into())
     }
 
     /// A point of the setup relative to the bore's centre, for a counter-clockwise path [mm].
