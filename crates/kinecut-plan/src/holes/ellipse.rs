@@ -74,6 +74,16 @@ pub fn plan_ellipse(spec: &EllipseSpec) -> Result<EllipsePlan> {
     let step = rough
         .stepover
         .ok_or_else(|| no_stepover("an elliptic pocket", bore.cutter.diameter).under("rough"))?;
+    if let Some(wanted) = rough.touch_angle {
+        return Err(Finding::error(
+            Code::PLAN_VALUE,
+            "the path of an elliptic pocket touches its wall on the short axis",
+        )
+        .value(wanted.to_degrees(), "deg")
+        .help("leave out `touch_angle`")
+        .key("rough.touch_angle")
+        .into());
+    }
     pocket(spec, rough.allowance, 0.0, step).check().map_err(|e| e.under("half_axes"))?;
     bore.check()?;
     let spec = &lying;
