@@ -39,6 +39,7 @@ Examples:
   kinecut check O1234.nc --control fanuc            read it, and say what is wrong with it
   kinecut time O1234.nc --job job.toml              how long it takes on the machine, and where time is lost
   kinecut post O1234.nc --from fanuc --to linuxcnc  write it for another control
+  kinecut hole hole.toml --out out                  one hole planned, with figures of its lead-in
   kinecut hole hole.toml --compare --out out        all strategies on one hole, compared
   kinecut drill hole.toml --out out                 zones, Z, feeds and times of drilled holes
   kinecut face face.toml --out out                  the placement with the least burr, certified

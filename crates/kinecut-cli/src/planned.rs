@@ -19,8 +19,8 @@ pub(crate) struct Hole {
     /// Run every strategy and compare them
     #[arg(long)]
     compare: bool,
-    /// Folder for compare.html, made if it is not there
-    #[arg(long, requires = "compare")]
+    /// Folder for hole.html, with figures of the lead-in, or compare.html; made if it is not there
+    #[arg(long)]
     out: Option<PathBuf>,
 }
 

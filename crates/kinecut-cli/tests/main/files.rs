@@ -162,6 +162,7 @@ fn nothing_that_was_read_is_replaced() {
         "tool = {{ number = 1, type = \"end-mill\", diameter = 10, flute_length = 22 }}\n[operation]\n{operation}"
     );
     kept("compare.html", &hole, &["hole", "compare.html", "--compare", "--out", "."]);
+    kept("hole.html", &hole, &["hole", "hole.html", "--out", "."]);
     let drill = "tool = { number = 1, type = \"drill\", diameter = 10, flute_length = 80 }\n[operation]\ntype = \"drill\"\n\
         tool = 1\ndepth = 6\nspeed = 900\nfeed_per_rev = { steady = 0.2 }\n";
     kept("drill.html", drill, &["drill", "drill.html", "--out", "."]);

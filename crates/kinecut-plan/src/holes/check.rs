@@ -1,5 +1,7 @@
 //! The check of a bore's numbers.
 
+use std::f64::consts::TAU;
+
 use super::spec::{BoreSpec, Entry, Finish, LeadEnd, Rough};
 use super::strategy::Strategy;
 use crate::base::{Code, CountBound, Error, Finding, Result};
@@ -121,18 +123,11 @@ impl BoreSpec {
     }
 
     fn check_rough(&self, rough: &Rough) -> Result<()> {
-        positive("stepover", rough.stepover)?;
+        self.check_stepover(rough)?;
+        direction("touch_angle", rough.touch_angle)?;
         not_negative("allowance", rough.allowance)?;
         positive("feed", rough.feed)?;
         positive("plunge_feed", rough.plunge_feed())?;
-        if rough.stepover > self.cutter.diameter {
-            return Err(out_of_range(
-                "stepover",
-                "must not exceed the cutter diameter: it would leave ridges",
-                rough.stepover,
-                self.cutter.diameter,
-            ));
-        }
         if let Some(angle) = rough.engagement
             && !(angle > 0.0 && angle < std::f64::consts::PI)
         {
@@ -144,6 +139,35 @@ impl BoreSpec {
                 .into());
         }
         self.axial(rough.stepdown)
+    }
+
+    fn check_stepover(&self, rough: &Rough) -> Result<()> {
+        // A helix has its turns one below the other, none side by side.
+        let one_turn = matches!(self.strategy, Strategy::Helix | Strategy::OutlineHelix);
+        if one_turn && rough.stepover.is_none() {
+            return Ok(());
+        }
+        if self.strategy == Strategy::ConstantEngagement && rough.engagement.is_none() {
+            return Err(Finding::error(
+                Code::PLAN_VALUE,
+                "the strategy `constant-engagement` needs `engagement`",
+            )
+            .bound(180.0, "deg")
+            .help("write engagement = 60, the largest engagement angle in degrees")
+            .key("engagement")
+            .into());
+        }
+        let step = self.stepover(rough)?;
+        positive("stepover", step)?;
+        if step > self.cutter.diameter {
+            return Err(out_of_range(
+                "stepover",
+                "must not exceed the cutter diameter: it would leave ridges",
+                step,
+                self.cutter.diameter,
+            ));
+        }
+        Ok(())
     }
 
     fn check_finish(&self, finish: &Finish) -> Result<()> {
@@ -159,9 +183,12 @@ impl BoreSpec {
                 }
                 LeadEnd::Radius(r) => not_negative(&format!("{key}_radius"), r)?,
                 LeadEnd::Length(l) => positive(&format!("{key}_length"), l)?,
+                LeadEnd::CurvatureRadius(r) => positive(&format!("{key}_curvature_radius"), r)?,
                 LeadEnd::Usual | LeadEnd::Point(_) => {}
             }
         }
+        direction("touch_angle", finish.touch_angle)?;
+        direction("end_touch_angle", finish.end_touch_angle)?;
         /// More spring passes than that are a slip of the pen.
         const MOST_SPRING: u32 = 20;
         if finish.spring_passes > MOST_SPRING {
@@ -229,6 +256,23 @@ fn positive(key: &str, value: f64) -> Result<()> {
         Ok(())
     } else {
         Err(refused(key, "must be positive", value, 0.0, "write a number above 0"))
+    }
+}
+
+/// A direction, if there is one: within a turn either way, so that no sense is lost in whole turns.
+fn direction(key: &str, angle: Option<f64>) -> Result<()> {
+    /// Rounding of 360 degrees as radians.
+    const SLACK: f64 = 1e-12;
+    match angle {
+        Some(angle) if !(angle.abs() <= TAU + SLACK) => {
+            Err(Finding::error(Code::PLAN_VALUE, format!("`{key}` must lie between -360 and 360 degrees"))
+                .value(angle.to_degrees(), "deg")
+                .bound(360.0, "deg")
+                .help("write the direction from the bore's centre, counter-clockwise from X, in degrees")
+                .key(key)
+                .into())
+        }
+        _ => Ok(()),
     }
 }
 

@@ -8,7 +8,7 @@ use super::entry;
 use super::figures::Opening;
 use super::finish::descend;
 use super::rough::enter;
-use super::spec::{BoreSpec, Entry, Finish, Rough, Sense};
+use super::spec::{BoreSpec, Entry, Finish, Rough, Sense, no_stepover};
 use super::spiral::from_centre;
 use super::toolpath::{PlannedMove, Toolpath, ToolpathPace, ToolpathRole};
 use crate::base::{Code, Finding, Result};
@@ -71,15 +71,29 @@ pub fn plan_ellipse(spec: &EllipseSpec) -> Result<EllipsePlan> {
         turned: if spec.half_axes[0] < spec.half_axes[1] { spec.turned + FRAC_PI_2 } else { spec.turned },
         ..*spec
     };
-    pocket(spec, rough.allowance, 0.0, rough.stepover).check().map_err(|e| e.under("half_axes"))?;
+    let step = rough
+        .stepover
+        .ok_or_else(|| no_stepover("an elliptic pocket", bore.cutter.diameter).under("rough"))?;
+    if let Some(wanted) = rough.touch_angle {
+        return Err(Finding::error(
+            Code::PLAN_VALUE,
+            "the path of an elliptic pocket touches its wall on the short axis",
+        )
+        .value(wanted.to_degrees(), "deg")
+        .help("leave out `touch_angle`")
+        .key("rough.touch_angle")
+        .into());
+    }
+    pocket(spec, rough.allowance, 0.0, step).check().map_err(|e| e.under("half_axes"))?;
     bore.check()?;
     let spec = &lying;
     let mut toolpath = Toolpath::new(bore);
     // A clockwise plan is made mirrored: so is the pocket.
     let turned = if bore.sense == Sense::Climb { spec.turned } else { -spec.turned };
-    let figures = plan_rough(&mut toolpath, spec, rough, turned)?;
+    let figures = plan_rough(&mut toolpath, spec, rough, step, turned)?;
     if let Some(finish) = &bore.finish {
-        plan_finish(&mut toolpath, spec, rough, finish, turned).map_err(|e| e.under("finish"))?;
+        plan_finish(&mut toolpath, spec, (rough.allowance, step), finish, turned)
+            .map_err(|e| e.under("finish"))?;
     }
     toolpath.vertically(ToolpathRole::Retract, ToolpathPace::Rapid, bore.retract_z);
     Ok(EllipsePlan { moves: toolpath.moves, ..figures })
@@ -100,6 +114,7 @@ fn plan_rough(
     toolpath: &mut Toolpath,
     spec: &EllipseSpec,
     rough: &Rough,
+    step: f64,
     turned: f64,
 ) -> Result<EllipsePlan> {
     let bore = &spec.bore;
@@ -117,7 +132,7 @@ fn plan_rough(
                 .into());
         }
     };
-    let path = ellipse(&pocket(spec, rough.allowance, inner, rough.stepover))?;
+    let path = ellipse(&pocket(spec, rough.allowance, inner, step))?;
     let mut curves: Vec<PlaneCurve> = path.curves.iter().map(|c| c.rotated(turned)).collect();
     if let Entry::PreDrilled { .. } = entry {
         // From the centre of the hole to its wall, in the air.
@@ -148,16 +163,16 @@ fn plan_rough(
 fn plan_finish(
     toolpath: &mut Toolpath,
     spec: &EllipseSpec,
-    rough: &Rough,
+    (allowance, step): (f64, f64),
     finish: &Finish,
     turned: f64,
 ) -> Result<()> {
     let bore = &spec.bore;
-    let wall = pocket(spec, 0.0, 0.0, rough.stepover);
+    let wall = pocket(spec, 0.0, 0.0, step);
     let (half_axes, offset) = (wall.half_axes, wall.cutter + wall.allowance);
     let lap = PlaneCurve::from(Spiral::new(Support::Ellipse { half_axes, offset }.into(), 0.0, TAU)?);
     let lap = lap.rotated(turned);
-    let lead = lead(&wall, rough.allowance)?;
+    let lead = lead(&wall, allowance)?;
     let way_out = lead.mirrored().reversed().rotated(turned);
     let way_in = lead.rotated(turned);
     let levels = bore.levels(finish.stepdown, 0.0)?;

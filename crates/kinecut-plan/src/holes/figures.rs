@@ -84,7 +84,8 @@ impl Opening {
         }
     }
 
-    pub(super) fn of(cleared: Cleared) -> Opening {
+    /// A cleared disc whose path touches the wall at tangent angle `psi` [rad].
+    pub(super) fn of(cleared: Cleared, psi: f64) -> Opening {
         let base_radius = match cleared.curves.last() {
             Some(PlaneCurve::Record(record)) => record.base_radius(),
             _ => 0.0,
@@ -92,7 +93,7 @@ impl Opening {
         Opening {
             base_radius,
             engagement: cleared.engagement,
-            ..Opening::on_circle(cleared.curves, cleared.inner, cleared.turns, cleared.step, 0.0)
+            ..Opening::on_circle(cleared.curves, cleared.inner, cleared.turns, cleared.step, psi)
         }
     }
 }

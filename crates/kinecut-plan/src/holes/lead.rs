@@ -45,6 +45,13 @@ impl Lead {
         Lead { curves, psi: self.psi + angle, ..self }
     }
 
+    /// Turned about the bore's centre so that its tangent angle at the wall is `psi` [rad].
+    #[must_use]
+    pub fn touching_at(self, psi: f64) -> Lead {
+        let by = psi - self.psi;
+        Lead { psi, ..self.rotated(by) }
+    }
+
     /// The mirror image in the y axis, run backwards: a way in becomes a way out, the place `psi` becomes `-psi`.
     #[must_use]
     pub fn turned_out(&self) -> Lead {

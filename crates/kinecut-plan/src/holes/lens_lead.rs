@@ -99,6 +99,31 @@ pub fn lens_lead_in(
     })
 }
 
+/// The tangent angle [rad] at which the lens involute from the centre to the wall circle of `radius` [mm] has the radius
+/// of curvature `wanted` [mm]: 0 in the centre, `2 pi turns` at the wall. The radius grows all along, though not at whole
+/// and half turns, where it takes Newton's method longer.
+///
+/// ```
+/// # use kinecut_plan as kinecut;
+/// use kinecut::geom::LensOrder;
+/// use kinecut::holes::lens_lead::angle_of_curvature;
+/// let theta = angle_of_curvature(80.0, 2, 59.8301313925462, LensOrder::One);
+/// assert!((theta - 9.0799901497769).abs() < 1e-12);
+/// ```
+pub fn angle_of_curvature(radius: f64, turns: u32, wanted: f64, order: LensOrder) -> f64 {
+    let end = TAU * f64::from(turns);
+    // In base radii, so that no size is special.
+    let law = Support::Lens { inner: 0.0, base_radius: 1.0, order };
+    let wanted = wanted / radius * end;
+    let excess = |theta: f64| {
+        let (q, slope) = law.series::<3>(theta);
+        (q.0[0] + slope.0[1] - wanted, q.0[1] + 2.0 * slope.0[2])
+    };
+    /// As in [`lens_lead_in`]: at the flat places, of third and fifth order, a step leaves 2/3 or 4/5 of the distance.
+    const STEPS: u32 = 200;
+    bracketed_newton(excess, wanted, 0.0, end, STEPS).0
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -48,13 +48,16 @@ pub(super) fn by_ramp(
         .key("entry.radius")
         .into());
     }
-    let turns = turns(wall - inner, rough.stepover).map_err(|e| e.under("rough.stepover"))?;
+    let step = spec.stepover(rough).map_err(|e| e.under("rough"))?;
+    let turns = turns(wall - inner, step).map_err(|e| e.under("rough.stepover"))?;
+    let psi = spec.rough_psi(rough);
     let base = (wall - inner) / (TAU * f64::from(turns));
     let law = Support::Lens { inner, base_radius: base, order: LensOrder::One };
     let out: PlaneCurve = Spiral::new(law.into(), 0.0, TAU * f64::from(turns))?.into();
     // Mirrored in the line through the centre and the place on the wall, and run backwards: in, and climb again.
     let home = out.mirrored().reversed();
-    let start = on_circle(inner, 0.0);
+    let (out, home) = (out.rotated(psi), home.rotated(psi));
+    let start = on_circle(inner, psi);
     check_slope(spec, &out, levels, spec.clearance())?;
     for level in levels {
         toolpath.level = level.index;
@@ -65,13 +68,13 @@ pub(super) fn by_ramp(
         }
         let fall = level.floor - toolpath.height();
         toolpath.along_rising(ToolpathRole::Rough, rough.feed, &out, Rise::new(RiseShape::Smooth, fall));
-        toolpath.settle(wall, 0.0, level.floor);
-        toolpath.circle(ToolpathRole::Circle, rough.feed, wall, 0.0)?;
+        toolpath.settle(wall, psi, level.floor);
+        toolpath.circle(ToolpathRole::Circle, rough.feed, wall, psi)?;
         toolpath.along(ToolpathRole::Rough, rough.feed, &home);
-        toolpath.settle(inner, 0.0, level.floor);
-        toolpath.circle(ToolpathRole::Circle, rough.feed, inner, 0.0)?;
+        toolpath.settle(inner, psi, level.floor);
+        toolpath.circle(ToolpathRole::Circle, rough.feed, inner, psi)?;
     }
-    let opening = Opening::on_circle(vec![out], inner, f64::from(turns), TAU * base, 0.0);
+    let opening = Opening::on_circle(vec![out], inner, f64::from(turns), TAU * base, psi);
     PassFigures::of(toolpath, opening, wall, levels)
 }
 
@@ -124,20 +127,21 @@ pub(super) fn by_helix(
     }
     let pitch = rough.pitch.unwrap_or_else(|| entry::usual_pitch(spec, radius));
     helix::follows(&spec.cutter, radius, pitch).map_err(|e| e.under("rough"))?;
-    let start = on_circle(radius, 0.0).to_array();
+    let psi = spec.rough_psi(rough);
+    let start = on_circle(radius, psi).to_array();
     over(toolpath, spec, start, spec.top);
     toolpath.vertically(ToolpathRole::Approach, ToolpathPace::Rapid, spec.top + spec.clearance());
     let feeds = [rough.feed, rough.feed];
-    Helix { role: ToolpathRole::Rough, feeds, radius, psi: 0.0, pitch }.run(toolpath, spec.floor())?;
+    Helix { role: ToolpathRole::Rough, feeds, radius, psi, pitch }.run(toolpath, spec.floor())?;
     if leaves {
         // Up in the slot: the core still stands inside.
         toolpath.vertically(ToolpathRole::Retract, ToolpathPace::Rapid, spec.retract_z);
         *slug = Some(Slug { diameter: core, before: toolpath.moves.len() });
     } else {
-        toolpath.along(ToolpathRole::LeadOut, rough.feed, &back(spec, radius, 0.0)?);
+        toolpath.along(ToolpathRole::LeadOut, rough.feed, &back(spec, radius, psi)?);
     }
     let opening =
-        Opening::on_circle(vec![InvoluteRecord::circle(radius, 0.0)?.into()], radius, 1.0, 0.0, 0.0);
+        Opening::on_circle(vec![InvoluteRecord::circle(radius, psi)?.into()], radius, 1.0, 0.0, psi);
     let whole = Level { index: 0, above: spec.top, floor: spec.floor(), radius };
     PassFigures::of(toolpath, opening, radius, &[whole])
 }

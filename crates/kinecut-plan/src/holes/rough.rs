@@ -1,7 +1,7 @@
 //! Roughing of a bore level by level in planes: the way from the entry to the wall, the circle there, and back into the
 //! open.
 
-use std::f64::consts::TAU;
+use std::f64::consts::{FRAC_PI_2, TAU};
 
 use glam::DVec3;
 
@@ -61,23 +61,25 @@ pub(super) fn by_clearing(
 /// The way that clears a level to the path radius `wall` [mm], counter-clockwise about the origin.
 fn opening(spec: &BoreSpec, rough: &Rough, entry: Entry, clearing: Clearing, wall: f64) -> Result<Opening> {
     let a = spec.cutter_radius();
+    let step = spec.stepover(rough).map_err(|e| e.under("rough"))?;
+    let psi = spec.rough_psi(rough);
     let disc = |inner: f64, inner_most: f64| Disc {
         inner,
         inner_most,
         outer: wall,
         cutter: a,
-        step: rough.stepover,
+        step,
         engagement: rough.engagement,
-        psi: 0.0,
+        psi,
         resolution: spec.resolution,
     };
     let clear = |disc: Disc| clearing.path(&disc).map_err(|e| e.under("rough"));
     match (entry, rough.start) {
         // Up to the cutter's radius the helix leaves no core.
-        (Entry::Helix { radius: helix, .. }, _) => Ok(Opening::of(clear(disc(helix, a))?)),
-        (Entry::Plunge, None) => Ok(Opening::of(clear(disc(0.0, 0.0))?)),
+        (Entry::Helix { radius: helix, .. }, _) => Ok(Opening::of(clear(disc(helix, a))?, psi)),
+        (Entry::Plunge, None) => Ok(Opening::of(clear(disc(0.0, 0.0))?, psi)),
         (_, Some(point)) if clearing == Clearing::Involute => {
-            from_point(spec, rough, wall, spec.about_centre(point))
+            from_point(spec, rough, step, wall, spec.about_centre(point))
         }
         (_, Some(_)) => Err(Finding::error(
             Code::PLAN_VALUE,
@@ -97,13 +99,13 @@ fn opening(spec: &BoreSpec, rough: &Rough, entry: Entry, clearing: Clearing, wal
                     .into());
             }
             // In a hole hardly larger than the cutter the turn to its wall would be tiny: go as from the centre.
-            let tiny = inner <= wall / f64::from(turns(wall, rough.stepover)?);
+            let tiny = inner <= wall / f64::from(turns(wall, step)?);
             if tiny && !matches!(clearing, Clearing::ConstantEngagement(_)) {
-                return Ok(Opening::of(clear(disc(0.0, 0.0))?));
+                return Ok(Opening::of(clear(disc(0.0, 0.0))?, psi));
             }
             // A first turn in the air up to the wall of the hole, then the steps.
-            let mut opening = Opening::of(clear(disc(inner, inner))?);
-            let first = from_centre(opening.inner_radius, 1, 0.0)?;
+            let mut opening = Opening::of(clear(disc(inner, inner))?, psi);
+            let first = from_centre(opening.inner_radius, 1, psi)?;
             opening.curves.insert(0, first.into());
             opening.point = [0.0, 0.0];
             opening.turns += 1.0;
@@ -114,10 +116,16 @@ fn opening(spec: &BoreSpec, rough: &Rough, entry: Entry, clearing: Clearing, wal
 }
 
 /// The spiral from a point off the centre: a lead-in that reaches the wall in steps of at most the limit.
-fn from_point(spec: &BoreSpec, rough: &Rough, radius: f64, start: [f64; 2]) -> Result<Opening> {
-    let n = turns(radius, rough.stepover)?;
+fn from_point(spec: &BoreSpec, rough: &Rough, step: f64, radius: f64, start: [f64; 2]) -> Result<Opening> {
+    let n = turns(radius, step)?;
+    let polar = rough.touch_angle.map_or(0.0, |wanted| spec.tangent_angle(wanted) - FRAC_PI_2);
     let lead =
-        lead(radius, n, start, 0.0, spec.resolution, Rounding::Down).map_err(|e| e.under("rough.start"))?;
+        lead(radius, n, start, polar, spec.resolution, Rounding::Down).map_err(|e| e.under("rough.start"))?;
+    if let Some(wanted) = rough.touch_angle
+        && start != [0.0, 0.0]
+    {
+        return Err(spec.no_free_direction(["touch_angle", "start"], wanted, lead.psi).under("rough").into());
+    }
     // After its first turn the cutter must still sweep the centre.
     let mut turned = TAU;
     let mut reached = radius;

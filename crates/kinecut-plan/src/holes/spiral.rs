@@ -183,7 +183,15 @@ pub fn rough_spiral(
 /// # Errors
 /// `KC0801` when it would pass its cusp: `turned` times the base radius exceeds the radius.
 pub fn leave(radius: f64, base_radius: f64, turned: f64, psi: f64) -> Result<InvoluteRecord> {
-    let end = radius - base_radius * turned;
+    turned_to(radius, radius - base_radius * turned, turned, psi)
+}
+
+/// The involute that leaves the circle of `radius` [mm] at tangent angle `psi` inwards and turns by `turned` [rad] until
+/// its radius of curvature is `end` [mm].
+///
+/// # Errors
+/// `KC0801` when that is negative.
+pub(super) fn turned_to(radius: f64, end: f64, turned: f64, psi: f64) -> Result<InvoluteRecord> {
     let wall = on_circle(radius, psi);
     InvoluteRecord::new(0.5 * turned * (radius + end), wall.to_array(), psi, radius, end)
 }

@@ -22,7 +22,7 @@ pub enum Strategy {
     /// Lens involutes of order 2: contact G6.
     #[serde(rename = "lens-2")]
     Lens2,
-    /// Spiral that keeps the engagement angle `rough.engagement`, with `rough.step` as a cap; contact G4.
+    /// Spiral that keeps the engagement angle `rough.engagement`, with `rough.stepover` as a cap if it is given; contact G4.
     ConstantEngagement,
     /// Semicircles about two poles: a step of acceleration in every joint.
     #[serde(rename = "arcs-2")]

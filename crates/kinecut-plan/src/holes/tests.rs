@@ -5,7 +5,7 @@ use std::f64::consts::{PI, TAU};
 use glam::{DVec2, DVec3};
 use proptest::prelude::*;
 
-use super::*;
+use super::{Strategy, *};
 use crate::base::Code;
 use crate::geom::{ContactOrder, CurveKind, InvoluteRecord, joint};
 
@@ -307,7 +307,7 @@ fn what_cannot_be_is_refused_with_code_key_and_bound() {
     refuse(cutter(&|c| c.centre_cutting = false), Code::ENTRY_IMPOSSIBLE, "entry");
     refuse(cutter(&|c| c.diameter = f64::NAN), Code::PLAN_VALUE, "tool.diameter");
     for bad in [0.0, -1.0, f64::NAN, f64::INFINITY] {
-        refuse(with_rough(p, |r| r.stepover = bad), Code::PLAN_VALUE, "rough.stepover");
+        refuse(with_rough(p, |r| r.stepover = Some(bad)), Code::PLAN_VALUE, "rough.stepover");
         refuse(with_rough(p, |r| r.feed = bad), Code::PLAN_VALUE, "rough.feed");
         refuse(with_rough(p, |r| r.plunge_feed = Some(bad)), Code::PLAN_VALUE, "rough.plunge_feed");
         refuse(with_rough(p, |r| r.stepdown = Some(bad)), Code::PLAN_VALUE, "rough.stepdown");
@@ -321,7 +321,7 @@ fn what_cannot_be_is_refused_with_code_key_and_bound() {
         );
     }
     refuse(with_rough(p, |r| r.allowance = -0.1), Code::PLAN_VALUE, "rough.allowance");
-    let f = refuse(with_rough(p, |r| r.stepover = 41.0), Code::PLAN_VALUE, "rough.stepover");
+    let f = refuse(with_rough(p, |r| r.stepover = Some(41.0)), Code::PLAN_VALUE, "rough.stepover");
     assert_eq!(f.bound.unwrap().value, 40.0);
     let f = refuse(with_rough(p, |r| r.stepdown = Some(46.0)), Code::PLAN_VALUE, "rough.stepdown");
     assert_eq!(f.bound.unwrap().value, 45.0);
@@ -383,6 +383,57 @@ fn a_helix_ends_where_its_spiral_begins_and_has_whole_turns() {
     assert!((arc.radius() - inner).abs() < 1e-12 && (inner - 12.0).abs() < 34.0 * PI * 1e-3, "{inner}");
 }
 
+/// The paper's bore with constant engagement of 60 degrees from a helix of 10 mm.
+fn evenly_engaged(stepover: Option<f64>) -> BoreSpec {
+    let rough = Rough { stepover, allowance: 1.0, ..Rough::by_engagement(60f64.to_radians(), 100.0) };
+    BoreSpec {
+        strategy: Strategy::ConstantEngagement,
+        entry: Some(Entry::Helix { radius: 10.0, pitch: 2.0 }),
+        rough: Some(rough),
+        finish: None,
+        ..paper()
+    }
+}
+
+#[test]
+fn without_a_stepover_the_engagement_alone_limits_the_steps() {
+    let alone = plan_bore(&evenly_engaged(None)).unwrap().rough.unwrap();
+    assert_eq!(alone.turns, 11.0);
+    assert!((alone.length - 2800.0).abs() < 1.0, "{}", alone.length);
+    // At the wall the step of 60 degrees is 99 - sqrt(79^2 + 20^2 + 79 * 20) = 8.33 mm; whole turns take a little less.
+    assert!(alone.step > 7.5 && alone.step < 8.331, "{}", alone.step);
+    let samples = engagement::engagement(&alone.curves, 20.0, Some(30.0), 4000).unwrap();
+    let most = samples.iter().map(|s| s.angle).fold(0.0, f64::max).to_degrees();
+    assert!(most > 55.0 && most < 60.1, "{most}");
+    // A step that no turn reaches changes nothing, a smaller one holds as well.
+    assert_eq!(plan_bore(&evenly_engaged(Some(39.9))).unwrap().rough.unwrap().curves, alone.curves);
+    let both = plan_bore(&evenly_engaged(Some(4.0))).unwrap().rough.unwrap();
+    assert!(both.step <= 4.0 + 1e-9 && both.turns > 17.0, "{both:?}");
+}
+
+#[test]
+fn a_missing_stepover_is_an_error_where_nothing_else_limits_the_steps() {
+    use Strategy::*;
+    for strategy in
+        [Involute, Annular, Lens1, Lens2, Arcs2, Arcs4, Archimedean, Rings, RingsTangent, Trochoidal, Ramping]
+    {
+        let e = plan_bore(&BoreSpec { strategy, ..evenly_engaged(None) }).unwrap_err();
+        assert_eq!((e.code(), e.0.key.as_deref()), (Code::PLAN_VALUE, Some("rough.stepover")), "{e}");
+        assert!(e.0.message.contains(&strategy.name()) && e.0.bound.as_ref().unwrap().value == 40.0, "{e}");
+        assert!(e.0.help.contains("stepover = .."), "{e}");
+    }
+    let e = plan_bore(&with_rough(evenly_engaged(None), |r| r.engagement = None)).unwrap_err();
+    assert_eq!((e.code(), e.0.key.as_deref()), (Code::PLAN_VALUE, Some("rough.engagement")), "{e}");
+    // One helix has no turns side by side.
+    let through = BoreSpec { strategy: OutlineHelix, breakthrough: Some(1.0), ..evenly_engaged(None) };
+    plan_bore(&through).unwrap();
+    let half_axes = [100.0, 60.0];
+    let bore = BoreSpec { diameter: 120.0, ..with_rough(paper(), |r| r.stepover = None) };
+    let pocket = EllipseSpec { half_axes, turned: 0.0, order: crate::geom::LensOrder::One, bore };
+    let e = plan_ellipse(&pocket).unwrap_err();
+    assert_eq!((e.code(), e.0.key.as_deref()), (Code::PLAN_VALUE, Some("rough.stepover")), "{e}");
+}
+
 proptest! {
     #![proptest_config(kinecut_cases::property(128))]
     #[test]
@@ -406,7 +457,7 @@ proptest! {
             cutter: CutterData { diameter: tool, ..paper().cutter },
             sense: if cw { Sense::Conventional } else { Sense::Climb },
             entry: Some(entry),
-            rough: Some(Rough { stepover: tool * step, allowance, start: begin, ..paper().rough.unwrap() }),
+            rough: Some(Rough { stepover: Some(tool * step), allowance, start: begin, ..paper().rough.unwrap() }),
             finish: Some(Finish {
                 turns,
                 start: if auto { LeadEnd::Usual } else { LeadEnd::Point(start.to_array()) },

@@ -129,7 +129,7 @@ fn command(place: &str, line: &str) -> Option<Shown> {
     if let Some(out) = after(&["--out"]) {
         let page = match words[0].as_str() {
             "run" | "simulate" => "report",
-            "hole" => "compare",
+            "hole" if words.iter().any(|w| w == "--compare") => "compare",
             "grazing" if words.iter().any(|w| w == "--gallery") => "gallery",
             verb => verb,
         };

@@ -177,7 +177,7 @@ impl kind::Plan for PlannedBore {
                 at: t.at,
                 plan: Some(&bore.plan),
                 entry: t.entry,
-                step: t.rough.as_ref().map(|r| r.stepover),
+                step: t.rough.as_ref().and_then(|r| r.stepover),
                 roughed: t.rough.as_ref().map(|r| t.diameter / 2.0 - t.stock_to_leave - r.allowance),
                 is_round: t.bottom_diameter.is_none(),
             };

@@ -1,10 +1,12 @@
 //! Milled walls, round or elliptic: words of their tables, their moves, their section of the report.
 
+mod lead_figures;
 mod moves;
 mod paper;
 mod section;
 mod table;
 
+pub(crate) use lead_figures::lead_drawings;
 pub(crate) use moves::{CLEARANCE, write_moves};
 pub(crate) use section::{ShownWall, sections};
 pub use table::*;

@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::base::unit::MmPerMin;
+use crate::base::unit::{Deg, MmPerMin};
 use crate::base::{Code, Error, Finding, Result};
 use crate::geom::LensOrder;
 use crate::holes::{FeedAt, Finish, LeadEnd, Wear};
@@ -35,6 +35,13 @@ pub struct FinishTable {
     /// Length of the lead-in.
     #[serde(default)]
     pub start_length: Option<f64>,
+    /// Radius of curvature with which the lead-in starts; at the wall it is that of the path there.
+    #[serde(default)]
+    pub start_curvature_radius: Option<f64>,
+    /// Direction from the bore's centre in which the lead-in touches the wall, counter-clockwise from X, degrees; default
+    /// -90. Not with a `start` off the centre, which fixes it.
+    #[serde(default, with = "Deg::<Option<f64>>")]
+    pub touch_angle: Option<f64>,
     /// Point at which the lead-out ends, in coordinates of the work offset; default: the mirror image of the lead-in's.
     #[serde(default)]
     pub end: Option<[f64; 2]>,
@@ -44,6 +51,13 @@ pub struct FinishTable {
     /// Length of the lead-out.
     #[serde(default)]
     pub end_length: Option<f64>,
+    /// Radius of curvature with which the lead-out ends.
+    #[serde(default)]
+    pub end_curvature_radius: Option<f64>,
+    /// Direction from the bore's centre in which the lead-out leaves the wall, degrees; default: where the lead-in touches
+    /// it.
+    #[serde(default, with = "Deg::<Option<f64>>")]
+    pub end_touch_angle: Option<f64>,
     /// Further circles at the wall without infeed; default 0.
     #[serde(default)]
     pub spring_passes: u32,
@@ -67,22 +81,6 @@ impl FinishTable {
     /// # Errors
     /// `KC0102` for keys that exclude each other, `KC0103` for a name that is no wear register.
     pub(crate) fn finish(&self) -> Result<Finish> {
-        let end = |key: &str, point: Option<[f64; 2]>, radius: Option<f64>, length: Option<f64>| match (
-            point, radius, length,
-        ) {
-            (None, None, None) => Ok(LeadEnd::Usual),
-            (Some(p), None, None) => Ok(LeadEnd::Point(p)),
-            (None, Some(r), None) => Ok(LeadEnd::Radius(r)),
-            (None, None, Some(l)) => Ok(LeadEnd::Length(l)),
-            _ => Err(Error::from(
-                Finding::error(
-                    Code::JOB_SHAPE,
-                    format!("`{key}`, `{key}_radius` and `{key}_length` exclude each other"),
-                )
-                .help("give one of them, or none")
-                .key(key),
-            )),
-        };
         let wear = self.wear_offset.as_deref().map(|name| {
             let number = name.strip_prefix(['D', 'd']).and_then(|n| n.parse().ok());
             let register = number.filter(|n| (1..=MOST_REGISTER).contains(n)).ok_or_else(|| {
@@ -96,8 +94,14 @@ impl FinishTable {
             turns: self.turns.unwrap_or(2),
             lead: self.contact.order(),
             feed_at: self.feed_at,
-            start: end("start", self.start, self.start_radius, self.start_length)?,
-            end: end("end", self.end, self.end_radius, self.end_length)?,
+            start: lead_end(
+                "start",
+                self.start,
+                [self.start_radius, self.start_length, self.start_curvature_radius],
+            )?,
+            end: lead_end("end", self.end, [self.end_radius, self.end_length, self.end_curvature_radius])?,
+            touch_angle: self.touch_angle,
+            end_touch_angle: self.end_touch_angle,
             spring_passes: self.spring_passes,
             wear: wear.transpose()?,
             stepdown: self.stepdown,
@@ -162,6 +166,31 @@ impl FinishTable {
             .into());
         }
         Ok(())
+    }
+}
+
+/// The one form that is given of a lead's free end: a point, or a radius, a length, a radius of curvature.
+fn lead_end(key: &str, point: Option<[f64; 2]>, numbers: [Option<f64>; 3]) -> Result<LeadEnd> {
+    let [radius, length, curvature] = numbers;
+    let forms = [
+        point.map(LeadEnd::Point),
+        radius.map(LeadEnd::Radius),
+        length.map(LeadEnd::Length),
+        curvature.map(LeadEnd::CurvatureRadius),
+    ];
+    let mut given = forms.into_iter().flatten();
+    match (given.next(), given.next()) {
+        (None, _) => Ok(LeadEnd::Usual),
+        (Some(one), None) => Ok(one),
+        _ => Err(Finding::error(
+            Code::JOB_SHAPE,
+            format!(
+                "`{key}`, `{key}_radius`, `{key}_length` and `{key}_curvature_radius` exclude each other"
+            ),
+        )
+        .help("give one of them, or none")
+        .key(key)
+        .into()),
     }
 }
 

@@ -92,6 +92,12 @@ fn terms(spec: &BoreSpec, job: &Job, table: &HoleTable) -> Result<Terms> {
             .help("add rough = { stepover = .., feed = .. }")
             .key("operation.rough")
     })?;
+    let step = rough.stepover.ok_or_else(|| {
+        Finding::error(Code::JOB_SHAPE, "strategies are compared at one `stepover`")
+            .bound_mm(spec.cutter.diameter)
+            .help(format!("add stepover = .., up to the cutter's diameter of {} mm", spec.cutter.diameter))
+            .key("operation.rough.stepover")
+    })?;
     let cutter = spec.cutter_radius();
     let wall = spec.rough_radius(rough, spec.floor()).map_err(|e| e.under("operation.rough"))?;
     let (entry, drilled) = match chosen(spec, rough, wall) {
@@ -126,6 +132,6 @@ fn terms(spec: &BoreSpec, job: &Job, table: &HoleTable) -> Result<Terms> {
         servo: Servo::new(control.servo_bandwidth.unwrap_or(Terms::USUAL_BANDWIDTH))?,
         decimals: job.post.decimals,
         control: job.post.control,
-        ..Terms::new(wall, cutter, rough.stepover, rough.feed)
+        ..Terms::new(wall, cutter, step, rough.feed)
     })
 }

@@ -7,6 +7,7 @@ mod compare;
 mod compare_page;
 mod comparison;
 mod job;
+mod page;
 mod plan;
 mod table;
 

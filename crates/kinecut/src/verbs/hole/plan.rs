@@ -5,12 +5,15 @@ use serde::Serialize;
 use super::HoleTable;
 use super::compare::number;
 use super::job::{job, own_key};
+use super::page::hole_html;
 use crate::base::{Finding, Result, Silent};
-use crate::holes::{ToolpathPace, ToolpathRole};
+use crate::holes::{PassFigures, ToolpathPace, ToolpathRole};
+use crate::job::Outputs;
 use crate::job::plan::plan;
 use crate::nc;
 use crate::operations::OperationPlan;
-use crate::page::{Block, Cell, Fact, Row, Section, Table, duration, length};
+use crate::operations::wall::lead_drawings;
+use crate::page::{Block, Cell, Drawing, Fact, Row, Section, Table, duration, length};
 use crate::verbs::Answer;
 
 /// A planned way down, for the entry table.
@@ -47,6 +50,14 @@ pub struct HolePass {
     pub length: f64,
     /// Heights of the floors [mm].
     pub floors: Vec<f64>,
+    /// Base radius of the involute at the wall [mm]; zero for other curves.
+    pub base_radius: f64,
+    /// Roll angle at the start [rad], the paper's phi0; of a lens spiral the tangent angle that takes its place.
+    pub roll: f64,
+    /// Direction from the bore's centre in which the path touches the wall, counter-clockwise from X [deg].
+    pub touch_angle_deg: f64,
+    /// Radius of curvature at the start [mm], the paper's Rn.
+    pub start_curvature_radius: f64,
 }
 
 /// A planned hole, in the units of the shop.
@@ -70,6 +81,9 @@ pub struct HolePlan {
     pub program_lines: usize,
     /// Remarks for a person.
     pub findings: Vec<Finding>,
+    /// Figures 3, 4 and 5 of the paper for the lead-in of finishing; empty without finishing.
+    #[serde(skip)]
+    pub drawings: Vec<Drawing>,
 }
 
 impl Answer for HolePlan {
@@ -105,6 +119,15 @@ impl Answer for HolePlan {
     fn add_findings(&mut self, findings: Vec<Finding>) {
         self.findings.extend(findings);
     }
+
+    fn files(answers: &[&HolePlan]) -> Result<Outputs> {
+        Ok(crate::verbs::page("hole.html", hole_html(answers)))
+    }
+}
+
+/// Direction from the bore's centre in which a pass touches the wall [rad]: there its circle begins.
+fn touch_angle(pass: &PassFigures) -> f64 {
+    pass.curves.last().map_or(0.0, |circle| circle.start().to_angle())
 }
 
 /// Plans a hole.
@@ -124,6 +147,7 @@ pub fn plan_hole(table: &HoleTable) -> Result<HolePlan> {
         control: job.post.control.name(),
         program_lines: 0,
         findings: Vec::new(),
+        drawings: Vec::new(),
     };
     for setup in &planned {
         result.program_lines += nc::write(&setup.program, &job.tools, &job.post)?.text.lines().count();
@@ -151,8 +175,13 @@ pub fn plan_hole(table: &HoleTable) -> Result<HolePlan> {
                     engagement_deg: p.engagement.map(f64::to_degrees),
                     length: p.length,
                     floors: p.floors.clone(),
+                    base_radius: p.base_radius,
+                    roll: p.roll,
+                    touch_angle_deg: touch_angle(p).to_degrees(),
+                    start_curvature_radius: p.curves.first().map_or(0.0, |c| 1.0 / c.at(0.0).curvature.abs()),
                 }));
             }
+            result.drawings.extend(bore.finish.iter().flat_map(lead_drawings));
             result.entries.extend(bore.ways.iter().map(|w| HoleEntry {
                 way: w.way.title(),
                 possible: w.possible,

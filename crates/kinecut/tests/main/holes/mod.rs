@@ -1,4 +1,5 @@
-//! Milled holes: golden curves, every strategy on every control.
+//! Milled holes: golden curves, figures of the paper, every strategy on every control.
 
+mod figures;
 mod golden;
 mod strategies;

@@ -306,7 +306,7 @@ fn roomy(
     let mut spec = spec(sense, Some(wear));
     spec.diameter = diameter + 2.0 * room;
     spec.cutter.diameter = diameter;
-    spec.rough = spec.rough.map(|r| Rough { stepover: 0.4 * diameter, allowance, ..r });
+    spec.rough = spec.rough.map(|r| Rough { stepover: Some(0.4 * diameter), allowance, ..r });
     spec.finish = spec.finish.map(|f| Finish { turns, start: LeadEnd::Usual, ..f });
     spec.resolution = native.then_some(1e-4);
     (spec, control)

@@ -3,9 +3,9 @@
 use std::f64::consts::{FRAC_PI_2, TAU};
 
 use super::lead::{Lead, Rounding, curves, cut_at_native_roll, lead};
-use super::lens_lead::lens_lead_in;
+use super::lens_lead::{angle_of_curvature, lens_lead_in};
 use super::spec::{BoreSpec, Finish, LeadEnd};
-use super::spiral::{HALF_TURN, base_radius, leave};
+use super::spiral::{HALF_TURN, base_radius, turned_to};
 use crate::base::{Code, Finding, Result};
 use crate::geom::{LensOrder, Spiral, Support};
 
@@ -14,26 +14,48 @@ const START_CLEARANCE: f64 = 2.0;
 
 /// The lead-in, counter-clockwise about the origin.
 pub(super) fn way_in(spec: &BoreSpec, finish: &Finish, radius: f64, open: f64) -> Result<Lead> {
-    let r = base_radius(radius, finish.turns, spec.resolution);
-    match finish.start {
-        LeadEnd::Usual => usual(spec, finish, radius, open, r),
+    let start = match finish.start {
+        LeadEnd::Point(p) => LeadEnd::Point(spec.about_centre(p)),
+        start => start,
+    };
+    let way = form(spec, finish, radius, open, start, "start")?;
+    match finish.touch_angle {
+        None => Ok(way),
+        Some(wanted) if is_free(start) => Ok(way.touching_at(spec.tangent_angle(wanted))),
+        Some(wanted) => Err(spec.no_free_direction(["touch_angle", "start"], wanted, way.psi).into()),
+    }
+}
+
+/// Whether a lead with this free end may touch the wall anywhere.
+fn is_free(end: LeadEnd) -> bool {
+    !matches!(end, LeadEnd::Point(p) if p != [0.0, 0.0])
+}
+
+/// A lead-in from the free end that is asked for by `key` and its kin, a point about the centre; where it leaves the
+/// place on the wall free, it comes there at tangent angle 0.
+fn form(spec: &BoreSpec, finish: &Finish, radius: f64, open: f64, end: LeadEnd, key: &str) -> Result<Lead> {
+    match end {
+        LeadEnd::Usual => usual(spec, finish, radius, open),
         LeadEnd::Point(p) => {
-            let p = spec.about_centre(p);
-            inside("start", p, open)?;
-            through(spec, finish, radius, p).map_err(|e| e.under("start"))
+            inside(key, p, open)?;
+            through(spec, finish, radius, p).map_err(|e| e.under(key))
         }
-        LeadEnd::Radius(start) => {
-            inside("start_radius", [start, 0.0], open)?;
-            let way = through(spec, finish, radius, [start, 0.0]).map_err(|e| e.under("start_radius"))?;
-            let psi = way.psi;
-            Ok(way.rotated(-psi))
+        LeadEnd::Radius(free) => {
+            let key = format!("{key}_radius");
+            inside(&key, [free, 0.0], open)?;
+            let way = through(spec, finish, radius, [free, 0.0]).map_err(|e| e.under(&key))?;
+            Ok(way.touching_at(0.0))
         }
-        LeadEnd::Length(length) => by_length(spec, finish, radius, open, length, "start_length"),
+        LeadEnd::Length(length) => by_length(spec, finish, radius, open, length, &format!("{key}_length")),
+        LeadEnd::CurvatureRadius(free) => {
+            by_curvature(spec, finish, radius, open, free, &format!("{key}_curvature_radius"))
+        }
     }
 }
 
 /// Half a turn from the wall, or more where that would not be clear of the stock.
-fn usual(spec: &BoreSpec, finish: &Finish, radius: f64, open: f64, r: f64) -> Result<Lead> {
+fn usual(spec: &BoreSpec, finish: &Finish, radius: f64, open: f64) -> Result<Lead> {
+    let r = base_radius(radius, finish.turns, spec.resolution);
     if finish.lead != LensOrder::Zero {
         return usual_lens(finish, radius, open);
     }
@@ -44,7 +66,7 @@ fn usual(spec: &BoreSpec, finish: &Finish, radius: f64, open: f64, r: f64) -> Re
         if turned * r >= radius {
             break;
         }
-        let way = inwards(spec, radius, r, turned)?;
+        let way = inwards(spec, radius, r, [turned, radius - r * turned])?;
         if way.curves[0].start().length() <= wanted {
             return Ok(way);
         }
@@ -86,9 +108,10 @@ fn lens_way(whole: &Spiral, start: f64) -> Lead {
     }
 }
 
-/// The involute that comes to the wall at tangent angle 0 after turning by `turned` [rad].
-fn inwards(spec: &BoreSpec, radius: f64, r: f64, turned: f64) -> Result<Lead> {
-    let record = leave(radius, r, turned, 0.0)?.mirrored().reversed();
+/// The involute that comes to the wall at tangent angle 0 after turning by `turned` [rad] from where its radius of
+/// curvature is `free` [mm].
+fn inwards(spec: &BoreSpec, radius: f64, r: f64, [turned, free]: [f64; 2]) -> Result<Lead> {
+    let record = turned_to(radius, free, turned, 0.0)?.mirrored().reversed();
     let records = if spec.resolution.is_some() { cut_at_native_roll(&record) } else { vec![record] };
     Ok(Lead {
         curves: curves(records),
@@ -97,6 +120,44 @@ fn inwards(spec: &BoreSpec, radius: f64, r: f64, turned: f64) -> Result<Lead> {
         psi: 0.0,
         turns: turned / TAU,
     })
+}
+
+/// The involute that comes to the wall at tangent angle 0 and starts where its radius of curvature is `free` [mm].
+fn by_curvature(
+    spec: &BoreSpec,
+    finish: &Finish,
+    radius: f64,
+    open: f64,
+    free: f64,
+    key: &str,
+) -> Result<Lead> {
+    let refused = |rule: &str, bound: f64| {
+        Finding::error(Code::PLAN_VALUE, format!("`{key}` {rule}")).value_mm(free).bound_mm(bound).key(key)
+    };
+    if !(free < radius) {
+        let rule = "must be smaller than the radius of the path at the wall, to which the lead opens";
+        return Err(refused(rule, radius).help(format!("write less than {radius}")).into());
+    }
+    let way = if finish.lead == LensOrder::Zero {
+        let r = base_radius(radius, finish.turns, spec.resolution);
+        inwards(spec, radius, r, [(radius - free) / r, free])?
+    } else {
+        lens_way(&lens(finish, radius)?, angle_of_curvature(radius, finish.turns, free, finish.lead))
+    };
+    let start = way.curves[0].start().length();
+    if start <= open {
+        return Ok(way);
+    }
+    let rule = "lies so near to the wall that the cutter would come down or up in it";
+    let most =
+        through(spec, finish, radius, [open, 0.0]).map(|way| 1.0 / way.curves[0].at(0.0).curvature.abs());
+    Err(match most {
+        // Three decimals, never above the bound.
+        Ok(most) => refused(rule, most)
+            .help(format!("write {:.3} or less, or more `turns`", (most * 1000.0).floor() / 1000.0)),
+        Err(_) => refused(rule, radius).help("write a smaller radius, or more `turns`"),
+    }
+    .into())
 }
 
 /// The involute of a length that comes to the wall at tangent angle 0.
@@ -121,7 +182,7 @@ fn by_length(
     }
     let way = if finish.lead == LensOrder::Zero {
         let turned = 2.0 * length / (radius + (radius * radius - 2.0 * r * length).sqrt());
-        inwards(spec, radius, r, turned)?
+        inwards(spec, radius, r, [turned, radius - r * turned])?
     } else {
         let whole = lens(finish, radius)?;
         lens_way(&whole, whole.parameter(whole.length() - length))
@@ -164,27 +225,25 @@ pub(super) fn way_out(
     open: f64,
     way_in: &Lead,
 ) -> Result<Lead> {
-    match finish.end {
-        // The mirror image of the lead-in in the line through the centre and the place where it meets the wall.
-        LeadEnd::Usual => {
-            let (psi, here) = (way_in.psi, way_in.clone());
-            Ok(here.rotated(-psi).turned_out().rotated(psi))
-        }
+    let mirrored = match finish.end {
         LeadEnd::Point(p) => {
             let [x, y] = spec.about_centre(p);
-            inside("end", [x, y], open)?;
-            Ok(through(spec, finish, radius, [-x, y]).map_err(|e| e.under("end"))?.turned_out())
+            LeadEnd::Point([-x, y])
         }
-        LeadEnd::Radius(end) => {
-            inside("end_radius", [end, 0.0], open)?;
-            let way = through(spec, finish, radius, [end, 0.0]).map_err(|e| e.under("end_radius"))?;
-            let psi = way.psi;
-            Ok(way.rotated(-psi).turned_out().rotated(way_in.psi))
+        end => end,
+    };
+    // A lead-out is the mirror image of a lead-in; the usual one is that of the lead-in at hand.
+    let way = match mirrored {
+        LeadEnd::Usual => way_in.clone().touching_at(0.0),
+        mirrored => form(spec, finish, radius, open, mirrored, "end")?,
+    };
+    let way = way.turned_out();
+    match finish.end_touch_angle {
+        wanted if is_free(mirrored) => {
+            Ok(way.touching_at(wanted.map_or(way_in.psi, |wanted| spec.tangent_angle(wanted))))
         }
-        LeadEnd::Length(length) => {
-            let way = by_length(spec, finish, radius, open, length, "end_length")?;
-            Ok(way.turned_out().rotated(way_in.psi))
-        }
+        Some(wanted) => Err(spec.no_free_direction(["end_touch_angle", "end"], wanted, way.psi).into()),
+        None => Ok(way),
     }
 }
 
@@ -199,3 +258,6 @@ fn inside(key: &str, [x, y]: [f64; 2], open: f64) -> Result<()> {
         .key(key)
         .into())
 }
+
+#[cfg(test)]
+mod tests;
