@@ -32,7 +32,7 @@ pub fn program_time(
     progress: &dyn Progress,
 ) -> Result<Option<ProgramTime>> {
     let setting = Setting::new(machine, progress);
-    let stretches = stretches(program, trace, setting.junction_deviation().is_some());
+    let stretches = stretches(program, trace, &setting);
     let done = done(&stretches, (program, trace), &setting, task(&stretches, (program, trace), &setting)?)?;
     let [tool_changes, spindle_changes] = changes(program, &machine.control);
     let mut time = ProgramTime {
