@@ -171,7 +171,8 @@ class Program:
             self.unit = 25.4 if 20 in g else 1.0
         if "F" in n:
             self.feed = n["F"] * self.unit / 60
-        if any(v in WAITING_M for v in m):
+        # The control switches spindle, coolant and coordinates at rest (emctaskmain.cc).
+        if any(v in WAITING_M for v in m) or "S" in n or any(54 <= v <= 59.3 for v in g):
             self.canon.wait()
         dwell = 4 in g
         if dwell:

@@ -69,6 +69,12 @@ impl Stretch {
         if (before.curve.end() - after.curve.start()).length() > SAME {
             return false;
         }
+        // LinuxCNC switches spindle, coolant and coordinates at rest (emctaskmain.cc, `emcTaskCheckPreconditions`).
+        let [old, new] = [before, after].map(|s| program.state(s.item as usize));
+        let switches = old.spindle != new.spindle || old.coolant != new.coolant || old.frame != new.frame;
+        if setting.is_linuxcnc() && switches {
+            return false;
+        }
         // Steps of a cycle stop, and so does what is between items. LinuxCNC's planner decides for itself, but where the cycle
         // waits.
         let item = |i: u32| program.items.get(i as usize);

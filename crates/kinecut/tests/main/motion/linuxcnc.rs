@@ -50,6 +50,7 @@ fn small_programs_take_the_time_of_the_planner_itself() {
         ),
         ("a helix out of the plane", "G64 P0.1 Q0\nG1 X30\nG3 X50 Y20 Z-8 R20\nG1 X50 Y40", 0.670),
         ("a line that an arc takes", "G64 P0.05 Q0\nG1 X40\nX40.1 Y0.1\nX40.1 Y50", 0.593),
+        ("a spindle that is switched", "G64\nM3 S1000\nG0 Z10\nM5\nG0 X40\nM3 S2000\nG0 Y10\nG1 X0", 0.677),
         ("a cycle", "G64\nG0 Z10\nG98 G81 X10 Y0 Z-5 R2 F600\nX20 Y5\nX30\nG80", 3.262),
     ] {
         let found = time(text);
