@@ -16,4 +16,7 @@ pub enum Interpolator {
     /// As Grbl: at a joint v^2 = a d sin(h/2) / (1 - sin(h/2)), with the acceleration a, the junction deviation d, and the
     /// angle h that the two moves enclose (half a turn where they go straight on).
     JunctionDeviation,
+    /// As LinuxCNC's trajectory planner as it comes, without S-curves: arcs in corners, and no limit of jerk.
+    #[serde(rename = "linuxcnc")]
+    LinuxCnc,
 }

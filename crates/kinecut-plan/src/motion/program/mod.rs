@@ -11,6 +11,7 @@ mod junction;
 mod law;
 mod leg;
 mod level;
+mod linuxcnc;
 mod motion;
 mod passing;
 mod program_time;

@@ -4,6 +4,7 @@ use super::super::{Moment, SCurve};
 use super::joint::AXES;
 use super::junction::{Chords, OnChord};
 use super::law::Law;
+use super::linuxcnc::{OnElements, Planned};
 use super::run::{Piece, Run};
 use super::straight::Apart;
 use super::swing::around_ends;
@@ -42,6 +43,8 @@ pub(super) enum Motion<'a> {
     Run(Box<RunMotion<'a>>),
     /// The same by chords.
     Chords(Chords),
+    /// The same as LinuxCNC plans it.
+    LinuxCnc(Planned<'a>),
 }
 
 impl<'a> Motion<'a> {
@@ -62,6 +65,7 @@ impl<'a> Motion<'a> {
             Motion::Apart { axes, .. } => axes.duration(),
             Motion::Run(run) => run.duration,
             Motion::Chords(chords) => chords.duration(),
+            Motion::LinuxCnc(planned) => planned.duration(),
         }
     }
 
@@ -86,6 +90,20 @@ impl<'a> Motion<'a> {
             Motion::Chords(chords) => {
                 let OnChord { of, at, axes } = chords.at(time)?;
                 Some(along(of, &axes.map(|[q, d1]| AxisJet { q, d1, d2: 0.0, d3: 0.0 }), at))
+            }
+            Motion::LinuxCnc(planned) => {
+                let OnElements { of, this, next } = planned.at(time)?;
+                let all = along(of, &this.axes, this.at);
+                let Some(next) = next else { return Some(all) };
+                let added = along(of, &next.axes, next.at);
+                let axes: [AxisMoment; AXES] = std::array::from_fn(|a| AxisMoment {
+                    position: all.axes[a].position + added.axes[a].position - next.from[a],
+                    velocity: all.axes[a].velocity + added.axes[a].velocity,
+                    acceleration: all.axes[a].acceleration + added.axes[a].acceleration,
+                    jerk: 0.0,
+                });
+                let feed = axes[..3].iter().map(|axis| axis.velocity * axis.velocity).sum::<f64>().sqrt();
+                Some(AllAxes { feed, axes, ..all })
             }
         }
     }

@@ -77,7 +77,7 @@ pub fn program_samples(
             .into());
     }
     let setting = Setting { keeps_motion: true, ..Setting::new(machine, progress) };
-    let stretches = stretches(program, trace, setting.junction_deviation().is_some());
+    let stretches = stretches(program, trace, &setting);
     let task = task(&stretches, (program, trace), &setting)?;
     let waits = waits(program, trace, &machine.control);
     let mut waits = waits.iter().peekable();

@@ -3,9 +3,10 @@
 use super::super::AxisLimit;
 use super::axis_limits;
 use super::joint::{AXES, Tolerance};
+use super::linuxcnc::Ending;
 use crate::base::Progress;
 use crate::machine::{Interpolator, Machine};
-use crate::program::{Blend, Program};
+use crate::program::{Blend, Item, Program};
 
 /// Distance by which a control leaves the path at a corner where neither program nor machine says one [mm].
 const USUAL_TOLERANCE: f64 = 0.01;
@@ -41,6 +42,32 @@ impl<'a> Setting<'a> {
         looks_ahead.then(|| control.junction_deviation.unwrap_or(USUAL_DEVIATION))
     }
 
+    /// True of a control whose own planner is followed: it passes from rapids to feed as that does, and axes that turn on the
+    /// spot are part of their move.
+    pub(super) fn has_own_planner(&self) -> bool {
+        let own = [Interpolator::JunctionDeviation, Interpolator::LinuxCnc];
+        self.machine.control.interpolator.is_some_and(|interpolator| own.contains(&interpolator))
+    }
+
+    /// True if LinuxCNC's planner is followed.
+    pub(super) fn is_linuxcnc(&self) -> bool {
+        self.machine.control.interpolator == Some(Interpolator::LinuxCnc)
+    }
+
+    /// How LinuxCNC goes from an item into the next one: `G64` alone has no tolerance there.
+    pub(super) fn linuxcnc_ending(&self, program: &Program, item: u32) -> Ending {
+        let cycle = |i: usize| i < program.items.len() && matches!(program.items.get(i), Item::Cycle(..));
+        let i = item as usize;
+        // The rapid to the place of a cycle is part of its block.
+        let leads = cycle(i + 1) && program.origin(i).span == program.origin(i + 1).span;
+        match program.state(i).blend {
+            _ if leads || cycle(i) => Ending::Exact,
+            Blend::Stop => Ending::Stop,
+            Blend::Continuous => Ending::Within(self.machine.control.tolerance.unwrap_or(0.0)),
+            Blend::Tolerance { path, .. } => Ending::Within(path),
+        }
+    }
+
     /// Distance by which the control may leave the path at the end of an item; zero for an exact stop.
     pub(super) fn tolerance(&self, program: &Program, item: u32) -> Tolerance {
         let control = &self.machine.control;
@@ -64,7 +91,9 @@ impl<'a> Setting<'a> {
 pub(super) fn control_limits(machine: &Machine) -> [Option<AxisLimit>; AXES] {
     let limits = axis_limits(machine);
     match machine.control.interpolator {
-        Some(Interpolator::Trapezoid | Interpolator::JunctionDeviation) => without_jerk(&limits),
+        Some(Interpolator::Trapezoid | Interpolator::JunctionDeviation | Interpolator::LinuxCnc) => {
+            without_jerk(&limits)
+        }
         _ => limits,
     }
 }

@@ -3,6 +3,7 @@
 use super::joint::Step;
 use super::junction::Chords;
 use super::leg::{Leg, Task};
+use super::linuxcnc::{Ending, Planned};
 use super::motion::Motion;
 use super::passing::{Between, Passing, passings};
 use super::program_time::Smoothing;
@@ -38,15 +39,15 @@ pub(super) struct StretchTime<'a> {
     pub(super) motions: Vec<Motion<'a>>,
 }
 
-/// The segments of a trace in stretches; `mixed` where the control passes from rapids to feed without a stop.
-pub(super) fn stretches(program: &Program, trace: &Trace, mixed: bool) -> Vec<Stretch> {
+/// The segments of a trace in stretches.
+pub(super) fn stretches(program: &Program, trace: &Trace, setting: &Setting) -> Vec<Stretch> {
     let mut all: Vec<Stretch> = Vec::new();
     for (i, segment) in trace.segments.iter().enumerate() {
         if segment.alternative {
             continue;
         }
         match all.last_mut() {
-            Some(stretch) if stretch.goes_on(program, trace, i, mixed) => stretch.segments.push(i),
+            Some(stretch) if stretch.goes_on(program, trace, i, setting) => stretch.segments.push(i),
             _ => all.push(Stretch { segments: vec![i] }),
         }
     }
@@ -54,24 +55,34 @@ pub(super) fn stretches(program: &Program, trace: &Trace, mixed: bool) -> Vec<St
 }
 
 impl Stretch {
-    /// True if a segment may follow without a stop: in place, both at feed or `mixed`, and nothing but text between them.
-    fn goes_on(&self, program: &Program, trace: &Trace, next: usize, mixed: bool) -> bool {
+    /// True if a segment may follow without a stop: in place, both at feed unless the control mixes them, and nothing but text
+    /// between them.
+    fn goes_on(&self, program: &Program, trace: &Trace, next: usize, setting: &Setting) -> bool {
         /// Distance of two ends that are one place [mm].
         const SAME: f64 = 1e-6;
         let Some(last) = self.segments.last() else { return false };
         let (before, after) = (&trace.segments[*last], &trace.segments[next]);
-        let at_feed = |s: &Segment| mixed || matches!(s.motion, SegmentPace::Feed(_));
+        let at_feed = |s: &Segment| setting.has_own_planner() || matches!(s.motion, SegmentPace::Feed(_));
         if !(at_feed(before) && at_feed(after) && before.setup == after.setup) {
             return false;
         }
         if (before.curve.end() - after.curve.start()).length() > SAME {
             return false;
         }
-        // Steps of a cycle stop, and so does what is between items.
+        // LinuxCNC switches spindle, coolant and coordinates at rest (emctaskmain.cc, `emcTaskCheckPreconditions`).
+        let [old, new] = [before, after].map(|s| program.state(s.item as usize));
+        let switches = old.spindle != new.spindle || old.coolant != new.coolant || old.frame != new.frame;
+        if setting.is_linuxcnc() && switches {
+            return false;
+        }
+        // Steps of a cycle stop, and so does what is between items. LinuxCNC's planner decides for itself, but where the cycle
+        // waits.
         let item = |i: u32| program.items.get(i as usize);
-        let in_cycle = |s: &Segment| matches!(item(s.item), Item::Cycle(..));
-        !in_cycle(before)
-            && !in_cycle(after)
+        let waits = |s: &Segment| trace.dwells.binary_search_by_key(&s.item, |dwell| dwell.0).is_ok();
+        let decides = setting.is_linuxcnc() && !(before.item == after.item && waits(before));
+        let stops = |s: &Segment| matches!(item(s.item), Item::Cycle(..)) && !decides;
+        !stops(before)
+            && !stops(after)
             && (before.item + 1..after.item).all(|i| matches!(item(i), Item::Text(_) | Item::Move(_)))
     }
 
@@ -106,7 +117,7 @@ impl Stretch {
                 continue;
             }
             // Chords have the turns on the spot in them.
-            let by_itself = segment.turning.is_some() && setting.junction_deviation().is_none();
+            let by_itself = segment.turning.is_some() && !setting.has_own_planner();
             let swings = if by_itself { swings(&path) } else { [None; 2] };
             for swing in swings.iter().flatten() {
                 let limits = [setting.limits, without_jerk(&setting.limits)];
@@ -135,6 +146,20 @@ impl Stretch {
             }
             if setting.keeps_motion {
                 done.motions.push(Motion::Chords(chords));
+            }
+            return Ok(Some(done));
+        }
+        if setting.is_linuxcnc() {
+            let item = |place: &usize| trace.segments[self.segments[*place]].item;
+            let ending = |item: u32| (item, setting.linuxcnc_ending(program, item));
+            let endings: Vec<(u32, Ending)> = places.iter().map(|place| ending(item(place))).collect();
+            let Some(planned) = Planned::of(&pieces, &endings, &setting.limits) else { return Ok(None) };
+            for (k, time) in places.iter().zip(planned.times()) {
+                done.times[*k] += time;
+                done.without_jerk += time;
+            }
+            if setting.keeps_motion {
+                done.motions.push(Motion::LinuxCnc(planned));
             }
             return Ok(Some(done));
         }

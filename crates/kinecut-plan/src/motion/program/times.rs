@@ -32,7 +32,7 @@ pub fn program_time(
     progress: &dyn Progress,
 ) -> Result<Option<ProgramTime>> {
     let setting = Setting::new(machine, progress);
-    let stretches = stretches(program, trace, setting.junction_deviation().is_some());
+    let stretches = stretches(program, trace, &setting);
     let done = done(&stretches, (program, trace), &setting, task(&stretches, (program, trace), &setting)?)?;
     let mut gathering = Gathering::new(program, trace, &setting);
     for (stretch, done) in stretches.iter().zip(&done) {

@@ -142,11 +142,13 @@ pub struct DynamicsTable {
     /// Largest speed of the spindle, rev/min.
     #[serde(default)]
     pub max_speed: Option<f64>,
-    /// How the control runs along a path: "jerk-limited", "trapezoid", "exact-stop" or "junction-deviation".
+    /// How the control runs along a path: "jerk-limited", "trapezoid", "exact-stop", "junction-deviation" (Grbl) or "linuxcnc"
+    /// (its planner as it comes, without S-curves).
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub interpolator: Option<Interpolator>,
     /// Distance by which the control may leave the programmed path to smooth corners and steps of curvature, mm: what `G64 P`,
-    /// `CYCLE832`, `G05.1` or cycle 32 set; 0 to 1, and 0 is an exact stop in every corner.
+    /// `CYCLE832`, `G05.1` or cycle 32 set; 0 to 1, and 0 is an exact stop in every corner. Of the interpolator "linuxcnc" that of
+    /// `G64` without `P`, where 0 and nothing are as much as half of each move allows.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub tolerance: Option<f64>,
     /// The same for rotary axes, degrees; 0 to 5.

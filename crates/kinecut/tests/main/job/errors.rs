@@ -120,7 +120,7 @@ fn every_wrong_value_is_one_error_with_its_line() {
         ("rapid = 30000", "tolerance = 2"),
         ("rapid = 30000", "spindle_ramp = 3"),
         ("rapid = 30000", "junction_deviation = 0.01"),
-        ("rapid = 30000", "interpolator = \"linuxcnc\""),
+        ("rapid = 30000", "interpolator = \"mach3\""),
     ];
     let mut text = String::new();
     for (from, to) in cases {

@@ -92,6 +92,7 @@ fn every_key_of_control_and_spindle_arrives_in_its_unit() {
         ("jerk-limited", Interpolator::JerkLimited),
         ("trapezoid", Interpolator::Trapezoid),
         ("exact-stop", Interpolator::ExactStop),
+        ("linuxcnc", Interpolator::LinuxCnc),
     ] {
         let control = read("c.toml", &with_dynamics(&format!("interpolator = \"{word}\""))).unwrap().control;
         assert_eq!(control, MotionControl { interpolator: Some(interpolator), ..MotionControl::default() });
@@ -155,7 +156,7 @@ fn values_of_control_and_spindle_that_need_another_ask_for_it() {
             "interpolator",
             "\"junction-deviation\"",
         ),
-        ("interpolator = \"linuxcnc\"", shape, "", "unknown variant `linuxcnc`", ""),
+        ("interpolator = \"mach3\"", shape, "", "unknown variant `mach3`", ""),
         ("corner_tolerance = 1", shape, "", "unknown field `corner_tolerance`", ""),
     ] {
         let error = read("c.toml", &with_dynamics(keys)).expect_err(keys);

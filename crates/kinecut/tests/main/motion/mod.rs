@@ -4,6 +4,7 @@ mod courses;
 mod errors;
 mod facets;
 mod feeds;
+mod linuxcnc;
 mod metamorphic;
 mod program;
 mod random;
