@@ -41,7 +41,7 @@ pub fn gauss(a: f64, b: f64, panel: f64, mut f: impl FnMut(f64) -> f64) -> f64 {
 const GAUSS_SHORT: [(f64, f64); 3] = [
     (0.238_619_186_083_196_9, 0.467_913_934_572_691),
     (0.661_209_386_466_264_5, 0.360_761_573_048_138_6),
-    (0.932_469_514_203_152_1, 0.171_324_492_379_170_4),
+    (0.932_469_514_203_152, 0.171_324_492_379_170_4),
 ];
 
 /// The integral of `f` from `a` to `b`, which are near one another, by 6 points: exact for polynomials of degree 11.

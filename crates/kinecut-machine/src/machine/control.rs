@@ -126,6 +126,7 @@ mod tests {
             tolerance: Some(0.0),
             turn_tolerance: Some(0.0),
             junction_deviation: Some(0.0),
+            servo_bandwidth: Some(1.0),
             tool_change: Some(0.0),
             spindle_ramp: Some(0.0),
             ..none
@@ -133,6 +134,7 @@ mod tests {
         none.check().unwrap();
         zero.check().unwrap();
         assert_eq!(refused(MotionControl { max_feed: Some(0.0), ..zero }), "dynamics.max_feed");
+        assert_eq!(refused(MotionControl { servo_bandwidth: Some(0.0), ..zero }), "dynamics.servo_bandwidth");
         assert_eq!(refused(MotionControl { tolerance: Some(-1e-9), ..zero }), "dynamics.tolerance");
         assert_eq!(
             refused(MotionControl { turn_tolerance: Some(f64::NAN), ..zero }),

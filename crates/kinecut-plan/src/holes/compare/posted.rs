@@ -7,6 +7,7 @@ use crate::base::Result;
 use crate::geom::InvoluteRecord;
 use crate::holes::clearing::{Clearing, Disc};
 use crate::nc;
+use crate::program::Blend;
 
 /// A path as text.
 pub(super) struct PostedPath {
@@ -33,7 +34,7 @@ pub(super) fn posted(clearing: Clearing, terms: &Terms) -> Result<PostedPath> {
     }
     curves.extend(path.curves);
     curves.push(path.closing.into());
-    let (program, first) = program(&Chain::new(curves).in_space(), terms.limits.feed);
+    let (program, first) = program(&Chain::new(curves).in_space(), terms.limits.feed, Blend::Stop);
     let posted = nc::write(&program, &[], &settings)?;
     let lines = posted.text.lines().zip(&posted.lines).filter(|(_, item)| item.is_some_and(|i| i >= first));
     let (blocks, characters) = lines.fold((0, 0), |(n, c), (line, _)| (n + 1, c + line.len() + 1));

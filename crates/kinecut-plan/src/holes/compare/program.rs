@@ -6,7 +6,7 @@ use crate::geom::{Curve, Line, Rigid};
 use crate::program::{Blend, Frame, Move, Origin, Program, Setup, SetupId, Speed, State, WorkOffset};
 
 /// The curves as moves at a feed [mm/s], after a rapid to their start; and the index of the first of them.
-pub(super) fn program(curves: &[Curve], feed: f64) -> (Program, u32) {
+pub(super) fn program(curves: &[Curve], feed: f64, blend: Blend) -> (Program, u32) {
     let mut program = Program::new(vec![Setup {
         name: "hole".to_owned(),
         part_on_table: Rigid::IDENTITY,
@@ -21,7 +21,7 @@ pub(super) fn program(curves: &[Curve], feed: f64) -> (Program, u32) {
     let start = curves.first().map_or(glam::DVec3::ZERO, Curve::start);
     program.push_move(Move::along(&Line { start, end: start }.into()), &state, Origin::default());
     let first = program.items.len() as u32;
-    (state.speed, state.blend) = (Speed::PerMinute(feed), Blend::Continuous);
+    (state.speed, state.blend) = (Speed::PerMinute(feed), blend);
     for curve in curves {
         program.push_move(Move::along(curve), &state, Origin::default());
     }

@@ -8,6 +8,7 @@ use super::program::program;
 use crate::base::{Code, Finding, Result, Silent};
 use crate::machine::{CoordinateCode, Dynamics, Machine, MotionControl};
 use crate::motion::{AxisMoment, MotionSample, program_samples};
+use crate::program::Blend;
 use crate::trace::{CompStart, RegisterState, TraceOptions, trace};
 
 /// The run at a feed, from rest to rest, the circles at entry and wall included.
@@ -67,7 +68,7 @@ const WALL: f64 = 0.25;
 
 /// Runs a chain at a feed [mm/s]; with its profile.
 pub(super) fn run(chain: &Chain, terms: &Terms, feed: f64) -> Result<(Run, Vec<ProfilePlace>)> {
-    let (program, _) = program(&chain.in_space(), feed);
+    let (program, _) = program(&chain.in_space(), feed, Blend::Continuous);
     let machine = machine(terms)?;
     let options = TraceOptions {
         machine: Some(&machine),

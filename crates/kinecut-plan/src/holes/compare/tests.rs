@@ -187,8 +187,8 @@ fn the_time_of_the_papers_spiral_is_that_of_the_table_of_laws() {
     near(last.time, run.time, 1e-9);
     // From rest in the cusp, at the feed from the first turn on.
     assert_eq!((profile[0].speed, last.speed), (0.0, 0.0));
-    let even = profile.iter().filter(|p| p.s > 20.0 && p.s < 4900.0);
-    assert!(even.clone().all(|p| (p.speed - 100.0).abs() < 0.1), "{:?}", even.last());
+    let mut even = profile.iter().filter(|p| p.s > 20.0 && p.s < 4900.0);
+    assert!(even.all(|p| (p.speed - 100.0).abs() < 0.1));
     for place in &profile {
         assert!(place.acceleration < 5000.0 * 1.415 && place.jerk < 5e4 * 1.415, "{place:?}");
     }

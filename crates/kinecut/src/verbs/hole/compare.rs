@@ -265,6 +265,7 @@ fn interpolator(of: Interpolator) -> &'static str {
         Interpolator::Trapezoid => "trapezoid",
         Interpolator::ExactStop => "exact-stop",
         Interpolator::JunctionDeviation => "junction-deviation",
+        Interpolator::LinuxCnc => "linuxcnc",
     }
 }
 

@@ -67,7 +67,7 @@ fn with_dynamics(keys: &str) -> String {
 
 /// All values of control, spindle and tool change.
 const CONTROL: &str = "max_feed = 6000, max_speed = 12000, interpolator = \"junction-deviation\", tolerance = 0.02, \
-                       turn_tolerance = 0.1, junction_deviation = 0.01, tool_change = 4.5, spindle_ramp = 1.5";
+                       turn_tolerance = 0.1, junction_deviation = 0.01, servo_bandwidth = 25, tool_change = 4.5, spindle_ramp = 1.5";
 
 #[test]
 fn every_key_of_control_and_spindle_arrives_in_its_unit() {
@@ -83,6 +83,7 @@ fn every_key_of_control_and_spindle_arrives_in_its_unit() {
         tolerance: Some(0.02),
         turn_tolerance: control.turn_tolerance,
         junction_deviation: Some(0.01),
+        servo_bandwidth: Some(25.0),
         tool_change: Some(4.5),
         spindle_ramp: Some(1.5),
     };

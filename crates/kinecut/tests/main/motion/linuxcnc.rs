@@ -73,7 +73,7 @@ fn farthest_step(written: &Written, machine: &Machine) -> f64 {
         before = Some(now);
         Ok(())
     });
-    let extent = extent.unwrap().unwrap();
+    let (_, extent) = extent.unwrap().unwrap();
     assert_eq!((extent.jumps, extent.left_out), (0, 0));
     let total = written.time(machine).unwrap().total();
     assert!((extent.time - total).abs() < 1e-9, "{} {total}", extent.time);
@@ -124,6 +124,6 @@ fn the_speed_of_a_corner_that_is_passed_is_that_of_its_arc() {
         }
         Ok(())
     });
-    assert_eq!(samples.unwrap().unwrap().jumps, 0);
+    assert_eq!(samples.unwrap().unwrap().1.jumps, 0);
     assert!((slowest - speed).abs() < 0.05 * speed, "{slowest} {speed}");
 }
