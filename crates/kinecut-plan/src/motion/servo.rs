@@ -187,10 +187,13 @@ impl Following {
         for _ in 0..STEPS {
             let rate = cubic[1] + share * (2.0 * cubic[2] + 3.0 * share * cubic[3]);
             let step = (tip - at(share)).dot(rate) / rate.length_squared();
-            if !(step.abs() > SMALL && step.is_finite()) {
+            if !step.is_finite() {
                 break;
             }
             share = (share + step).clamp(0.0, 1.0);
+            if step.abs() < SMALL {
+                break;
+            }
         }
         (tip - at(share)).length()
     }
