@@ -113,9 +113,11 @@ impl Speed {
     /// Calls with place [mm] and `b`, `b'`, `b''` at `count` places of cell `k`, the first and the last beside the knots.
     pub(super) fn in_cell(&self, k: usize, count: usize, beside: f64, mut f: impl FnMut(f64, [f64; 3])) {
         let h = self.knots[k + 1] - self.knots[k];
+        let [b, b1, b2] = self.cell(k, 0.0);
         for i in 0..count {
             let part = (i as f64 / (count - 1) as f64).clamp(beside, 1.0 - beside);
-            f(self.knots[k] + part * h, self.cell(k, part * h));
+            let u = part * h;
+            f(self.knots[k] + u, [b + u * (b1 + 0.5 * u * b2), b1 + u * b2, b2]);
         }
     }
 
