@@ -136,6 +136,12 @@ impl<'a> Follow<'a> {
         let program = self.program;
         let state = program.state(index);
         if self.setup != Some(state.setup) {
+            let count = self.program.setups.len();
+            if state.setup.0 as usize >= count {
+                let what = format!("the item is of setup {}, and the program has {count}", state.setup.0);
+                let finding = Finding::error(Code::NC_STATE, what);
+                return Err(self.at(index, finding.help("add the setup to the program: they count from 0")));
+            }
             // Another clamping: nothing of the old position is valid.
             self.setup = Some(state.setup);
             self.tip = [None; 3];

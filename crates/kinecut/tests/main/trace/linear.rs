@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 
 use glam::{DMat3, DVec3};
+use kinecut::base::Code;
 use kinecut::geom::{Arc, Curve, InvoluteRecord, Line, Rigid};
 use kinecut::machine::{CoordinateCode, Dynamics, Machine};
 use kinecut::program::{
@@ -160,6 +161,16 @@ fn a_feed_move_from_an_unknown_position_is_refused() {
     program.push_move(Move::along(&cut.into()), &state, Origin::default());
     let (machine, tools) = (machine(), [tool()]);
     assert!(trace(&program, &options(&machine, &tools)).is_err());
+}
+
+#[test]
+fn a_program_without_the_setup_of_an_item_is_refused() {
+    let (machine, tools) = (machine(), [tool()]);
+    let mut program = program(true, &[Line { start: DVec3::Z, end: DVec3::X }.into()]);
+    program.setups.clear();
+    let error = trace(&program, &options(&machine, &tools)).unwrap_err();
+    assert_eq!((error.code(), error.0.item), (Code::NC_STATE, Some(0)));
+    assert!(error.0.message.contains("setup 0, and the program has 0"), "{}", error.0.message);
 }
 
 #[test]
