@@ -27,6 +27,15 @@ fn folder(name: &str) -> PathBuf {
 
 const MILLED: [&str; 6] = ["time", "P.nc", "--control", "fanuc", "--machine", "mill.toml"];
 
+/// The rows of a table of a page.
+fn rows_of(page: &str, caption: &str) -> Vec<Vec<String>> {
+    let table = page.split(caption).nth(1).and_then(|rest| rest.split("</table>").next()).unwrap();
+    let rows = table.split("<tbody>").nth(1).unwrap().split("<tr").skip(1);
+    // The first cell of a row is a heading.
+    let cell = |cell: &str| cell.split_once('>').unwrap().1.split("</t").next().unwrap().to_owned();
+    rows.map(|row| row.split("<t").filter(|c| c.starts_with(['d', 'h'])).map(cell).collect()).collect()
+}
+
 fn json(output: &Output) -> Value {
     assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
     serde_json::from_slice(&output.stdout).unwrap()
@@ -142,6 +151,11 @@ fn the_page_has_graphs_of_feed_velocity_acceleration_and_jerk() {
         "Velocity of each axis over its limit",
         "Acceleration of each axis over its limit",
         "Jerk of each axis over its limit",
+        "Acceleration of X, Y and Z together",
+        "Jerk of X, Y and Z together",
+        "over way of the tip [mm]",
+        "at the programmed feed",
+        "at the jerk of an axis",
         "X, of 30000 mm/min",
         "Z, of 50 m/s³",
         "line 9",
@@ -149,6 +163,18 @@ fn the_page_has_graphs_of_feed_velocity_acceleration_and_jerk() {
         assert!(page.contains(said), "{said}");
     }
     assert!(!page.contains("NaN") && !page.contains("inf"));
+    // The time at the limits is all of it; in it rest the axes while the program dwells.
+    let sheet = json(&kinecut(&folder, &[&MILLED[..], &["--json"]].concat()));
+    let rows = rows_of(&page, "Limits that the motion is at");
+    let sum = |column: usize| rows.iter().map(|row| row[column].parse::<f64>().unwrap()).sum::<f64>();
+    assert!((sum(1) - sheet["time"].as_f64().unwrap()).abs() < 1e-3 * rows.len() as f64, "{rows:?}");
+    assert!((sum(2) - sheet["shares"]["rapid"].as_f64().unwrap()).abs() < 2e-3, "{rows:?}");
+    assert!((sum(3) - 100.0).abs() < 0.1 * rows.len() as f64, "{rows:?}");
+    // Down 3 from Z 2, along X and back, 0.5 over, and up: 5 + 60.5 + 23 mm, after 18 down to Z 2.
+    assert!((sum(4) - 106.5).abs() < 0.3, "{rows:?}");
+    let of = |limit: &str| rows.iter().find(|row| row[0].starts_with(limit)).map(|row| row[1].as_str());
+    assert_eq!(of("rest"), Some("0.500"), "{rows:?}");
+    assert!(of("programmed feed").is_some() && of("jerk of X, 50 m/s").is_some(), "{rows:?}");
     // Without a limit of jerk there is nothing to be over.
     std::fs::write(folder.join("mill.toml"), MACHINE.replace(", jerk = 50", "")).unwrap();
     let done = kinecut(&folder, &[&MILLED[..], &["--out", "page", "--samples", "s.csv"]].concat());

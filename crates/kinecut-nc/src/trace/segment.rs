@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use glam::{DMat3, DVec3};
 
+use super::chain::Chain;
 use super::stand::Stand;
 use super::turning::AxisTurning;
 use crate::geom::{Curve, Jet};
@@ -133,6 +134,23 @@ impl Segment {
             Some(turning) => turning.joints(tip, t)?,
         };
         Some([linear.x, linear.y, linear.z, rotary[0], rotary[1], rotary[2]])
+    }
+
+    /// The tip [part coordinates, mm] while the axes X Y Z A B C stand at these positions [mm, rad], on the path or beside it;
+    /// `None` where the tool turns and its machine is not known, or the linear axes are not independent. A segment on which the
+    /// tool does not turn keeps its rotary axes: those of `axes` are not looked at.
+    pub fn tip_at(&self, axes: [f64; 6]) -> Option<DVec3> {
+        let (linear, rotary) = (DVec3::new(axes[0], axes[1], axes[2]), [axes[3], axes[4], axes[5]]);
+        match &self.turning {
+            None => {
+                let (matrix, shift) = self.start_axes.to_linear;
+                Chain::independent(matrix).map(|back| back * (linear - shift))
+            }
+            Some(turning) => {
+                let chain = turning.chain.as_ref()?;
+                Some(turning.to_part.point(chain.pose(linear, rotary).translation))
+            }
+        }
     }
 }
 

@@ -212,7 +212,7 @@ mod tests {
         for (axis, [position, velocity, acceleration, jerk]) in all.iter_mut().zip(axes) {
             *axis = AxisMoment { position, velocity, acceleration, jerk };
         }
-        MotionSample { time, item: 0, feed: 0.0, axes: all }
+        MotionSample { time, item: 0, segment: None, feed: 0.0, axes: all }
     }
 
     #[test]

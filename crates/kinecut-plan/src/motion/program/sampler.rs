@@ -70,8 +70,8 @@ impl<'a> Sampler<'a> {
         let trace = self.trace;
         self.samples(start + duration, |time| {
             let all = motion.at((time - start).max(0.0))?;
-            let item = trace.segments[all.segment].item;
-            Some(MotionSample { time, item, feed: all.feed, axes: all.axes })
+            let (item, segment) = (trace.segments[all.segment].item, Some(all.segment as u32));
+            Some(MotionSample { time, item, segment, feed: all.feed, axes: all.axes })
         })?;
         if let [_, Some(end)] = ends {
             self.item = trace.segments[end.segment].item;
@@ -84,7 +84,7 @@ impl<'a> Sampler<'a> {
         self.item = wait.item;
         let (at, item) = (self.at, wait.item);
         self.samples(self.extent.time + wait.time, |time| {
-            Some(MotionSample { time, item, feed: 0.0, axes: resting(at?) })
+            Some(MotionSample { time, item, segment: None, feed: 0.0, axes: resting(at?) })
         })
     }
 
@@ -127,6 +127,7 @@ impl<'a> Sampler<'a> {
             (self.sink)(&MotionSample {
                 time: self.extent.time,
                 item: self.item,
+                segment: None,
                 feed: 0.0,
                 axes: resting(at),
             })?;

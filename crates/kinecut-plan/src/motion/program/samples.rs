@@ -25,6 +25,8 @@ pub struct MotionSample {
     pub time: f64,
     /// Index of the program item.
     pub item: u32,
+    /// Index of the segment in the trace; none while the axes rest.
+    pub segment: Option<u32>,
     /// Speed of the tip along the programmed path [mm/s]; of linear axes that run for themselves, their speed together.
     pub feed: f64,
     /// The axes.

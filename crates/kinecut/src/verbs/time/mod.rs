@@ -1,8 +1,11 @@
 //! The verb `kinecut time`: the time of a program on its machine, where it is lost, and the motion at a control's cycle.
 
+mod columns;
 mod graphs;
 mod in_order;
+mod limits_met;
 mod moving;
+mod over;
 mod page;
 mod sample_rows;
 mod samples;
@@ -10,6 +13,7 @@ mod shares;
 mod sheet;
 mod slow_block;
 mod timed;
+mod ways;
 
 pub use samples::SamplesWritten;
 pub use shares::TimeShares;

@@ -60,7 +60,7 @@ pub struct TimeSheet {
     pub slowest: Vec<SlowBlock>,
     /// The graphs of the motion, where they are asked for.
     #[serde(skip)]
-    pub graphs: Option<Section>,
+    pub graphs: Vec<Section>,
     /// The samples that were written.
     pub samples: Option<SamplesWritten>,
     /// Findings.
@@ -93,7 +93,7 @@ impl TimeSheet {
             time_terms: terms(&laws, Some(&timed.machine)),
             shares: TimeShares::of(all),
             slowest: SlowBlock::most(all, slowest),
-            graphs: None,
+            graphs: Vec::new(),
             samples: None,
             findings,
             remarks: all.iter().flat_map(|(program, _)| program.remarks.iter().cloned()).collect(),

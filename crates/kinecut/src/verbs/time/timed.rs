@@ -94,7 +94,7 @@ impl Timed {
     /// `KC0009` when it was cancelled.
     pub fn sheet_with_graphs(&self, slowest: usize, progress: &dyn Progress) -> Result<TimeSheet> {
         let sheet = self.sheet(slowest);
-        let graphs = Some(self.graphs(&sheet.slowest, progress)?);
+        let graphs = self.graphs(&sheet.slowest, progress)?;
         Ok(TimeSheet { graphs, ..sheet })
     }
 

@@ -92,6 +92,8 @@ fn consistent(segment: &Segment, machine: &Machine, program: &Program, chord: f6
         let joints = segment.joints(t).unwrap();
         let (tip, axis) = on_machine(machine, program, joints);
         let pose = segment.pose(t * segment.curve.length());
+        let back = segment.tip_at(joints).unwrap();
+        assert!((back - tip).length() < 1e-9, "tip off by {} at {t}", (back - tip).length());
         assert!(
             (tip - pose.tip.p).length() <= 1.02 * chord + 1e-9,
             "tip off by {} at {t}",
