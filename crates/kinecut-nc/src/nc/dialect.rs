@@ -69,6 +69,8 @@ pub(super) struct Dialect {
     pub(super) order: &'static [StateWord],
     /// Blocks for exact stop, continuous path, and before and after the tolerance of a continuous path.
     pub(super) exact_stop: &'static str,
+    /// Word for the exact path; none where the control does not tell it from the exact stop.
+    pub(super) exact_path: Option<&'static str>,
     pub(super) continuous: &'static str,
     pub(super) rounded: Option<[&'static str; 2]>,
     /// Words before G0, after it and after the axes of a move in machine coordinates.
@@ -231,6 +233,7 @@ pub(super) enum Code {
         add: bool,
     },
     ExactStop,
+    ExactPath,
     Continuous,
     Rounded,
     Absolute(bool),
@@ -322,7 +325,8 @@ impl Dialect {
         match wanted {
             // One word for both; a control with a text of its own has neither here.
             _ if self.exact_stop == self.continuous && !self.continuous.is_empty() => Blend::Continuous,
-            Blend::Tolerance { .. } if self.rounded.is_none() => Blend::Stop,
+            Blend::Exact if self.exact_path.is_none() => Blend::Stop,
+            Blend::Tolerance { .. } if self.rounded.is_none() => self.blend(Blend::Exact),
             other => other,
         }
     }
@@ -350,7 +354,7 @@ impl Code {
             Code::LengthOn | Code::LengthOff | Code::TipControl { .. } => 8,
             Code::ReturnToStart(_) => 10,
             Code::Work(_) => 12,
-            Code::ExactStop | Code::Continuous | Code::Rounded => 13,
+            Code::ExactStop | Code::ExactPath | Code::Continuous | Code::Rounded => 13,
             Code::Dwell | Code::MachineFrame | Code::Reference => 20,
             Code::LocalShift | Code::SetData | Code::FrameShift { .. } | Code::FrameTurn { .. } => 20,
             Code::Rotation { .. } | Code::Tilt | Code::TiltByTool => 16,

@@ -86,8 +86,10 @@ impl Spindle {
 /// Transition of the control from one move to the next.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Blend {
-    /// Exact stop.
+    /// A stop at the end of each block.
     Stop,
+    /// The path exactly, with a stop only where it turns or its curvature changes at once.
+    Exact,
     /// Continuous path, the control's own corner rounding.
     Continuous,
     /// Continuous path within a tolerance.

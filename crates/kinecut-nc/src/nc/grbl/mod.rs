@@ -38,6 +38,7 @@ pub(super) const DIALECT: Dialect = Dialect {
     start: &["G17 G21 G40 G49 G80", "G90 G91.1 G94"],
     order: &[StateWord::Blend, StateWord::WorkOffset, StateWord::Spindle, StateWord::Coolant],
     exact_stop: "G61",
+    exact_path: None,
     continuous: "G61",
     rounded: None,
     machine_frame: ["G53 ", "", ""],

@@ -89,6 +89,7 @@ pub(super) const DIALECT: Dialect = Dialect {
     start: &[],
     order: &[StateWord::Blend, StateWord::WorkOffset, StateWord::Spindle, StateWord::Coolant],
     exact_stop: "",
+    exact_path: None,
     continuous: "",
     rounded: Some(["", ""]),
     machine_frame: ["", "", ""],

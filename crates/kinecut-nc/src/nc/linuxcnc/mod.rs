@@ -43,6 +43,7 @@ pub(super) const DIALECT: Dialect = Dialect {
     start: &["G17 G21 G40 G49 G80", "G90 G91.1 G94"],
     order: &[StateWord::Blend, StateWord::WorkOffset, StateWord::Spindle, StateWord::Coolant],
     exact_stop: "G61.1",
+    exact_path: Some("G61"),
     continuous: "G64",
     // Q0: the interpreter does not merge lines, so that what was proven is what runs.
     rounded: Some(["G64 P", " Q0"]),
@@ -82,7 +83,7 @@ pub(super) const DIALECT: Dialect = Dialect {
         (210, Code::Units { inch: false, feeds: true }),
         (430, Code::LengthOn),
         (490, Code::LengthOff),
-        (610, Code::ExactStop),
+        (610, Code::ExactPath),
         (640, Code::Continuous),
         (611, Code::ExactStop),
         (331, Code::SynchronisedTap),

@@ -323,13 +323,14 @@ impl<'s> Reader<'s> {
 
     fn path_mode(&mut self, words: &mut [Word<'s>]) -> Result<()> {
         let unit = self.modal.length_unit;
-        let Some((code, _)) = self.code(|c| matches!(c, Code::ExactStop | Code::Continuous | Code::Rounded))
-        else {
+        let is_mode = |c| matches!(c, Code::ExactStop | Code::ExactPath | Code::Continuous | Code::Rounded);
+        let Some((code, _)) = self.code(is_mode) else {
             return Ok(());
         };
         let tolerance = |path: f64| Blend::Tolerance { path, angle: 0.0 };
         self.modal.blend = match code {
             Code::ExactStop => Blend::Stop,
+            Code::ExactPath => Blend::Exact,
             Code::Rounded => {
                 if let Some(distance) = take(words, "ADIS") {
                     self.modal.rounding = self.not_negative(&distance)? * unit;

@@ -45,6 +45,7 @@ pub(super) const DIALECT: Dialect = Dialect {
     start: &["G17 G40 G90 G94 G710"],
     order: &[StateWord::Blend, StateWord::WorkOffset, StateWord::Spindle, StateWord::Coolant],
     exact_stop: "G60",
+    exact_path: None,
     continuous: "G64",
     rounded: Some(["G641 ADIS=", ""]),
     machine_frame: ["", " SUPA", " D0"],

@@ -100,6 +100,7 @@ impl Writer<'_> {
         self.modal.blend = Some(blend);
         Ok(Some(match blend {
             Blend::Stop => self.dialect.exact_stop.to_owned(),
+            Blend::Exact => self.dialect.exact_path.unwrap_or(self.dialect.exact_stop).to_owned(),
             Blend::Continuous => self.dialect.continuous.to_owned(),
             Blend::Tolerance { path, .. } => {
                 if !(path.is_finite() && path >= 0.0) {

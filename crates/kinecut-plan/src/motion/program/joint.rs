@@ -27,6 +27,11 @@ pub(super) struct Tolerance {
     pub(super) turn: f64,
 }
 
+impl Tolerance {
+    /// The path is not left.
+    pub(super) const NONE: Tolerance = Tolerance { way: 0.0, turn: 0.0 };
+}
+
 /// A joint that is passed without a stop.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Joint {

@@ -10,6 +10,8 @@ type Limits = [Option<AxisLimit>; AXES];
 /// Joint of two moves.
 pub(super) struct Between {
     pub(super) step: Step,
+    /// True for an exact stop.
+    pub(super) stops: bool,
     pub(super) tolerance: Tolerance,
     /// True if an axis turns on the spot there.
     pub(super) on_the_spot: bool,
@@ -51,8 +53,8 @@ pub(super) fn passings(pieces: &[Piece], joints: &[Between], limits: &Limits) ->
 fn passing(pieces: [&Piece; 2], joint: &Between, ways: [f64; 2], limits: &Limits) -> Passing {
     /// Share of the limits that a joint may use up at the feed: the path beside it needs some, too.
     const SHARE: f64 = 0.5;
-    let Between { step, tolerance, on_the_spot } = joint;
-    if *on_the_spot {
+    let Between { step, stops, tolerance, on_the_spot } = joint;
+    if *stops || *on_the_spot {
         return Passing::Stop;
     }
     if step.is_none() {

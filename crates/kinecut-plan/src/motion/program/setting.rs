@@ -63,25 +63,26 @@ impl<'a> Setting<'a> {
         match program.state(i).blend {
             _ if leads || cycle(i) => Ending::Exact,
             Blend::Stop => Ending::Stop,
+            Blend::Exact => Ending::Exact,
             Blend::Continuous => Ending::Within(self.machine.control.tolerance.unwrap_or(0.0)),
             Blend::Tolerance { path, .. } => Ending::Within(path),
         }
     }
 
-    /// Distance by which the control may leave the path at the end of an item; zero for an exact stop.
-    pub(super) fn tolerance(&self, program: &Program, item: u32) -> Tolerance {
+    /// Distance by which the control may leave the path at the end of an item; none for an exact stop.
+    pub(super) fn tolerance(&self, program: &Program, item: u32) -> Option<Tolerance> {
         let control = &self.machine.control;
-        let stop = Tolerance { way: 0.0, turn: 0.0 };
         if control.interpolator == Some(Interpolator::ExactStop) {
-            return stop;
+            return None;
         }
         let way = control.tolerance.unwrap_or(USUAL_TOLERANCE);
         let turn = control.turn_tolerance.unwrap_or(USUAL_TURN_TOLERANCE);
         match program.state(item as usize).blend {
-            Blend::Stop => stop,
-            Blend::Continuous => Tolerance { way, turn },
+            Blend::Stop => None,
+            Blend::Exact => Some(Tolerance::NONE),
+            Blend::Continuous => Some(Tolerance { way, turn }),
             Blend::Tolerance { path, angle } => {
-                Tolerance { way: path, turn: if angle > 0.0 { angle } else { turn } }
+                Some(Tolerance { way: path, turn: if angle > 0.0 { angle } else { turn } })
             }
         }
     }

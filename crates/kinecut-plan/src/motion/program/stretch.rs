@@ -1,6 +1,6 @@
 //! Consecutive moves without a wait between them.
 
-use super::joint::Step;
+use super::joint::{Step, Tolerance};
 use super::junction::Chords;
 use super::leg::{Leg, Task};
 use super::linuxcnc::{Ending, Planned};
@@ -166,13 +166,16 @@ impl Stretch {
         let joints: Vec<Between> = (1..pieces.len())
             .map(|i| {
                 let before = &pieces[i - 1].path;
-                let item = trace.segments[self.segments[places[i - 1]]].item;
+                let [item, next] = [i - 1, i].map(|i| trace.segments[self.segments[places[i]]].item);
+                let tolerance = setting.tolerance(program, item);
                 Between {
                     step: Step::between(
                         &derivatives(before, before.length()),
                         &derivatives(&pieces[i].path, 0.0),
                     ),
-                    tolerance: setting.tolerance(program, item),
+                    // A block of several moves is one way to the control.
+                    stops: tolerance.is_none() && item != next,
+                    tolerance: tolerance.unwrap_or(Tolerance::NONE),
                     on_the_spot: pieces[i - 1].turned[1] || pieces[i].turned[0],
                 }
             })

@@ -91,7 +91,7 @@ pub(crate) fn rework(source: &Program, radii: &[(u32, f64)], from: Control, to: 
 /// The passage between moves that is written for a control where a program asks for another: klartext has no exact stop.
 pub(crate) fn blend_on(to: Control, wanted: Blend) -> Blend {
     match (to, to.blend(wanted)) {
-        (Control::Heidenhain, Blend::Stop) => Blend::Continuous,
+        (Control::Heidenhain, Blend::Stop | Blend::Exact) => Blend::Continuous,
         (_, blend) => blend,
     }
 }

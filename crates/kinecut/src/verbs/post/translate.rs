@@ -202,6 +202,7 @@ fn lost_blends(
         told.push(wanted);
         let name = |blend: crate::program::Blend| match blend {
             crate::program::Blend::Stop => "an exact stop".to_owned(),
+            crate::program::Blend::Exact => "an exact path".to_owned(),
             crate::program::Blend::Continuous => "a continuous path".to_owned(),
             crate::program::Blend::Tolerance { path, .. } => format!("a continuous path within {path} mm"),
         };

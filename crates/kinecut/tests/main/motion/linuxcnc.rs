@@ -82,7 +82,7 @@ fn farthest_step(written: &Written, machine: &Machine) -> f64 {
 
 #[test]
 fn positions_have_no_steps_in_arcs_of_corners_and_in_overlaps() {
-    for blend in [Blend::Stop, Blend::Continuous, Blend::Tolerance { path: 0.02, angle: 0.0 }] {
+    for blend in [Blend::Stop, Blend::Exact, Blend::Continuous, Blend::Tolerance { path: 0.02, angle: 0.0 }] {
         let most = farthest_step(&contour(blend), &machine());
         assert!(most > 0.01 && most <= 1.0, "{blend:?} {most}");
     }

@@ -197,6 +197,29 @@ fn exact_stops_stop_in_every_corner_and_a_tolerance_is_never_slower() {
     assert!(wide.moves < 0.95 * stops.moves, "{} {}", wide.moves, stops.moves);
 }
 
+#[test]
+fn straight_on_an_exact_stop_stops_and_an_exact_path_goes_on() {
+    let ahead = |blend: Blend| {
+        let mut written = Written::at_feed(blend);
+        written.to([30.0, 0.0, 0.0]);
+        written.to([70.0, 0.0, 0.0]);
+        written.time(&machine()).unwrap()
+    };
+    let (stops, goes_on) = (ahead(Blend::Stop), ahead(Blend::Exact));
+    same(stops.moves, straight([30.0, 0.0, 0.0], FEED) + straight([40.0, 0.0, 0.0], FEED));
+    same(goes_on.moves, straight([70.0, 0.0, 0.0], FEED));
+    assert_eq!((stops.smoothing.stops, goes_on.smoothing.stops), (1, 0));
+    // A control that always stops does not ask the program.
+    let mut control = machine();
+    control.control.interpolator = Some(Interpolator::ExactStop);
+    let mut written = Written::at_feed(Blend::Exact);
+    written.to([30.0, 0.0, 0.0]);
+    written.to([70.0, 0.0, 0.0]);
+    same(written.time(&control).unwrap().moves, stops.moves);
+    // A corner stops both.
+    same(square(Blend::Exact).moves, square(Blend::Stop).moves);
+}
+
 /// A circle of 20 mm radius, of facets of 5 degrees.
 pub(super) fn facets(path: f64) -> Written {
     let mut written = Written::new();
@@ -246,6 +269,7 @@ fn half_the_acceleration_and_jerk_never_make_a_program_faster() {
         ("facets, 0.005", facets(0.005)),
         ("facets, 0.05", facets(0.05)),
         ("contour, stops", contour(Blend::Stop)),
+        ("contour, exact path", contour(Blend::Exact)),
         ("contour, usual", contour(Blend::Continuous)),
         ("contour, 0.02", contour(within(0.02))),
         ("contour, 0.2", contour(within(0.2))),

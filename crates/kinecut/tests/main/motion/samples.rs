@@ -97,6 +97,7 @@ fn differences_of_positions_are_the_motion_and_keep_the_limits() {
     for (name, written) in [
         ("facets", facets(0.05)),
         ("contour, stops", contour(Blend::Stop)),
+        ("contour, exact path", contour(Blend::Exact)),
         ("contour, usual", contour(Blend::Continuous)),
         ("contour, 0.2", contour(within(0.2))),
     ] {

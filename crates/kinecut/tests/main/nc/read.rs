@@ -267,6 +267,22 @@ fn an_almost_full_circle_stays_in_place() {
 }
 
 #[test]
+fn exact_stops_and_exact_paths_are_told_apart() {
+    use kinecut::nc::Control;
+    let blend = |word: &str, control: Control| {
+        let reading = read(&format!("G90\n{word}\nG0 X0 Y0 Z5\nG1 X2 F120\nM2\n"), control);
+        let moves =
+            (0..reading.program.items.len()).find(|i| matches!(reading.program.items.get(*i), Item::Move(_)));
+        reading.program.state(moves.unwrap()).blend
+    };
+    assert_eq!(blend("G61", LinuxCnc), Blend::Exact);
+    assert_eq!(blend("G61.1", LinuxCnc), Blend::Stop);
+    assert_eq!(blend("G61", Control::Fanuc), Blend::Stop);
+    assert_eq!(blend("G60", Sinumerik840d), Blend::Stop);
+    assert_eq!(blend("G61", Control::Grbl), Blend::Continuous);
+}
+
+#[test]
 fn states_are_followed() {
     let text = "G17 G21 G90 G94\nT3 M6\nG43 H7\nG55\nS600 M4\nG64 P0.01 Q0.02\nG0 X1 Y2 Z3\n\
         M8\nG1 X2 F120\nG95 G1 X3 F0.2\nG93 X4 F30\nG94 G61 G20 G1 X0 F12\nM9 M5\nG4 P1.5\nM1\nM2\n";
@@ -284,7 +300,7 @@ fn states_are_followed() {
     assert_eq!(state(2).coolant, Coolant::Flood);
     assert_eq!(state(3).speed, Speed::PerRevolution(0.2));
     assert_eq!(state(4).speed, Speed::Duration(2.0));
-    assert_eq!(state(5).blend, Blend::Stop);
+    assert_eq!(state(5).blend, Blend::Exact);
     // The interpreter takes F before G20 of the same block: 12 mm/min.
     assert!(matches!(state(5).speed, Speed::PerMinute(f) if close(f, 0.2)));
     assert_eq!(program.items.get(6), Item::Dwell(1.5));

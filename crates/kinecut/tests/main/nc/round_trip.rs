@@ -165,6 +165,7 @@ fn step() -> impl Strategy<Value = Step> {
         1 => prop_oneof![Just(Coolant::Off), Just(Coolant::Mist), Just(Coolant::Flood)].prop_map(Step::Coolant),
         1 => prop_oneof![
             Just(Blend::Stop),
+            Just(Blend::Exact),
             Just(Blend::Continuous),
             (1u32..500).prop_map(|k| Blend::Tolerance { path: f64::from(k) / 1000.0, angle: 0.0 }),
         ].prop_map(Step::Blend),
@@ -184,7 +185,10 @@ fn carried(step: Step, control: Control) -> Step {
     match step {
         Step::Tool(number, None) if control == Control::Heidenhain => Step::Tool(number, Some(1)),
         Step::Tool(number, _) if control == Control::Grbl => Step::Tool(number, Some(1)),
-        Step::Blend(Blend::Stop) if control == Control::Heidenhain => Step::Blend(Blend::Continuous),
+        Step::Blend(Blend::Stop | Blend::Exact) if control == Control::Heidenhain => {
+            Step::Blend(Blend::Continuous)
+        }
+        Step::Blend(Blend::Exact) if control != Control::LinuxCnc => Step::Blend(Blend::Stop),
         other => other,
     }
 }

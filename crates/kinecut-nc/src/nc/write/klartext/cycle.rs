@@ -24,7 +24,7 @@ impl Writer<'_> {
         let Speed::PerMinute(feed) = state.speed else { return Ok(false) };
         let known = self.place.written[0].is_some() && self.place.written[1].is_some();
         let number = plain(feed * 60.0);
-        let simple = known && state.blend != Blend::Stop && state.comp == Comp::Off;
+        let simple = known && !matches!(state.blend, Blend::Stop | Blend::Exact) && state.comp == Comp::Off;
         let usable = feed.is_finite() && feed > 0.0 && number != "0";
         if !simple || !usable {
             return Ok(false);
@@ -116,7 +116,7 @@ impl Writer<'_> {
     ) -> Result<bool> {
         let known = self.place.written[0].is_some() && self.place.written[1].is_some();
         let (read, [top, low, up], pitch) = self.thread_on_grid(tapping)?;
-        let simple = known && state.blend != Blend::Stop && state.comp == Comp::Off;
+        let simple = known && !matches!(state.blend, Blend::Stop | Blend::Exact) && state.comp == Comp::Off;
         if !simple || low >= top || top > up || !self.same_moves(steps, &Cycle::Tap(read)) {
             return Ok(false);
         }

@@ -77,8 +77,8 @@ impl Writer<'_> {
 
     /// `CYCL DEF 32`; an exact stop is refused where it would matter, in a feed move.
     fn path_tolerance(&mut self, blend: Blend) -> Result<()> {
-        self.modal.pen.stop = blend == Blend::Stop;
-        if blend == Blend::Stop || self.modal.pen.blend == Some(blend) {
+        self.modal.pen.stop = matches!(blend, Blend::Stop | Blend::Exact);
+        if self.modal.pen.stop || self.modal.pen.blend == Some(blend) {
             return Ok(());
         }
         self.modal.pen.blend = Some(blend);
