@@ -328,6 +328,7 @@ impl<'s> Reader<'s> {
             return Ok(());
         };
         let tolerance = |path: f64| Blend::Tolerance { path, angle: 0.0 };
+        self.modal.blend_said = true;
         self.modal.blend = match code {
             Code::ExactStop => Blend::Stop,
             Code::ExactPath => Blend::Exact,

@@ -55,6 +55,8 @@ pub(super) struct Modal {
     /// The compensation was switched, and no move was made since.
     pub(super) comp_turned: Option<Bytes>,
     pub(super) blend: Blend,
+    /// The program has said it, or every control begins so.
+    pub(super) blend_said: bool,
     /// Tolerance of the last rounded path [mm].
     pub(super) rounding: f64,
     pub(super) offset: Option<WorkOffset>,
@@ -104,6 +106,7 @@ impl Modal {
             comp: Comp::Off,
             radius: None,
             comp_turned: None,
+            blend_said: dialect.starts_continuous,
             blend: if dialect.starts_continuous { Blend::Continuous } else { Blend::Stop },
             rounding: 0.0,
             offset: None,

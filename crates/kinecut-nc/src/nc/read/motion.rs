@@ -144,6 +144,11 @@ impl<'s> Reader<'s> {
     /// Speed of a feed move.
     pub(super) fn feed_speed(&mut self) -> Result<Speed> {
         let here = self.here.clone();
+        if !self.modal.blend_said {
+            self.note(
+                "neither G60 nor G64 before the first move at feed: a stop after each block is assumed",
+            );
+        }
         match self.modal.feed.filter(|f| *f > 0.0) {
             Some(feed) => Ok(match self.modal.feed_mode {
                 FeedMode::PerMinute => Speed::PerMinute(feed),

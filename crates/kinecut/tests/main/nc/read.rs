@@ -275,6 +275,12 @@ fn exact_stops_and_exact_paths_are_told_apart() {
             (0..reading.program.items.len()).find(|i| matches!(reading.program.items.get(*i), Item::Move(_)));
         reading.program.state(moves.unwrap()).blend
     };
+    // A control may begin with either: what is assumed is said, and not where the program says it.
+    let notes = |word: &str| {
+        let reading = read(&format!("G90\n{word}\nG0 X0 Y0 Z5\nG1 X2 F120\nX4\nM2\n"), Sinumerik840d);
+        reading.findings.iter().filter(|f| f.message.contains("neither G60 nor G64")).count()
+    };
+    assert_eq!([notes(""), notes("G60"), notes("G64")], [1, 0, 0]);
     assert_eq!(blend("G61", LinuxCnc), Blend::Exact);
     assert_eq!(blend("G61.1", LinuxCnc), Blend::Stop);
     assert_eq!(blend("G61", Control::Fanuc), Blend::Stop);
