@@ -319,6 +319,31 @@ mod tests {
     }
 
     #[test]
+    fn the_method_settles_soon_and_does_not_care_for_the_sides_of_limits() {
+        let limits = [LIMIT; 2];
+        let knots = grid::knots(&Wave, &limits, Start::of(&Wave, &limits), [End::Rest; 2]).unwrap();
+        let places = places(&Wave, &limits, &knots).unwrap();
+        let shape = Shape::new(&knots, Wave.length(), &places, &limits);
+        for n in [1, 2, 3, 4, 5, 6, 7, 8, 9, 300, 301, 302, 303] {
+            let part = shape.part(1000..1000 + n);
+            let problem = |sign: f64| {
+                let mut problem = part.problem(&vec![[1.0; 2]; n], &part.start());
+                let rows = problem.cells.iter_mut().flat_map(|cell| &mut cell.rows).flatten().flatten();
+                rows.for_each(|number| *number *= sign);
+                problem
+            };
+            let [one, other] = [1.0, -1.0].map(|sign| {
+                let problem = problem(sign);
+                solve(&problem, &vec![problem.feasible(0.9); n], 10.0)
+            });
+            assert!(one.steps <= 30 && other.steps <= 30, "{n}: {} and {} steps", one.steps, other.steps);
+            for (a, b) in one.x.iter().zip(&other.x) {
+                assert!((a / b - 1.0).abs() < 1e-9, "{n}: {a} {b}");
+            }
+        }
+    }
+
+    #[test]
     fn windows_together_are_the_run_that_is_solved_as_one() {
         let limits = [LIMIT; 2];
         let knots = grid::knots(&Wave, &limits, Start::of(&Wave, &limits), [End::Rest; 2]).unwrap();

@@ -29,7 +29,7 @@ pub(super) struct Block<const A: usize> {
     is_cell: Lanes,
     /// Square roots of `b` at both ends, by which rows of jerk grow.
     roots: [Lanes; 2],
-    /// What both signs of a row of jerk have in common, `b/(2 r)`, whose tangent stands for the fall of `J b^(-1/2)`.
+    /// Part of each row of jerk that is the same for both signs: the tangent of the fall of `J b^(-1/2)`, over the slack's scale.
     common: [[Lanes; 3]; 2],
     /// One over the slacks.
     inverse: Rows<A>,

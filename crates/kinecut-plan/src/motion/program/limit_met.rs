@@ -19,7 +19,7 @@ impl LimitMet {
     /// Share of a limit from which the motion is at it.
     pub const SHARE: f64 = 0.95;
 
-    /// The limit of which a sample uses the largest share; `feed` is the programmed one [mm/s], infinite where there is none.
+    /// Limit of which a sample uses the largest share. The programmed `feed` [mm/s] is infinite where a move has no feed.
     ///
     /// ```
     /// use kinecut_plan::motion::{AxisBound, AxisLimit, AxisMoment, LimitMet, MotionSample};

@@ -73,7 +73,8 @@ impl Path {
 
     /// Ends a stretch; the next one begins where it ends.
     fn end(&mut self) {
-        let Some(last) = self.tips.last().copied() else { return };
+        // A lone tip is where the stretch before has ended.
+        let Some(last) = self.tips.last().copied().filter(|_| self.tips.len() > 1) else { return };
         let longest = (0..LOOKS.len()).fold(0, |a, b| if self.times[b] > self.times[a] { b } else { a });
         let points = self.tips.iter().map(|tip| [tip.x, tip.y]);
         match self.runs.last_mut() {
@@ -216,5 +217,36 @@ impl Limit {
                 format!("{name} of {}, {}", LETTERS[axis], value.unwrap_or_default())
             }
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_stretch_has_the_look_that_it_has_longest_and_the_next_one_begins_where_it_ends() {
+        let mut path = Path {
+            title: String::new(),
+            cell: 1.0,
+            tips: Vec::new(),
+            way: 0.0,
+            times: [0.0; 6],
+            runs: Vec::new(),
+        };
+        // Stretches up to 1, 2, 3 and 4 mm: at the jerk, twice at the feed, longest at the acceleration.
+        let steps =
+            [(5, 1.0), (5, 1.0), (5, 1.0), (5, 1.0), (1, 1.0), (1, 1.0), (1, 0.4), (4, 0.9), (1, 0.1)];
+        for (i, (look, time)) in steps.into_iter().enumerate() {
+            path.add(DVec3::new(0.5 * i as f64, 0.0, 0.0), look, time);
+        }
+        path.interrupt();
+        let looks: Vec<usize> = path.runs.iter().map(|(look, _)| *look).collect();
+        let ends: Vec<[f64; 2]> =
+            path.runs.iter().map(|(_, run)| [run[0][0], run[run.len() - 1][0]]).collect();
+        assert_eq!(looks, [5, 1, 4]);
+        assert_eq!(ends[..2], [[0.0, 1.0], [1.0, 3.0]]);
+        // The last one is interrupted: its end is a gap.
+        assert!(ends[2][0] == 3.0 && ends[2][1].is_nan(), "{ends:?}");
     }
 }

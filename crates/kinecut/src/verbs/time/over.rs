@@ -38,7 +38,7 @@ impl Over {
         }
     }
 
-    /// Adds a sample at a place, with the programmed feed [mm/s], infinite where there is none.
+    /// Adds a sample at a place. The programmed feed [mm/s] is infinite where a move has no feed.
     pub(super) fn add(&mut self, place: f64, sample: &MotionSample, programmed: f64, limits: &Limits) {
         let column = ((place / self.width) as usize).min(COLUMNS - 1);
         if programmed.is_finite() {
