@@ -144,11 +144,6 @@ impl<'s> Reader<'s> {
     /// Speed of a feed move.
     pub(super) fn feed_speed(&mut self) -> Result<Speed> {
         let here = self.here.clone();
-        if !self.modal.blend_said {
-            self.note(
-                "neither G60 nor G64 before the first move at feed: a stop after each block is assumed",
-            );
-        }
         match self.modal.feed.filter(|f| *f > 0.0) {
             Some(feed) => Ok(match self.modal.feed_mode {
                 FeedMode::PerMinute => Speed::PerMinute(feed),
@@ -187,6 +182,12 @@ impl<'s> Reader<'s> {
         }
         if !self.modal.units_said {
             self.warn(&here, "no unit (inch or mm) before the first move: mm is assumed");
+        }
+        // Cycles stop by themselves.
+        if !self.modal.blend_said && !matches!(speed, Speed::Rapid { .. }) {
+            let what =
+                "neither G60 nor G64 before the first move at feed: a stop after each block is assumed";
+            self.note(what);
         }
         // The length that ended with the control of the tip is missed by a move of Z only.
         let waits = self.modal.rotary_axes.lapsed && end[2].is_none();
