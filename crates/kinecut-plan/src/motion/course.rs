@@ -13,6 +13,11 @@ pub trait Course<const A: usize>: Sync {
     /// Largest rate of the parameter that the programmed feed allows [mm/s].
     fn feed(&self, s: f64) -> f64;
 
+    /// Both at once.
+    fn derivatives_and_feed(&self, s: f64) -> ([[f64; 3]; A], f64) {
+        (self.derivatives(s), self.feed(s))
+    }
+
     /// Places inside at which a derivative or the feed may step, in rising order [mm].
     fn knots(&self) -> &[f64];
 
@@ -54,6 +59,10 @@ impl<const A: usize, C: Course<A>> Course<A> for Stretch<'_, C> {
 
     fn feed(&self, s: f64) -> f64 {
         self.course.feed(self.from + s)
+    }
+
+    fn derivatives_and_feed(&self, s: f64) -> ([[f64; 3]; A], f64) {
+        self.course.derivatives_and_feed(self.from + s)
     }
 
     fn knots(&self) -> &[f64] {

@@ -9,7 +9,7 @@ const GRADE: f64 = 0.045;
 /// The same beyond the way in which the speed can change.
 const FAR_GRADE: f64 = 0.1;
 /// Turn of the path in a cell [rad].
-const TURN: f64 = 0.025;
+const TURN: f64 = 0.018;
 /// Length of the cells at a knot over the way to the nearest knot beside it.
 const FEATURE: f64 = 0.25;
 /// Growth of cells away from a knot.

@@ -1,10 +1,11 @@
 //! The fastest run along a path, from rest to rest, under velocity, acceleration and jerk of each axis.
 
+use super::easing::{eased, with_feed_at_ends};
 use super::reach::{WithoutJerk, without_jerk};
 use super::shape::{Shape, places};
-use super::shares::{CellShares, Shares, of_cells_at_last, of_run};
+use super::shares::{CellShares, Shares, at_rests, of_all, of_cells, of_run};
 use super::start::Start;
-use super::windows::coefficients;
+use super::windows::{Precision, Solution, solution};
 use super::{AxisLimit, Course, End, Speed, grid};
 use crate::base::{Code, Finding, Progress, Result, Silent};
 
@@ -21,7 +22,11 @@ pub struct TimeLaw {
     steps: u32,
 }
 
-/// Times that the grid is made finer where limits are exceeded.
+/// Times that the grid is made finer where a rough solution shows that the shape changes inside of cells.
+const ROUGH_REFINEMENTS: u32 = 3;
+/// Factor of time that such a cell asks for, less 1.
+const ROUGHLY_SLOWED: f64 = 1e-3;
+/// Times that the grid is made finer where limits are still exceeded.
 const REFINEMENTS: u32 = 6;
 /// Factor of time by which a run may be slowed rather than solved on a finer grid, less 1.
 const SLOWED: f64 = 1e-4;
@@ -56,33 +61,40 @@ impl Gridded {
         Ok(Gridded { length, way: start.way, ends, knots })
     }
 
-    /// The fastest speed on these knots, and the steps of the solver.
+    /// The fastest run on these knots, from an earlier one on them where there is one.
     fn solved<const A: usize, C: Course<A>>(
         &self,
         course: &C,
         limits: &[AxisLimit; A],
+        precision: Precision,
+        before: Option<Solution>,
         progress: &dyn Progress,
-    ) -> Result<(Speed, u32)> {
+    ) -> Result<(Solution, Speed)> {
         let places = places(course, limits, &self.knots)?;
         let shape = Shape::new(&self.knots, self.length, &places, limits);
-        let (coefficients, steps) = coefficients(course, limits, &shape, progress)?;
-        Ok((Speed::new([0.0, self.length], &self.knots, &coefficients), steps))
+        let solution = solution(course, limits, &shape, precision, before, progress)?;
+        let speed = Speed::new([0.0, self.length], &self.knots, &solution.coefficients);
+        Ok((solution, speed))
     }
 
-    /// Halves the cells in which a limit is exceeded between the knots: the shape changes inside of them. False where no cell
-    /// is.
-    fn refined(&mut self, found: &[CellShares]) -> bool {
+    /// Halves the cells that ask for a factor of time of more than 1 + `most`: the shape changes inside of them. The solution
+    /// on the new cells, and whether there are any.
+    fn refined(&mut self, solution: Solution, found: &[CellShares], most: f64) -> (Solution, bool) {
+        let halved: Vec<bool> = found.iter().map(|cell| cell.all.dilation() > 1.0 + most).collect();
+        if !halved.contains(&true) {
+            return (solution, false);
+        }
+        let solution = solution.on_halved(&self.knots, &halved);
         let mut knots = Vec::with_capacity(self.knots.len());
-        for (pair, cell) in self.knots.windows(2).zip(found) {
+        for (pair, is_halved) in self.knots.windows(2).zip(halved) {
             knots.push(pair[0]);
-            if cell.all.dilation() > 1.0 + SLOWED {
+            if is_halved {
                 knots.push(0.5 * (pair[0] + pair[1]));
             }
         }
         knots.extend(self.knots.last());
-        let is_finer = knots.len() > self.knots.len();
         self.knots = knots;
-        is_finer
+        (solution, true)
     }
 
     fn without_jerk<const A: usize, C: Course<A>>(
@@ -154,17 +166,33 @@ impl TimeLaw {
         progress: &dyn Progress,
     ) -> Result<TimeLaw> {
         let mut grid = Gridded::new(course, limits, ends)?;
-        let (mut speed, mut steps) = grid.solved(course, limits, progress)?;
-        for _ in 0..REFINEMENTS {
-            if !grid.refined(&of_cells_at_last(course, limits, &speed)) {
+        let mut steps = 0;
+        let mut before = None;
+        for _ in 0..ROUGH_REFINEMENTS {
+            let (solution, speed) = grid.solved(course, limits, Precision::Rough, before, progress)?;
+            steps += solution.steps;
+            let found = of_cells(course, limits, &speed, 0..speed.cells());
+            let (solution, is_finer) = grid.refined(solution, &found, ROUGHLY_SLOWED);
+            before = Some(solution);
+            if !is_finer {
                 break;
             }
-            let (finer, more) = grid.solved(course, limits, progress)?;
-            speed = finer;
-            steps += more;
         }
+        let mut left = REFINEMENTS;
+        let (mut speed, cells) = loop {
+            let (solution, speed) = grid.solved(course, limits, Precision::Settled, before, progress)?;
+            steps += solution.steps;
+            let speed = with_feed_at_ends(course, limits, speed, ends);
+            let (speed, found) = eased(course, limits, speed, ends);
+            let (solution, is_finer) = grid.refined(solution, &found, SLOWED);
+            if left == 0 || !is_finer {
+                break (speed, found);
+            }
+            left -= 1;
+            before = Some(solution);
+        };
         let without_jerk = grid.without_jerk(course, limits)?.duration();
-        let mut dilation = of_run(course, limits, &speed).dilation();
+        let mut dilation = at_rests(course, limits, &speed).max(of_all(&cells)).dilation();
         let mut at_ends = 1.0;
         if dilation > 1.0 && dilation.is_finite() {
             // Ends that are no rests keep their speed; in the rest of the limits that is left there it goes over.

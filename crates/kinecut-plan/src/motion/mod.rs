@@ -7,6 +7,7 @@
 
 mod axis_limit;
 mod course;
+mod easing;
 mod end;
 mod feed_parts;
 mod grid;
@@ -23,6 +24,8 @@ mod speed;
 mod spline;
 mod start;
 mod station;
+#[cfg(test)]
+mod test_courses;
 mod windows;
 
 pub use axis_limit::AxisLimit;
@@ -32,7 +35,7 @@ pub use feed_parts::{FeedPart, feed_parts, lowered};
 pub use law::TimeLaw;
 pub use program::{
     AxisBound, AxisMoment, Changes, Facets, FeedBeyond, LimitMet, MotionSample, ProgramTime, SampledMotion,
-    Smoothing, axis_limits, facets, feeds_beyond, program_samples, program_time, sample_count,
+    SmoothedJoint, Smoothing, axis_limits, facets, feeds_beyond, program_samples, program_time, sample_count,
 };
 pub use reach::WithoutJerk;
 pub use s_curve::{Moment, SCurve};

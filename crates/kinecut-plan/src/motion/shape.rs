@@ -45,8 +45,7 @@ pub(super) fn places<const A: usize, C: Course<A>>(
     knots: &[f64],
 ) -> Result<Vec<[Place<A>; 2]>> {
     let place = |s: f64| {
-        let jets = course.derivatives(s);
-        let feed = course.feed(s);
+        let (jets, feed) = course.derivatives_and_feed(s);
         let mut cap = feed * feed;
         for (q, limit) in jets.iter().zip(limits) {
             let most = limit.velocity / q[0].abs();

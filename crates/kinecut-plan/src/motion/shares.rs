@@ -36,8 +36,9 @@ impl Shares {
         [b, b1, b2]: [f64; 3],
     ) -> Shares {
         let root = b.sqrt();
-        let mut worst = Shares { velocity: root / course.feed(s), ..Shares::default() };
-        for (q, limit) in course.derivatives(s).iter().zip(limits) {
+        let (jets, feed) = course.derivatives_and_feed(s);
+        let mut worst = Shares { velocity: root / feed, ..Shares::default() };
+        for (q, limit) in jets.iter().zip(limits) {
             let own = Shares {
                 velocity: (q[0] * root / limit.velocity).abs(),
                 acceleration: ((q[1] * b + 0.5 * q[0] * b1) / limit.acceleration).abs(),
@@ -86,23 +87,24 @@ pub(super) fn of_cells<const A: usize, C: Course<A>>(
     speed: &Speed,
     cells: Range<usize>,
 ) -> Vec<CellShares> {
-    at_places(course, limits, speed, cells, PLACES)
+    at_places(course, limits, speed, cells.into_par_iter(), PLACES)
 }
 
-/// The same at the places of the last look, of all cells.
+/// The same at the places of the last look.
 pub(super) fn of_cells_at_last<const A: usize, C: Course<A>>(
     course: &C,
     limits: &[AxisLimit; A],
     speed: &Speed,
+    cells: impl IndexedParallelIterator<Item = usize>,
 ) -> Vec<CellShares> {
-    at_places(course, limits, speed, 0..speed.knots().len() - 1, LAST_PLACES)
+    at_places(course, limits, speed, cells, LAST_PLACES)
 }
 
 fn at_places<const A: usize, C: Course<A>>(
     course: &C,
     limits: &[AxisLimit; A],
     speed: &Speed,
-    cells: Range<usize>,
+    cells: impl IndexedParallelIterator<Item = usize>,
     places: usize,
 ) -> Vec<CellShares> {
     let of_cell = |k: usize| {
@@ -118,7 +120,23 @@ fn at_places<const A: usize, C: Course<A>>(
         });
         found
     };
-    cells.into_par_iter().with_min_len(TOGETHER).map(of_cell).collect()
+    cells.with_min_len(TOGETHER).map(of_cell).collect()
+}
+
+/// Largest shares of these cells.
+pub(super) fn of_all(cells: &[CellShares]) -> Shares {
+    cells.iter().fold(Shares::default(), |worst, cell| worst.max(cell.all))
+}
+
+/// Largest shares in the cells at rest.
+pub(super) fn at_rests<const A: usize, C: Course<A>>(
+    course: &C,
+    limits: &[AxisLimit; A],
+    speed: &Speed,
+) -> Shares {
+    let mut worst = Shares::default();
+    speed.at_rest(PLACES_AT_REST, |s, b| worst = worst.max(Shares::at(course, limits, s, b)));
+    worst
 }
 
 /// Largest shares of a whole run.
@@ -127,8 +145,6 @@ pub(super) fn of_run<const A: usize, C: Course<A>>(
     limits: &[AxisLimit; A],
     speed: &Speed,
 ) -> Shares {
-    let cells = of_cells_at_last(course, limits, speed);
-    let mut worst = cells.into_iter().fold(Shares::default(), |worst, cell| worst.max(cell.all));
-    speed.at_rest(PLACES_AT_REST, |s, b| worst = worst.max(Shares::at(course, limits, s, b)));
-    worst
+    let cells = of_cells_at_last(course, limits, speed, (0..speed.cells()).into_par_iter());
+    at_rests(course, limits, speed).max(of_all(&cells))
 }

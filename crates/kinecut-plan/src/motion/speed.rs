@@ -56,6 +56,18 @@ impl Speed {
         Speed::new(self.stops, &self.knots, &coefficients)
     }
 
+    /// The same way with the time of each cell about this many times as long.
+    pub(super) fn slower_by(&self, factors: &[f64]) -> Speed {
+        let n = self.cells();
+        let mut coefficients = self.coefficients.clone();
+        for (i, c) in coefficients.iter_mut().enumerate() {
+            // A coefficient counts most in the middle of its cell; those at the ends follow their neighbours.
+            let factor = factors[i.clamp(1, n) - 1];
+            *c /= factor * factor;
+        }
+        Speed::new(self.stops, &self.knots, &coefficients)
+    }
+
     /// The same way in this many times the time, but for the last `way` [mm] to ends that are no rests: there it goes over into
     /// the speed that it has.
     pub(super) fn slower_inside(&self, factor: f64, ends: [End; 2], way: f64) -> Speed {

@@ -12,6 +12,7 @@ use rayon::prelude::*;
 use super::interior::solve;
 use super::shape::Shape;
 use super::shares::{CellShares, of_cells};
+use super::spline::lengths;
 use super::start::way_to_speed;
 use super::{AxisLimit, Course, Speed};
 use crate::base::{Code, Finding, Progress, Result};
@@ -30,8 +31,12 @@ const AGREED: f64 = 1e-5;
 const ROUNDS: u32 = 4;
 /// Rounds after which the cells beside such a cell get its share, too.
 const ALONE: u32 = 2;
-/// Excess that is left as it is.
-const EXCESS: f64 = 5e-5;
+/// Excess that is left as it is: what is left is eased.
+const EXCESS: f64 = 1e-3;
+/// Gap between time and its bound, over the time, of a solution that is final.
+const SETTLED: f64 = 1e-7;
+/// The same of one that shows where the grid is too coarse.
+const ROUGH: f64 = 1e-3;
 /// Excess above which a cell gets a smaller share once one is too large.
 const ROUNDING: f64 = 1e-7;
 
@@ -43,56 +48,123 @@ struct Window {
     cells: Range<usize>,
     /// One a cell.
     coefficients: Vec<f64>,
+    /// Gap between time and its bound, over the time; infinite where its cells or their shares are others now.
+    gap: f64,
 }
 
-/// Coefficients of the fastest run over all cells, those at the ends included; second: steps of the solver.
+/// Precision of a solution.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum Precision {
+    /// It shows where the grid is too coarse.
+    Rough,
+    /// It is final.
+    Settled,
+}
+
+/// The fastest run over all cells.
+pub(super) struct Solution {
+    windows: Vec<Window>,
+    /// Share of acceleration and jerk that each cell may use.
+    share: Vec<[f64; 2]>,
+    /// Coefficients of all cells, those at the ends included.
+    pub(super) coefficients: Vec<f64>,
+    /// Steps of the solver.
+    pub(super) steps: u32,
+}
+
+/// The fastest run over all cells, from an earlier solution on these cells where there is one.
 ///
-/// A cell that exceeds a limit between its knots gets a smaller share of it, and the windows with such cells are solved
-/// again: shares are those of the cells, not of the windows, so that neighbours are asked the same.
+/// In a final solution a cell that exceeds a limit between its knots gets a smaller share of it, and the windows with such
+/// cells are solved again: shares are those of the cells, not of the windows, so that neighbours are asked the same.
 ///
 /// # Errors
 /// `KC0009` when it was cancelled.
-pub(super) fn coefficients<const A: usize, C: Course<A>>(
+pub(super) fn solution<const A: usize, C: Course<A>>(
     course: &C,
     limits: &[AxisLimit; A],
     shape: &Shape<A>,
+    precision: Precision,
+    before: Option<Solution>,
     progress: &dyn Progress,
-) -> Result<(Vec<f64>, u32)> {
+) -> Result<Solution> {
     let n = shape.len();
     let start = shape.start();
-    let parts = n.div_ceil(CELLS + CELLS / 2).max(1);
-    let seams: Vec<usize> = (1..parts).map(|i| i * n / parts).collect();
-    let bounds: Vec<usize> = [&[0][..], &seams, &[n]].concat();
     let reach = Reach::new(shape, limits, &start);
-    let solver = Solver { shape, reach, steps: AtomicU32::new(0), progress };
-    let mut share = vec![[1.0; 2]; n];
-    let ranges = bounds.par_windows(2).with_max_len(1);
-    let windows: Result<Vec<Window>> = ranges.map(|b| solver.first(b[0]..b[1], &share)).collect();
-    let mut windows = windows?;
+    let solver = Solver { shape, reach, precision, steps: AtomicU32::new(0), progress };
+    let (mut windows, mut share) = match before {
+        Some(before) => (before.windows, before.share),
+        None => (solver.unsolved(), vec![[1.0; 2]; n]),
+    };
     let folds = shape.folds();
     let mut round = 0;
     loop {
-        let joined = solver.joined(windows, &share)?;
+        let solved: Result<Vec<Window>> =
+            windows.into_par_iter().with_max_len(1).map(|window| solver.settled(window, &share)).collect();
+        let joined = solver.joined(solved?, &share)?;
         let all = together(&joined, n);
-        let all = [&[folds[0] * all[0]][..], &all, &[folds[1] * all[n - 1]]].concat();
-        if round + 1 < ROUNDS {
-            let speed = Speed::new(shape.stops, shape.knots, &all);
+        let coefficients = [&[folds[0] * all[0]][..], &all, &[folds[1] * all[n - 1]]].concat();
+        windows = joined.into_iter().map(|(window, _)| window).collect();
+        if precision == Precision::Settled && round + 1 < ROUNDS {
+            let speed = Speed::new(shape.stops, shape.knots, &coefficients);
             let lowered = lower(&mut share, &of_cells(course, limits, &speed, 0..n), round);
             if !lowered.is_empty() {
-                let again = |(window, _): (Window, usize)| match lowered
-                    .get(lowered.partition_point(|k| *k < window.cells.start))
-                {
-                    Some(k) if window.cells.contains(k) => solver.again(window, &share),
-                    _ => Ok(window),
-                };
-                let solved: Result<Vec<Window>> = joined.into_par_iter().with_max_len(1).map(again).collect();
-                windows = solved?;
+                for window in &mut windows {
+                    let next = lowered.get(lowered.partition_point(|k| *k < window.cells.start));
+                    if next.is_some_and(|k| window.cells.contains(k)) {
+                        window.gap = f64::INFINITY;
+                    }
+                }
                 round += 1;
                 continue;
             }
         }
-        return Ok((all, solver.steps.into_inner()));
+        return Ok(Solution { windows, share, coefficients, steps: solver.steps.into_inner() });
     }
+}
+
+impl Solution {
+    /// The same on a grid of which some cells are halved; `knots` are those before.
+    pub(super) fn on_halved(self, knots: &[f64], halved: &[bool]) -> Solution {
+        let mut places = Vec::with_capacity(halved.len() + 1);
+        let mut place = 0;
+        for is_halved in halved {
+            places.push(place);
+            place += 1 + usize::from(*is_halved);
+        }
+        places.push(place);
+        let on = |range: Range<usize>| places[range.start]..places[range.end];
+        let window = |window: Window| {
+            let cells = window.cells.clone();
+            // Beside its cells it is at rest.
+            let beside = cells.start.saturating_sub(1)..(cells.end + 1).min(halved.len());
+            let changed = halved[beside].contains(&true);
+            let part = &knots[cells.start..=cells.end];
+            let coefficients = inserted(part, &halved[cells.clone()], &window.coefficients);
+            let gap = if changed { f64::INFINITY } else { window.gap };
+            Window { own: on(window.own), cells: on(cells), coefficients, gap }
+        };
+        let share =
+            self.share.iter().zip(halved).flat_map(|(s, h)| std::iter::repeat_n(*s, 1 + usize::from(*h)));
+        Solution { share: share.collect(), windows: self.windows.into_iter().map(window).collect(), ..self }
+    }
+}
+
+/// Coefficients of the same speed where these cells are halved, after Boehm; it is even beyond both ends.
+fn inserted(knots: &[f64], halved: &[bool], coefficients: &[f64]) -> Vec<f64> {
+    let n = halved.len();
+    let mut all = Vec::with_capacity(n);
+    for (k, own) in coefficients.iter().enumerate() {
+        if !halved[k] {
+            all.push(*own);
+            continue;
+        }
+        let [before, h, after] = lengths(knots, k);
+        let last = coefficients[k.saturating_sub(1)];
+        let next = coefficients[(k + 1).min(n - 1)];
+        all.push(last + (before + 0.5 * h) / (before + h) * (own - last));
+        all.push(own + 0.5 * h / (h + after) * (next - own));
+    }
+    all
 }
 
 /// Lowers the shares of cells that exceed a limit, if one does by too much; the cells whose share is another one, in order.
@@ -164,53 +236,77 @@ fn agree(a: &Window, b: &Window) -> (usize, f64) {
 struct Solver<'a, const A: usize> {
     shape: &'a Shape<'a, A>,
     reach: Reach,
+    precision: Precision,
     /// Steps so far.
     steps: AtomicU32,
     progress: &'a dyn Progress,
 }
 
 impl<const A: usize> Solver<'_, A> {
-    /// A window that answers for these cells, from the start of the whole.
-    fn first(&self, own: Range<usize>, share: &[[f64; 2]]) -> Result<Window> {
-        /// Distance from the nearest limit at which a solution starts, and the gap between time and bound to start from.
-        const START: [f64; 2] = [0.9, 10.0];
+    /// Windows over all cells.
+    fn unsolved(&self) -> Vec<Window> {
+        let n = self.shape.len();
+        let parts = n.div_ceil(CELLS + CELLS / 2).max(1);
+        (0..parts).map(|i| self.window(i * n / parts..(i + 1) * n / parts)).collect()
+    }
+
+    /// A window that answers for these cells, at the start of the whole.
+    fn window(&self, own: Range<usize>) -> Window {
         let cells = self.reach.around(own.clone());
-        let coefficients = self.shape.part(cells.clone()).start();
-        self.solve(Window { own, cells, coefficients }, share, START)
+        Window { own, cells, coefficients: Vec::new(), gap: f64::INFINITY }
     }
 
-    /// A window with other shares, from where it is.
-    fn again(&self, window: Window, share: &[[f64; 2]]) -> Result<Window> {
-        const START: [f64; 2] = [0.99, 1e-2];
-        self.solve(window, share, START)
-    }
-
-    /// The fastest run over the cells of a window from rest to rest.
-    fn solve(&self, mut window: Window, share: &[[f64; 2]], [room, gap]: [f64; 2]) -> Result<Window> {
+    /// The fastest run over the cells of a window from rest to rest, from where it is.
+    fn settled(&self, mut window: Window, share: &[[f64; 2]]) -> Result<Window> {
+        /// Distance from the nearest limit at which a solution starts, and the gap between time and bound to start from: of
+        /// the start of the whole, and of a solution.
+        const START: [[f64; 2]; 2] = [[0.9, 10.0], [0.99, 1e-2]];
+        let settled = match self.precision {
+            Precision::Rough => ROUGH,
+            Precision::Settled => SETTLED,
+        };
+        if window.gap <= settled {
+            return Ok(window);
+        }
         if self.progress.cancelled() {
             return Err(Finding::error(Code::CANCELLED, "the run was cancelled").into());
         }
         let part = self.shape.part(window.cells.clone());
+        let is_new = window.coefficients.is_empty();
+        if is_new {
+            window.coefficients = part.start();
+        }
+        let [room, gap] = START[usize::from(!is_new)];
         let problem = part.problem(&share[window.cells.clone()], &window.coefficients);
-        let solved = solve(&problem, &vec![problem.feasible(room); part.len()], gap);
+        let solved = solve(&problem, &vec![problem.feasible(room); part.len()], [gap, settled]);
         self.steps.fetch_add(solved.steps, Ordering::Relaxed);
         for (c, x) in window.coefficients.iter_mut().zip(&solved.x) {
             *c *= x;
         }
+        window.gap = settled;
         Ok(window)
+    }
+
+    /// Largest difference at which two windows agree.
+    fn agreed(&self) -> f64 {
+        match self.precision {
+            Precision::Rough => f64::INFINITY,
+            Precision::Settled => AGREED,
+        }
     }
 
     /// The windows with the joint of each with the one before. Where two do not agree, one about their seam goes between them;
     /// where that does not agree with both, the two are solved as one.
     fn joined(&self, windows: Vec<Window>, share: &[[f64; 2]]) -> Result<Vec<(Window, usize)>> {
+        let agreed = self.agreed();
         let between = |pair: &[Window]| -> Result<Option<Window>> {
-            if agree(&pair[0], &pair[1]).1 <= AGREED {
+            if agree(&pair[0], &pair[1]).1 <= agreed {
                 return Ok(None);
             }
             let seam = pair[1].own.start;
             let own = seam.saturating_sub(CELLS / 2).max(pair[0].own.start)
                 ..(seam + CELLS / 2).min(pair[1].own.end);
-            self.first(own, share).map(Some)
+            self.settled(self.window(own), share).map(Some)
         };
         let seams: Result<Vec<Option<Window>>> =
             windows.par_windows(2).with_max_len(1).map(between).collect();
@@ -222,7 +318,7 @@ impl<const A: usize> Solver<'_, A> {
                 && let Some((last, before)) = joined.last_mut()
             {
                 let [(from, off), (to, off_too)] = [agree(last, &seam), agree(&seam, &window)];
-                if off.max(off_too) <= AGREED && *before + FADE < from && from + FADE < to {
+                if off.max(off_too) <= agreed && *before + FADE < from && from + FADE < to {
                     last.own.end = from;
                     window.own.start = to;
                     joined.push((Window { own: from..to, ..seam }, from));
@@ -231,13 +327,13 @@ impl<const A: usize> Solver<'_, A> {
             let joint = loop {
                 let Some((last, before)) = joined.last() else { break 0 };
                 let (joint, off) = agree(last, &window);
-                let agrees = off <= AGREED && *before + FADE < joint;
+                let agrees = off <= agreed && *before + FADE < joint;
                 if agrees || window.own.end - last.own.start > MOST_CELLS {
                     break joint;
                 }
                 let both = last.own.start..window.own.end;
                 joined.pop();
-                window = self.first(both, share)?;
+                window = self.settled(self.window(both), share)?;
             };
             joined.push((window, joint));
         }
@@ -277,46 +373,12 @@ impl Reach {
 
 #[cfg(test)]
 mod tests {
-    use std::f64::consts::TAU;
-
     use super::super::shape::places;
     use super::super::start::Start;
+    use super::super::test_courses::{LIMIT, Wave};
     use super::super::{End, grid};
     use super::*;
     use crate::base::Silent;
-
-    const LIMIT: AxisLimit = AxisLimit { velocity: 500.0, acceleration: 5000.0, jerk: 50_000.0 };
-
-    /// A path whose heading goes to and fro by 2 rad in 160 mm, no wave like the one before.
-    struct Wave;
-
-    impl Course<2> for Wave {
-        fn length(&self) -> f64 {
-            1300.0
-        }
-
-        fn derivatives(&self, s: f64) -> [[f64; 3]; 2] {
-            let w = TAU / 160.0;
-            let (sine, cosine) = (w * s).sin_cos();
-            let swell = 1.0 + 0.3 * (0.1 * w * s).sin();
-            let [angle, bend, slope] =
-                [2.0 * swell * sine, 2.0 * swell * w * cosine, -2.0 * swell * w * w * sine];
-            let (y, x) = angle.sin_cos();
-            [[x, -bend * y, -slope * y - bend * bend * x], [y, bend * x, slope * x - bend * bend * y]]
-        }
-
-        fn feed(&self, _: f64) -> f64 {
-            300.0
-        }
-
-        fn knots(&self) -> &[f64] {
-            &[]
-        }
-
-        fn finest(&self, _: f64) -> f64 {
-            0.2
-        }
-    }
 
     #[test]
     fn the_method_settles_soon_and_does_not_care_for_the_sides_of_limits() {
@@ -334,7 +396,7 @@ mod tests {
             };
             let [one, other] = [1.0, -1.0].map(|sign| {
                 let problem = problem(sign);
-                solve(&problem, &vec![problem.feasible(0.9); n], 10.0)
+                solve(&problem, &vec![problem.feasible(0.9); n], [10.0, SETTLED])
             });
             assert!(one.steps <= 30 && other.steps <= 30, "{n}: {} and {} steps", one.steps, other.steps);
             for (a, b) in one.x.iter().zip(&other.x) {
@@ -357,16 +419,52 @@ mod tests {
             Speed::new(shape.stops, shape.knots, &all).duration()
         };
         let reach = Reach::new(&shape, &limits, &shape.start());
-        let solver = Solver { shape: &shape, reach, steps: AtomicU32::new(0), progress: &Silent };
+        let precision = Precision::Settled;
+        let solver = Solver { shape: &shape, reach, precision, steps: AtomicU32::new(0), progress: &Silent };
         let share = vec![[1.0; 2]; n];
-        let one = whole(solver.first(0..n, &share).unwrap().coefficients);
+        let one = whole(solver.settled(solver.window(0..n), &share).unwrap().coefficients);
         let seams = [0, n / 3, 2 * n / 3, n];
-        let windows = seams.windows(2).map(|b| solver.first(b[0]..b[1], &share).unwrap()).collect();
+        let windows =
+            seams.windows(2).map(|b| solver.settled(solver.window(b[0]..b[1]), &share).unwrap()).collect();
         let joined = solver.joined(windows, &share).unwrap();
         for pair in joined.windows(2) {
             assert!(agree(&pair[0].0, &pair[1].0).1 <= AGREED);
         }
         let several = whole(together(&joined, n));
         assert!((several / one - 1.0).abs() < 1e-7, "{several} {one}");
+    }
+
+    #[test]
+    fn on_halved_cells_a_solution_is_the_same_speed() {
+        let limits = [LIMIT; 2];
+        let mut knots = grid::knots(&Wave, &limits, Start::of(&Wave, &limits), [End::Rest; 2]).unwrap();
+        knots.truncate(400);
+        let places = places(&Wave, &limits, &knots).unwrap();
+        let length = knots[399] + 0.1;
+        let shape = Shape::new(&knots, length, &places, &limits);
+        let n = shape.len();
+        let solution = solution(&Wave, &limits, &shape, Precision::Settled, None, &Silent).unwrap();
+        let speed = Speed::new(shape.stops, &knots, &solution.coefficients);
+        let halved: Vec<bool> = (0..n).map(|k| (2..n - 2).contains(&k) && k % 3 == 0 || k == 100).collect();
+        let finer = solution.on_halved(&knots, &halved);
+        let mut all = Vec::new();
+        for (pair, is_halved) in knots.windows(2).zip(&halved) {
+            all.push(pair[0]);
+            all.extend(is_halved.then_some(0.5 * (pair[0] + pair[1])));
+        }
+        all.push(knots[n]);
+        assert_eq!(finer.share.len(), all.len() - 1);
+        let [window] = &finer.windows[..] else { panic!("{} windows", finer.windows.len()) };
+        assert_eq!((window.cells.clone(), window.gap), (0..all.len() - 1, f64::INFINITY));
+        let folds = shape.folds();
+        let own = &window.coefficients;
+        let coefficients = [&[folds[0] * own[0]][..], own, &[folds[1] * own[own.len() - 1]]].concat();
+        let same = Speed::new(shape.stops, &all, &coefficients);
+        for i in 0..=1000 {
+            let s = knots[3] + (knots[n - 3] - knots[3]) * f64::from(i) / 1000.0;
+            for (a, b) in speed.square(s).iter().zip(same.square(s)).take(2) {
+                assert!((a - b).abs() < 1e-9 * (a.abs() + 1.0), "{s}: {a} {b}");
+            }
+        }
     }
 }

@@ -50,7 +50,7 @@ fn of_laws(laws: &[&ProgramTime]) -> String {
     let counted = |count: usize, what: &str| format!("{count} {what}{}", if count == 1 { "" } else { "s" });
     let smoothed = sum(|time| time.smoothing.smoothed);
     if smoothed > 0 {
-        let farthest = laws.iter().map(|time| time.smoothing.farthest).fold(0.0, f64::max);
+        let farthest = laws.iter().map(|time| time.smoothing.most_off()).fold(0.0, f64::max);
         // Rounded up: never kinder than it is.
         let off = page::fixed((farthest * 1e3).ceil() / 1e3, 3);
         terms += &format!("; {} smoothed, up to {off} mm off the path", counted(smoothed, "joint"));

@@ -110,7 +110,7 @@ pub(super) fn run(chain: &Chain, terms: &Terms, feed: f64) -> Result<(Run, Vec<P
         without_jerk: time.total_without_jerk(),
         stops: time.smoothing.stops,
         smoothed: time.smoothing.smoothed,
-        farthest: time.smoothing.farthest,
+        farthest: time.smoothing.most_off(),
         servo,
     };
     Ok((run, profile.places()))

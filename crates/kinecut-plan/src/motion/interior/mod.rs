@@ -49,8 +49,6 @@ pub(super) struct Solved {
     pub(super) steps: u32,
 }
 
-/// Gap between time and its bound at which steps end, over the time.
-const SETTLED: f64 = 1e-7;
 /// Most steps.
 const MOST_STEPS: u32 = 150;
 /// Share of the way to the nearest limit that a step takes.
@@ -61,14 +59,16 @@ fn within(share: f64) -> f64 {
     if share > SHORT_OF_LIMIT { SHORT_OF_LIMIT / share } else { 1.0 }
 }
 
-/// Minimises the time from strictly feasible unknowns `x`, from a gap between time and bound over the time.
-pub(super) fn solve<const A: usize>(problem: &Problem<A>, x: &[f64], gap: f64) -> Solved {
+/// Minimises the time from strictly feasible unknowns `x`; `gaps`: those between time and its bound, over the time, to start
+/// from and to end at.
+pub(super) fn solve<const A: usize>(problem: &Problem<A>, x: &[f64], [gap, settled]: [f64; 2]) -> Solved {
     let mut method = Method::new(problem, x, gap);
     let arch = Arch::new();
     let mut steps = 0;
     let mut price_along = 0.0;
     while steps < MOST_STEPS {
-        let Some(mean) = arch.dispatch(Look(&mut method, price_along)).filter(|_| method.matrix.factor())
+        let Some(mean) =
+            arch.dispatch(Look(&mut method, price_along, settled)).filter(|_| method.matrix.factor())
         else {
             break;
         };
@@ -157,7 +157,7 @@ impl<const A: usize> Method<A> {
 
     /// Gradient, right sides and matrix at the present unknowns; the mean of slacks times prices, unless the time is settled.
     #[inline(always)]
-    fn look(&mut self, price_along: f64) -> Option<f64> {
+    fn look(&mut self, price_along: f64, settled: f64) -> Option<f64> {
         let n = self.step.len();
         let mut present = Present { time: Lanes::ZERO, gap: Lanes::ZERO };
         for (i, block) in self.blocks.iter_mut().enumerate() {
@@ -182,7 +182,7 @@ impl<const A: usize> Method<A> {
             residual = residual.max((g + p).abs());
         }
         self.gap = gap;
-        let is_settled = gap < SETTLED * time && residual < 1e-3 * largest;
+        let is_settled = gap < settled * time && residual < 1e-3 * largest;
         (!is_settled).then_some(gap / self.count)
     }
 
@@ -230,13 +230,13 @@ fn at_rest([w, f]: [f64; 2], x: f64) -> f64 {
     w / (f * x).sqrt()
 }
 
-struct Look<'a, const A: usize>(&'a mut Method<A>, f64);
+struct Look<'a, const A: usize>(&'a mut Method<A>, f64, f64);
 
 impl<const A: usize> NullaryFnOnce for Look<'_, A> {
     type Output = Option<f64>;
     #[inline(always)]
     fn call(self) -> Option<f64> {
-        self.0.look(self.1)
+        self.0.look(self.1, self.2)
     }
 }
 

@@ -89,6 +89,12 @@ impl Step {
         half
     }
 
+    /// Angle by which the linear axes turn [rad].
+    pub(super) fn corner(&self) -> f64 {
+        let [first, _] = self.sizes(0..3);
+        2.0 * (0.5 * first).min(1.0).asin()
+    }
+
     /// True if the direction steps by more than a control smooths on the way.
     pub(super) fn is_sharp(&self) -> bool {
         /// Step of the direction, about 10 degrees.

@@ -23,8 +23,8 @@ impl Joints {
     pub(super) fn within(all: Vec<Joint>, allowed: &[f64]) -> Joints {
         /// Rounds of shortening; a smoothing of half the length leaves the path by half as much at least.
         const ROUNDS: usize = 4;
-        /// Rest that is left alone.
-        const CLOSE: f64 = 1.02;
+        /// Share of what is allowed that a shorter one is to leave the path by: its marks are at other places.
+        const SHARE: f64 = 0.98;
         let mut joints = Joints { all, reached: Vec::new(), begun: Vec::new(), sizes: Vec::new() };
         joints.index();
         for _ in 0..ROUNDS {
@@ -32,8 +32,8 @@ impl Joints {
             for (joint, allowed) in joints.all.iter().zip(allowed) {
                 for s in joint.marks() {
                     let left = joints.left_at(s);
-                    if left > allowed * CLOSE {
-                        let factor = (allowed / left).max(0.25);
+                    if left > *allowed {
+                        let factor = (SHARE * allowed / left).max(0.25);
                         joints.indices(s, |k| factors[k] = factors[k].min(factor));
                     }
                 }
@@ -122,10 +122,15 @@ impl Joints {
         shift[..3].iter().map(|v| v * v).sum::<f64>().sqrt()
     }
 
-    /// Largest distance from the programmed path, of the linear axes [mm]: at the joints and at quarters of their
-    /// smoothings.
-    pub(super) fn farthest(&self) -> f64 {
-        self.all.iter().flat_map(Joint::marks).map(|s| self.left_at(s)).fold(0.0, f64::max)
+    /// All of them, in order.
+    pub(super) fn all(&self) -> &[Joint] {
+        &self.all
+    }
+
+    /// Distance from the programmed path about one of them, of the linear axes [mm]: at the joint and at quarters of its
+    /// smoothing.
+    pub(super) fn off(&self, joint: &Joint) -> f64 {
+        joint.marks().into_iter().map(|s| self.left_at(s)).fold(0.0, f64::max)
     }
 
     /// True if no smoothing reaches over a place but that of the joint there [mm].

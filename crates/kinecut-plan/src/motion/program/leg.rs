@@ -12,7 +12,8 @@ use super::motion::{Motion, Pace, RunMotion};
 use super::ramp::Ramp;
 use super::run::{Moving, Piece, Run};
 use super::setting::{Setting, without_jerk};
-use super::straight::{Apart, along, axis_by_axis, straight};
+use super::smoothed_joint::SmoothedJoint;
+use super::straight::{Apart, along, axis_by_axis};
 use crate::base::Result;
 use crate::machine::Rapids;
 
@@ -46,8 +47,8 @@ pub(super) struct LegTime<'a> {
     pub(super) without_jerk: f64,
     /// Moves on which a limit of jerk does not count.
     pub(super) jerk_left_out: usize,
-    /// Largest distance from the programmed path at joints [mm].
-    pub(super) farthest: f64,
+    /// Smoothed joints that are farthest off the programmed path.
+    pub(super) farthest: Vec<SmoothedJoint>,
     /// Largest factor by which a stretch was slowed.
     pub(super) dilation: f64,
     /// Cells times axes, of [`Task::Count`].
@@ -65,7 +66,7 @@ impl<'a> Leg<'a> {
     /// Those of [`TimeLaw::between`].
     pub(super) fn time(self, setting: &Setting, task: Task) -> Result<Option<LegTime<'a>>> {
         if let [piece] = &self.pieces[..]
-            && let Some(rates) = straight(&piece.path)
+            && let Some(rates) = piece.rates
         {
             return Ok(alone(piece, &rates, setting));
         }

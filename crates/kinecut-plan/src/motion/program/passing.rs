@@ -2,7 +2,7 @@
 
 use super::super::AxisLimit;
 use super::joint::{AXES, Joint, Step, Tolerance};
-use super::run::{Piece, derivatives};
+use super::run::Piece;
 use super::straight::along;
 
 type Limits = [Option<AxisLimit>; AXES];
@@ -52,7 +52,7 @@ pub(super) fn passings(pieces: &[Piece], joints: &[Between], limits: &Limits) ->
 
 fn passing(pieces: [&Piece; 2], joint: &Between, ways: [f64; 2], limits: &Limits) -> Passing {
     /// Share of the limits that a joint may use up at the feed: the path beside it needs some, too.
-    const SHARE: f64 = 0.5;
+    const SHARE: f64 = 0.2;
     let Between { step, stops, tolerance, on_the_spot } = joint;
     if *stops || *on_the_spot {
         return Passing::Stop;
@@ -76,7 +76,7 @@ fn passing(pieces: [&Piece; 2], joint: &Between, ways: [f64; 2], limits: &Limits
 
 /// Limits of the parameter in the middle of a move.
 fn at_feed(piece: &Piece, limits: &Limits) -> AxisLimit {
-    let rates = derivatives(&piece.path, 0.5 * piece.path.length()).map(|d| d[0]);
+    let rates = piece.derivatives(0.5 * piece.path.length()).map(|d| d[0]);
     along(&rates, limits, piece.feed)
 }
 

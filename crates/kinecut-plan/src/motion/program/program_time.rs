@@ -1,6 +1,7 @@
 //! Time of a program.
 
 use super::passing::Passing;
+use super::smoothed_joint::SmoothedJoint;
 use crate::base::Finding;
 
 /// Time of a program on a machine.
@@ -46,7 +47,7 @@ pub struct Changes {
 }
 
 /// Joints of moves at feed.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Smoothing {
     /// Joints at which the path goes on with two derivatives.
     pub smooth: usize,
@@ -54,8 +55,8 @@ pub struct Smoothing {
     pub smoothed: usize,
     /// Joints at which the tool stops.
     pub stops: usize,
-    /// Largest distance from the programmed path at smoothed joints and at quarters of their smoothings, of linear axes [mm].
-    pub farthest: f64,
+    /// The smoothed joints that are farthest off the programmed path, up to ten, the farthest first.
+    pub farthest: Vec<SmoothedJoint>,
 }
 
 impl ProgramTime {
@@ -72,6 +73,11 @@ impl ProgramTime {
 }
 
 impl Smoothing {
+    /// Largest distance from the programmed path [mm].
+    pub fn most_off(&self) -> f64 {
+        self.farthest.first().map_or(0.0, |joint| joint.off)
+    }
+
     /// Counts these joints, too.
     pub(super) fn count(&mut self, passings: &[Passing]) {
         for passing in passings {
@@ -83,11 +89,19 @@ impl Smoothing {
         }
     }
 
+    /// Lists these smoothed joints, too.
+    pub(super) fn add_farthest(&mut self, joints: &[SmoothedJoint]) {
+        if !joints.is_empty() {
+            let all = std::mem::take(&mut self.farthest).into_iter().chain(joints.iter().copied());
+            self.farthest = SmoothedJoint::farthest(all.collect());
+        }
+    }
+
     /// Counts the joints of another stretch, too.
     pub(super) fn add(&mut self, other: &Smoothing) {
         self.smooth += other.smooth;
         self.smoothed += other.smoothed;
         self.stops += other.stops;
-        self.farthest = self.farthest.max(other.farthest);
+        self.add_farthest(&other.farthest);
     }
 }

@@ -3,7 +3,7 @@
 use super::super::Course;
 use super::joint::{AXES, Joint};
 use super::joints::Joints;
-use super::straight::straight;
+use super::smoothed_joint::SmoothedJoint;
 use super::swing::BESIDE;
 use crate::trace::{AxisJet, AxisPath};
 
@@ -14,12 +14,15 @@ pub(super) struct Piece<'a> {
     pub(super) path: AxisPath<'a>,
     /// Rate of the parameter at the programmed feed [mm/s]; infinite for a rapid.
     pub(super) feed: f64,
-    /// Index of its segment in the trace.
+    /// Index of its segment in the trace, and of the program item of that.
     pub(super) segment: usize,
+    pub(super) item: u32,
     /// Whether the tip stands: the parameter is then an angle.
     pub(super) stands: bool,
     /// Whether axes turn on the spot at its start and end.
     pub(super) turned: [bool; 2],
+    /// First derivatives of the axes where they are constant.
+    pub(super) rates: Option<[f64; AXES]>,
 }
 
 impl Piece<'_> {
@@ -28,6 +31,14 @@ impl Piece<'_> {
         let length = self.path.length();
         let [start, end] = self.turned.map(|turned| if turned { BESIDE * length } else { 0.0 });
         self.path.at(s.clamp(start, length - end))
+    }
+
+    /// First three derivatives of all axes at a place [mm].
+    pub(super) fn derivatives(&self, s: f64) -> [[f64; 3]; AXES] {
+        match self.rates {
+            Some(rates) => rates.map(|rate| [rate, 0.0, 0.0]),
+            None => derivatives(&self.path, s),
+        }
     }
 }
 
@@ -87,9 +98,14 @@ impl<'a> Run<'a> {
         Run { pieces, starts, joints, knots }
     }
 
-    /// Largest distance from the programmed path that smoothings make, of the linear axes [mm].
-    pub(super) fn farthest(&self) -> f64 {
-        self.joints.farthest()
+    /// The smoothed joints that are farthest off the programmed path.
+    pub(super) fn farthest(&self) -> Vec<SmoothedJoint> {
+        let joint = |joint: &Joint| SmoothedJoint {
+            item: self.pieces[self.piece(joint.at)].item,
+            off: self.joints.off(joint),
+            corner: joint.step.corner(),
+        };
+        SmoothedJoint::farthest(self.joints.all().iter().map(joint).collect())
     }
 
     /// Start of each move, and the end of the last one [mm].
@@ -115,7 +131,7 @@ impl<'a> Run<'a> {
         }
         let mut all: Option<[f64; AXES]> = None;
         for piece in &self.pieces[first..=last] {
-            let rates = straight(&piece.path)?;
+            let rates = piece.rates?;
             let before = *all.get_or_insert(rates);
             if rates.iter().zip(before).any(|(a, b)| (a - b).abs() > 1e-9)
                 || piece.feed != self.pieces[first].feed
@@ -130,11 +146,12 @@ impl<'a> Run<'a> {
         self.starts.partition_point(|start| *start <= s).clamp(1, self.pieces.len()) - 1
     }
 
-    fn derivatives(&self, s: f64) -> [[f64; 3]; AXES] {
+    /// The move at a place [mm], and the derivatives of the axes there on the smoothed path.
+    fn derivatives(&self, s: f64) -> (&Piece<'a>, [[f64; 3]; AXES]) {
         let i = self.piece(s);
-        let mut jets = derivatives(&self.pieces[i].path, s - self.starts[i]);
+        let mut jets = self.pieces[i].derivatives(s - self.starts[i]);
         self.joints.about(s, |joint| joint.smooth(s, &mut jets));
-        jets
+        (&self.pieces[i], jets)
     }
 
     /// The move at a place [mm], and the axes there on the smoothed path.
@@ -160,7 +177,7 @@ impl<'a> Run<'a> {
         let mut moves = [false; AXES];
         for piece in &self.pieces {
             for part in [0.0, 0.3, 0.5, 0.8, 1.0] {
-                let jets = derivatives(&piece.path, part * piece.path.length());
+                let jets = piece.derivatives(part * piece.path.length());
                 for (moves, jet) in moves.iter_mut().zip(jets) {
                     *moves |= jet.iter().any(|d| d.abs() > NONE);
                 }
@@ -188,12 +205,17 @@ impl<const A: usize> Course<A> for Moving<'_, A> {
     }
 
     fn derivatives(&self, s: f64) -> [[f64; 3]; A] {
-        let all = self.run.derivatives(s);
+        let (_, all) = self.run.derivatives(s);
         self.axes.map(|a| all[a])
     }
 
     fn feed(&self, s: f64) -> f64 {
         self.run.pieces[self.run.piece(s)].feed
+    }
+
+    fn derivatives_and_feed(&self, s: f64) -> ([[f64; 3]; A], f64) {
+        let (piece, all) = self.run.derivatives(s);
+        (self.axes.map(|a| all[a]), piece.feed)
     }
 
     fn knots(&self) -> &[f64] {

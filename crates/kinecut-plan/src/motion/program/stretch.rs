@@ -7,8 +7,9 @@ use super::linuxcnc::{Ending, Planned};
 use super::motion::Motion;
 use super::passing::{Between, Passing, passings};
 use super::program_time::Smoothing;
-use super::run::{Piece, derivatives};
+use super::run::Piece;
 use super::setting::{Setting, without_jerk};
+use super::straight::straight;
 use super::swing::{swing_time, swings};
 use crate::base::Result;
 use crate::program::{Item, Program};
@@ -132,8 +133,10 @@ impl Stretch {
             let turned = swings.map(|swing| swing.is_some());
             pieces.push(Piece {
                 feed: feed(segment, length),
+                rates: straight(&path),
                 path,
                 segment: *i,
+                item: segment.item,
                 stands: !(segment.curve.length() > NONE),
                 turned,
             });
@@ -165,13 +168,13 @@ impl Stretch {
         }
         let joints: Vec<Between> = (1..pieces.len())
             .map(|i| {
-                let before = &pieces[i - 1].path;
+                let before = &pieces[i - 1];
                 let [item, next] = [i - 1, i].map(|i| trace.segments[self.segments[places[i]]].item);
                 let tolerance = setting.tolerance(program, item);
                 Between {
                     step: Step::between(
-                        &derivatives(before, before.length()),
-                        &derivatives(&pieces[i].path, 0.0),
+                        &before.derivatives(before.path.length()),
+                        &pieces[i].derivatives(0.0),
                     ),
                     // A block of several moves is one way to the control.
                     stops: tolerance.is_none() && item != next,
@@ -204,7 +207,7 @@ impl Stretch {
             }
             done.without_jerk += time.without_jerk;
             done.jerk_left_out += time.jerk_left_out;
-            done.smoothing.farthest = done.smoothing.farthest.max(time.farthest);
+            done.smoothing.add_farthest(&time.farthest);
             done.dilation = done.dilation.max(time.dilation);
             done.cells += time.cells;
             done.motions.extend(time.motion);

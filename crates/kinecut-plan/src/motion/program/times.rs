@@ -14,8 +14,8 @@ use crate::trace::Trace;
 
 /// Segments up to which a program is solved without counting first.
 const UNCOUNTED: usize = 2000;
-/// Most cells, times axes, that are solved under a limit of jerk: some ten seconds of work.
-const MOST_CELLS: usize = 1_000_000;
+/// Most cells, times axes, that are solved under a limit of jerk: a minute of work, or a million short blocks of three axes.
+const MOST_CELLS: usize = 4_000_000;
 
 /// The time of a program that was followed on a machine; `None` if an axis that moves has no rapid speed or no acceleration.
 ///

@@ -12,6 +12,7 @@ mod samples;
 mod shares;
 mod sheet;
 mod slow_block;
+mod smoothed_block;
 mod timed;
 mod ways;
 
@@ -19,4 +20,5 @@ pub use samples::SamplesWritten;
 pub use shares::TimeShares;
 pub use sheet::{TimeSheet, TimedProgram};
 pub use slow_block::SlowBlock;
+pub use smoothed_block::SmoothedBlock;
 pub use timed::{Timed, time_of_job, time_of_program};

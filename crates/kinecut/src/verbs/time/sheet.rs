@@ -7,6 +7,7 @@ use super::page::time_html;
 use super::samples::SamplesWritten;
 use super::shares::TimeShares;
 use super::slow_block::SlowBlock;
+use super::smoothed_block::SmoothedBlock;
 use super::timed::Timed;
 use crate::base::{Finding, Result};
 use crate::job::Outputs;
@@ -58,6 +59,8 @@ pub struct TimeSheet {
     pub shares: TimeShares,
     /// The blocks that lose most time, the worst first.
     pub slowest: Vec<SlowBlock>,
+    /// The blocks at whose start the control leaves the programmed path most, the farthest first.
+    pub smoothed: Vec<SmoothedBlock>,
     /// The graphs of the motion, where they are asked for.
     #[serde(skip)]
     pub graphs: Vec<Section>,
@@ -93,6 +96,7 @@ impl TimeSheet {
             time_terms: terms(&laws, Some(&timed.machine)),
             shares: TimeShares::of(all),
             slowest: SlowBlock::most(all, slowest),
+            smoothed: SmoothedBlock::farthest(all, slowest),
             graphs: Vec::new(),
             samples: None,
             findings,
@@ -146,12 +150,16 @@ impl Answer for TimeSheet {
         facts.push(Fact::new("At programmed feeds", programmed).note("rapids at full speed"));
         facts.push(Fact::new("Shares", self.shares.words()));
         facts.extend(self.samples.as_ref().map(|samples| Fact::new("Samples", samples.words())));
-        facts.extend(self.remarks.iter().map(|remark| Fact::new("Remark", remark.as_str())));
-        let section = Section::default().with(Block::Facts(facts));
-        vec![if self.slowest.is_empty() {
-            section
-        } else {
-            section.with(SlowBlock::table(&self.slowest, several))
-        }]
+        let mut section = Section::default().with(Block::Facts(facts));
+        if !self.remarks.is_empty() {
+            section = section.with(Block::List(self.remarks.clone()));
+        }
+        if !self.slowest.is_empty() {
+            section = section.with(SlowBlock::table(&self.slowest, several));
+        }
+        if !self.smoothed.is_empty() {
+            section = section.with(SmoothedBlock::table(&self.smoothed, several));
+        }
+        vec![section]
     }
 }

@@ -71,17 +71,11 @@ impl SlowBlock {
     }
 
     fn row(&self, several: bool) -> Row {
-        /// Characters of a block that are shown.
-        const SHOWN: usize = 48;
         let feed = |feed: Option<f64>| feed.map_or(String::new(), |feed| fixed(feed, 0));
-        let block = match self.block.char_indices().nth(SHOWN) {
-            Some((end, _)) => format!("{}..", &self.block[..end]),
-            None => self.block.clone(),
-        };
         let line = if several { format!("{}:{}", self.file, self.line) } else { self.line.to_string() };
         let cells = [
             line,
-            block,
+            short(&self.block),
             feed(self.programmed_feed),
             feed(self.mean_feed),
             fixed(self.time, 3),
@@ -97,8 +91,18 @@ impl SlowBlock {
     }
 }
 
+/// A block as it is shown in a table.
+pub(super) fn short(block: &str) -> String {
+    /// Characters of a block that are shown.
+    const SHOWN: usize = 48;
+    match block.char_indices().nth(SHOWN) {
+        Some((end, _)) => format!("{}..", &block[..end]),
+        None => block.to_owned(),
+    }
+}
+
 /// The words of a block with one blank between them.
-fn one_line(block: &str) -> String {
+pub(super) fn one_line(block: &str) -> String {
     block.split_whitespace().collect::<Vec<_>>().join(" ")
 }
 

@@ -147,6 +147,13 @@ fn a_length_that_the_next_block_replaces_is_not_written() {
     targets::nc_program(control, &changed(seeds[1], &[Change::Twice(318, 43)]));
 }
 
+#[test]
+fn a_comment_that_comes_to_stand_at_the_head_is_not_a_line_lost() {
+    let (control, seeds) = NC[4];
+    let change = Change::Line(4_340_776_081_739_762_059, 17_400_267_725_976_261_414);
+    targets::nc_program(control, &changed(seeds[1], &[change]));
+}
+
 proptest! {
     #![proptest_config(kinecut_cases::property(60))]
 

@@ -30,7 +30,9 @@ fn check(rows: &[Row], free_within: [f64; 4]) {
         assert!(found >= bound, "row {i}: {found} below {bound}");
         let within = free_within[i];
         assert!((bound - free).abs() <= within, "row {i} without jerk: {bound} against {free}");
-        assert_eq!(WithoutJerk::new(curve, &[USUAL; 2]).unwrap().duration(), bound);
+        // The grid of the law is finer where its shape asks for it.
+        let alone = WithoutJerk::new(curve, &[USUAL; 2]).unwrap().duration();
+        assert!((alone / bound - 1.0).abs() < 1e-8, "row {i}: {alone} {bound}");
         let shares = law.shares(curve, &[USUAL; 2]);
         for share in [shares.velocity, shares.acceleration, shares.jerk] {
             assert!(share <= 1.0 + 1e-9, "row {i}: {shares:?}");
@@ -56,8 +58,8 @@ fn spirals_at_6_m_per_min_take_the_time_of_the_table() {
 
 #[test]
 fn spirals_at_30_m_per_min_take_the_time_of_the_table() {
-    let times = [[11.8949, 11.1833], [11.9348, 11.2047], [12.4503, 11.4257], [14.5119, 11.4279]];
-    // Ramps of curvature that short are run at their jerk limit all the way, where the two grids differ.
-    // For the shortest ones `toppra`'s grid is too coarse: on 100 000 cells the time without jerk limits is 11.4249 s.
-    check(&table(500.0, times, [1e-3, 1e-3, 1e-3, 5e-3]), [2e-3, 2e-3, 2e-3, 4e-3]);
+    // `toppra`'s grid is too coarse for the ramps of curvature (11.4257 and 11.4279): on 100 000 cells of it the last one takes
+    // 11.4249 s without jerk limits; the one before takes 11.4227 s here on 250 000 cells.
+    let times = [[11.8949, 11.1833], [11.9348, 11.2047], [12.4503, 11.4227], [14.5119, 11.4249]];
+    check(&table(500.0, times, [1e-3; 4]), [2e-3, 2e-3, 1e-3, 1e-3]);
 }
