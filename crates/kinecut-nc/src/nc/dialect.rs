@@ -138,6 +138,12 @@ pub(super) struct Dialect {
     pub(super) dwell_words: &'static [(&'static str, f64)],
     /// Whether the end of a cycle (`G80`) may share a block with a motion code.
     pub(super) cancel_beside_motion: bool,
+    /// Whether a block says one M code of a modal group at most, and one code at most that uses axis words.
+    pub(super) one_of_group: bool,
+    /// Whether a number may have several signs.
+    pub(super) signs: bool,
+    /// Meaning of the heights of a cycle in later blocks of its series.
+    pub(super) heights: Heights,
     /// Word of the repetitions of a cycle.
     pub(super) repeats: &'static str,
     /// Whether a feed is in the units in force before the block.
@@ -152,6 +158,15 @@ pub(super) struct Dialect {
     pub(super) register_after_change: Option<u32>,
     /// When an arc is refused.
     pub(super) mismatch: Mismatch,
+}
+
+/// Meaning of R and Z of a cycle in later blocks of its series, where G90 and G91 change.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Heights {
+    /// The numbers stay, and mean what they would mean in that block (LinuxCNC).
+    AsGiven,
+    /// The heights stay that they were where they were given (FANUC).
+    Kept,
 }
 
 /// The rule by which a control refuses an arc.

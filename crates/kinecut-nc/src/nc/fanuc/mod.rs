@@ -43,7 +43,7 @@
 use crate::program::WorkOffset;
 use crate::tool::Hand;
 
-use super::dialect::{Code, CompWord, CycleKind, Dialect, Mismatch, StateWord, TurnWord};
+use super::dialect::{Code, CompWord, CycleKind, Dialect, Heights, Mismatch, StateWord, TurnWord};
 use super::multi_axis::{MultiAxis, TcpWord, TiltWord};
 use super::native::{Canned, Native, TapWord};
 
@@ -140,6 +140,9 @@ pub(super) const DIALECT: Dialect = Dialect {
     radius: "R",
     dwell_words: &[("P", 0.001), ("X", 1.0)],
     cancel_beside_motion: true,
+    one_of_group: false,
+    signs: false,
+    heights: Heights::Kept,
     repeats: "K",
     feed_before_units: false,
     mode_forgets_feed: true,

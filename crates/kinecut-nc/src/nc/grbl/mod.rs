@@ -17,7 +17,7 @@
 
 use crate::program::WorkOffset;
 
-use super::dialect::{Code, CompWord, Dialect, Mismatch, StateWord, TurnWord};
+use super::dialect::{Code, CompWord, Dialect, Heights, Mismatch, StateWord, TurnWord};
 use super::multi_axis::MultiAxis;
 use super::native::{Native, TapWord};
 
@@ -83,6 +83,9 @@ pub(super) const DIALECT: Dialect = Dialect {
     radius: "R",
     dwell_words: &[("P", 1.0)],
     cancel_beside_motion: false,
+    one_of_group: true,
+    signs: false,
+    heights: Heights::AsGiven,
     repeats: "L",
     feed_before_units: true,
     mode_forgets_feed: true,

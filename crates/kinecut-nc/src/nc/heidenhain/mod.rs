@@ -36,7 +36,7 @@ pub(super) use read::{TIP_CONTROLLED, read};
 
 use crate::program::WorkOffset;
 
-use super::dialect::{CompWord, Dialect, Mismatch, StateWord, TurnWord};
+use super::dialect::{CompWord, Dialect, Heights, Mismatch, StateWord, TurnWord};
 use super::multi_axis::{MultiAxis, ROTARY};
 use super::native::{Native, TapWord};
 
@@ -127,6 +127,9 @@ pub(super) const DIALECT: Dialect = Dialect {
     radius: "",
     dwell_words: &[],
     cancel_beside_motion: false,
+    one_of_group: false,
+    signs: false,
+    heights: Heights::Kept,
     repeats: "",
     feed_before_units: false,
     mode_forgets_feed: false,

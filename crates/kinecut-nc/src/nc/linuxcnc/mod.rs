@@ -19,7 +19,7 @@
 
 use crate::program::WorkOffset;
 
-use super::dialect::{Code, CompWord, CycleKind, Dialect, Mismatch, StateWord, TurnWord};
+use super::dialect::{Code, CompWord, CycleKind, Dialect, Heights, Mismatch, StateWord, TurnWord};
 use super::multi_axis::MultiAxis;
 use super::native::{Canned, Native, TapWord};
 
@@ -102,7 +102,10 @@ pub(super) const DIALECT: Dialect = Dialect {
     has_offset,
     radius: "R",
     dwell_words: &[("P", 1.0)],
-    cancel_beside_motion: false,
+    cancel_beside_motion: true,
+    one_of_group: true,
+    signs: true,
+    heights: Heights::AsGiven,
     repeats: "L",
     feed_before_units: true,
     mode_forgets_feed: true,

@@ -5,9 +5,14 @@
 //! R, Z, Q and P stay from block to block of a series; L repeats. First Z rises to R if it is below, then X and Y,
 //! then the cycle. With G98 the tool returns to the height at which the series began (or R if that is higher), with
 //! G99 to R.
+//!
+//! Two rules differ. Under G91 R counts from where the series began and Z from R: LinuxCNC counts them anew in each block,
+//! a Fanuc control keeps the heights that they were when they were given ([`Heights`]). The way to a hole is at the present
+//! height; LinuxCNC goes straight to that of the return where it is not above R, up or across
+//! (`interp_internal.hh`, `CYCLE_MACRO`).
 
 use crate::base::{Code, CountBound, Result};
-use crate::nc::dialect::{AXES, CycleKind, Plane};
+use crate::nc::dialect::{AXES, CycleKind, Heights, Plane};
 use crate::nc::native::Native;
 use crate::program::{Cycle, Path, Speed, Spindle, State, Tapping, Tcp};
 
@@ -67,8 +72,17 @@ impl<'s> Reader<'s> {
         let (reference, bottom) = (lengths(words, "R"), lengths(words, "Z"));
         let sticky = &mut self.modal.sticky;
         let begun = *sticky.begun.get_or_insert(z);
-        sticky.reference = reference.or(sticky.reference);
-        sticky.bottom = bottom.or(sticky.bottom);
+        match (self.dialect.heights, self.modal.absolute) {
+            (Heights::AsGiven, _) | (Heights::Kept, true) => {
+                sticky.reference = reference.or(sticky.reference);
+                sticky.bottom = bottom.or(sticky.bottom);
+            }
+            (Heights::Kept, false) => {
+                sticky.reference = reference.map(|r| begun + r).or(sticky.reference);
+                let from_reference = |z| sticky.reference.map(|r: f64| r + z);
+                sticky.bottom = bottom.and_then(from_reference).or(sticky.bottom);
+            }
+        }
         sticky.step = lengths(words, "Q").or(sticky.step);
         let p = self.dialect.dwell_words.iter().find(|w| w.0 == "P").map_or(1.0, |w| w.1);
         sticky.dwell = take(words, "P").map(|v| v.value * p).or(sticky.dwell);
@@ -102,10 +116,9 @@ impl<'s> Reader<'s> {
             (_, step) => step.unwrap_or(0.0),
         };
         let moves = [take(words, AXES[0]), take(words, AXES[1])].map(|w| w.map(|v| v.value * unit));
-        // As increments, R counts from where the series began and Z from R.
-        let (reference, bottom) = match self.modal.absolute {
-            true => (reference, bottom),
-            false => (begun + reference, begun + reference + bottom),
+        let (reference, bottom) = match (self.dialect.heights, self.modal.absolute) {
+            (Heights::AsGiven, false) => (begun + reference, begun + reference + bottom),
+            (Heights::Kept, _) | (Heights::AsGiven, true) => (reference, bottom),
         };
         let retract = if self.modal.return_to_start && begun > reference { begun } else { reference };
         self.repeated.add(&REPEATS, f64::from(repeats - 1)).map_err(|e| self.place.located(&here, e))?;
@@ -121,20 +134,40 @@ impl<'s> Reader<'s> {
         if !canned.runs_as_told(&cycle) {
             self.note(BEYOND);
         }
-        for _ in 0..repeats {
+        for repetition in 0..repeats {
+            let way = match self.dialect.heights {
+                Heights::Kept => [reference.max(self.height()); 2],
+                // The first hole is at the present height only if that is above R.
+                Heights::AsGiven => {
+                    let rises = if begun < reference { reference } else { self.height() };
+                    [rises, if repetition == 0 && rises > reference { rises } else { retract }]
+                }
+            };
             // In absolute coordinates this is the same hole again, as on the control.
-            self.drill(cycle, moves, speed, spindle)?;
+            self.drill(cycle, moves, way, speed, spindle)?;
         }
         Ok(())
     }
 
-    fn drill(&mut self, cycle: Cycle, moves: [Option<f64>; 2], speed: Speed, spindle: Spindle) -> Result<()> {
-        let [reference, _, retract] = cycle.heights();
+    /// Height at which the tool is, where a cycle is read [mm].
+    fn height(&self) -> f64 {
+        self.modal.position[2].unwrap_or_default()
+    }
+
+    /// The way to a hole and the cycle: first to one height, then to the hole at another [mm].
+    fn drill(
+        &mut self,
+        cycle: Cycle,
+        moves: [Option<f64>; 2],
+        [first, height]: [f64; 2],
+        speed: Speed,
+        spindle: Spindle,
+    ) -> Result<()> {
+        let [_, _, retract] = cycle.heights();
         let rapid = Speed::Rapid { linear: self.dialect.straight_rapid };
         let [mut x, mut y, z] = self.modal.position;
-        let height = z.map_or(reference, |z| z.max(reference));
-        if z < Some(height) {
-            self.push_tip([x, y, Some(height)], Path::Line, rapid);
+        if z != Some(first) {
+            self.push_tip([x, y, Some(first)], Path::Line, rapid);
         }
         let go = |from: &mut Option<f64>, to: Option<f64>| {
             if let Some(to) = to {

@@ -261,11 +261,29 @@ impl<'s> Lexer<'s> {
         Ok(stop)
     }
 
+    /// The number from `from` on with all its signs, where the control takes several.
+    fn signed(&self, from: usize, end: usize) -> Number {
+        let text = &self.place.text()[..end];
+        let blanks = self.dialect.round_comments;
+        let mut at = from;
+        let mut minus = false;
+        while self.dialect.signs
+            && let [sign @ (b'+' | b'-'), next, ..] = &text.as_bytes()[at..]
+            && matches!(next, b'+' | b'-')
+        {
+            minus ^= *sign == b'-';
+            at += 1;
+        }
+        let number = Number::written(text, at, blanks);
+        let value = number.value.map(|v| if minus { -v } else { v });
+        Number { value, ..number }
+    }
+
     /// The number from `from` on.
     fn number(&self, at: usize, from: usize, end: usize) -> Result<Number> {
         let text = self.place.text();
         let bytes = text.as_bytes();
-        let number = Number::written(&text[..end], from, self.dialect.round_comments);
+        let number = self.signed(from, end);
         let last = number.end;
         match number.value {
             Some(value) if value.abs() <= LARGEST => Ok(number),

@@ -187,7 +187,13 @@ impl<'s> Reader<'s> {
             let code = match word.value {
                 Some(value) if is("G") => Some(self.g_code(value).ok_or_else(|| self.unknown(word))?),
                 Some(value) if is("M") => Some(self.m_code(value).ok_or_else(|| self.unknown(word))?),
-                Some(_) if is("N") && i == 0 => {
+                Some(value) if is("N") && i == 0 => {
+                    if value < 0.0 {
+                        return Err(self
+                            .place
+                            .malformed(&word.bytes, "a block number is not negative")
+                            .into());
+                    }
                     word.used = true;
                     None
                 }
@@ -209,14 +215,45 @@ impl<'s> Reader<'s> {
                 let beside = |other: Code| {
                     self.dialect.cancel_beside_motion && (code == Code::NoMotion) != (other == Code::NoMotion)
                 };
-                let said = |group| self.codes.iter().any(|(c, _)| c.group() == Some(group) && !beside(*c));
-                if code.group().is_some_and(said) {
+                let group = |c: Code| c.group().or_else(|| self.group_of_m_code(c));
+                let said = |of| self.codes.iter().any(|(c, _)| group(*c) == Some(of) && !beside(*c));
+                if group(code).is_some_and(said) {
                     return Err(self.twice(&word.bytes).into());
                 }
                 self.codes.push((code, word.bytes.clone()));
             }
         }
         Ok(())
+    }
+
+    /// Group of an M code of which this control takes one in a block: coolant, overrides.
+    fn group_of_m_code(&self, code: Code) -> Option<u8> {
+        match code {
+            Code::Mist | Code::Flood | Code::CoolantOff if self.dialect.one_of_group => Some(24),
+            Code::Harmless(_) if self.dialect.one_of_group => Some(25),
+            _ => None,
+        }
+    }
+
+    /// Refuses a second code that uses axis words, of a control that takes one.
+    pub(super) fn one_use_of_axes(&self) -> Result<()> {
+        let covets = |c: Code| matches!(c, Code::Reference | Code::SetData | Code::LocalShift);
+        let (Some((_, bytes)), Some((motion, of_motion))) = (self.code(covets), self.motion_code()) else {
+            return Ok(());
+        };
+        if !self.dialect.one_of_group || motion == Code::NoMotion {
+            return Ok(());
+        }
+        let message = format!(
+            "`{}` and `{}` in one block both use its axis words",
+            self.place.shown(&bytes),
+            self.place.shown(&of_motion)
+        );
+        Err(self
+            .place
+            .error(FindingCode::NC_SYNTAX, &of_motion, message)
+            .help("write them in two blocks")
+            .into())
     }
 
     /// Numbers without a decimal point count least increments.

@@ -24,7 +24,7 @@ pub(super) mod swivel;
 
 use crate::program::WorkOffset;
 
-use super::dialect::{Code, CompWord, Dialect, Mismatch, StateWord, TurnWord};
+use super::dialect::{Code, CompWord, Dialect, Heights, Mismatch, StateWord, TurnWord};
 use super::multi_axis::{MultiAxis, TcpWord, TiltWord};
 use super::native::{Native, TapWord};
 
@@ -120,6 +120,9 @@ pub(super) const DIALECT: Dialect = Dialect {
     radius: "CR",
     dwell_words: &[("F", 1.0)],
     cancel_beside_motion: false,
+    one_of_group: false,
+    signs: false,
+    heights: Heights::Kept,
     repeats: "L",
     feed_before_units: false,
     mode_forgets_feed: false,

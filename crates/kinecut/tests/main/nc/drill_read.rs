@@ -298,9 +298,11 @@ fn the_first_block_of_a_series_may_say_where_the_hole_is() {
         let text = format!("%\nO1\nG21 G90 G54\nS600 M3\nG0 Z50.\n{block}\nM30\n%\n");
         assert!(refused(&text, Control::Fanuc).1.contains("has not set"), "{block}");
     }
-    // LinuxCNC takes no two codes of motion in a block.
-    let (code, _) = refused("G21 G90 G54\nG0 G80 X1\nM2\n", Control::LinuxCnc);
-    assert_eq!(code, Code::NC_SYNTAX);
+    // Two codes of motion in a block are refused; the end of a cycle is one to Grbl, and none to LinuxCNC.
+    for (block, control) in [("G0 G1 X1", Control::LinuxCnc), ("G0 G80 X1", Control::Grbl)] {
+        let (code, _) = refused(&format!("G21 G90 G54\n{block}\nM2\n"), control);
+        assert_eq!(code, Code::NC_SYNTAX, "{block}");
+    }
 }
 
 proptest! {
@@ -327,5 +329,114 @@ proptest! {
                 }
             }
         }
+    }
+}
+
+/// Places of all moves: `R`apid or `F`eed, and the end.
+fn places(program: &Program) -> Vec<(char, [f64; 3])> {
+    let mut at = [f64::NAN; 3];
+    let mut found = Vec::new();
+    for i in 0..program.items.len() {
+        match program.items.get(i) {
+            Item::Move(m) => {
+                let Target::Tip { point, .. } = m.end else { continue };
+                at = point.to_array();
+                let rapid = matches!(program.state(i).speed, Speed::Rapid { .. });
+                found.push((if rapid { 'R' } else { 'F' }, at));
+            }
+            Item::Cycle(_, steps) => {
+                for step in steps {
+                    let (kind, z) = match *step {
+                        CycleStep::Rapid(z) => ('R', z),
+                        CycleStep::Feed(z) => ('F', z),
+                        _ => continue,
+                    };
+                    at[2] = z;
+                    found.push((kind, at));
+                }
+            }
+            _ => {}
+        }
+    }
+    found
+}
+
+#[test]
+fn on_a_fanuc_control_the_heights_of_a_series_stay_where_they_were_given() {
+    let head = "G17 G21 G40 G49 G80 G90 G94\nG54\nS600 M3\nG0 X0. Y0. Z12.\n";
+    let run = |series: &str| {
+        let reading = read(&format!("{head}{series}\nG80\nM30\n"), Control::Fanuc);
+        places(&reading.program)[1..].to_vec()
+    };
+    let hole = |x: f64, from: f64, [r, z]: [f64; 2]| {
+        [('R', [x, 0.0, from]), ('R', [x, 0.0, r]), ('F', [x, 0.0, z]), ('R', [x, 0.0, r])]
+    };
+    // Given under G90: G91 behind it counts X and Y alone.
+    let found = run("G99 G81 X10. Z-20. R2. F100.\nG91 X5. K2\nG90");
+    let wanted =
+        [hole(10.0, 12.0, [2.0, -20.0]), hole(15.0, 2.0, [2.0, -20.0]), hole(20.0, 2.0, [2.0, -20.0])];
+    assert_eq!(found, wanted.concat());
+    // Given under G91: R from where the series began, Z from R; G90 behind it leaves them.
+    let found = run("G91 G99 G81 X10. Z-12. R-8. K2 F100.\nG90 X40.");
+    let wanted = [hole(10.0, 12.0, [4.0, -8.0]), hole(20.0, 4.0, [4.0, -8.0]), hole(40.0, 4.0, [4.0, -8.0])];
+    assert_eq!(found, wanted.concat());
+    // Another depth alone counts from the R that stays.
+    let found = run("G91 G99 G81 X10. Z-12. R-8. F100.\nX10. Z-5.\nG90");
+    assert_eq!(found, [hole(10.0, 12.0, [4.0, -8.0]), hole(20.0, 4.0, [4.0, -1.0])].concat());
+}
+
+#[test]
+fn linuxcnc_goes_to_the_next_hole_at_the_height_of_its_return() {
+    let head = "G17 G21 G40 G49 G80 G90 G94\nG54\nS600 M3\nG0 X0 Y0 Z25\n";
+    // Without moves that end where they begin.
+    let run = |series: &str| {
+        let reading = read(&format!("{head}{series}\nG80\nM2\n"), Control::LinuxCnc);
+        let mut found = places(&reading.program);
+        found.dedup_by_key(|(_, place)| *place);
+        found[1..].to_vec()
+    };
+    let hole = |[x, y]: [f64; 2], from: f64, back: f64| {
+        let moves = [('R', from), ('R', 2.0), ('F', -5.0), ('R', back)];
+        let mut moves = moves.map(|(kind, z)| (kind, [x, y, z])).to_vec();
+        moves.dedup_by_key(|(_, place)| *place);
+        moves
+    };
+    // From R across and up to where the series began, then down.
+    let found = run("G99 G81 X10 Y0 Z-5 R2 F100\nX20\nG98 X30 Y10\nX40");
+    let wanted = [
+        hole([10.0, 0.0], 25.0, 2.0),
+        hole([20.0, 0.0], 2.0, 2.0),
+        hole([30.0, 10.0], 25.0, 25.0),
+        hole([40.0, 10.0], 25.0, 25.0),
+    ];
+    assert_eq!(found, wanted.concat());
+    // A higher R behind a hole: across and up, too.
+    let found = run("G99 G81 X10 Z-5 R2 F100\nX20 R10");
+    assert_eq!(found[4], ('R', [20.0, 0.0, 10.0]));
+}
+
+#[test]
+fn the_interpreter_takes_one_code_of_a_group_and_one_use_of_axis_words() {
+    let head = "G17 G21 G90 G94\nG54\nG0 X0 Y0 Z5\n";
+    for (control, block, why) in [
+        (Control::LinuxCnc, "G28 G1 X5 F100", "both use its axis words"),
+        (Control::LinuxCnc, "G0 G10 L2 P1 R30", "both use its axis words"),
+        (Control::Grbl, "G28 G0 X5", "both use its axis words"),
+        (Control::LinuxCnc, "M7 M8", "says this twice"),
+        (Control::LinuxCnc, "M48 M49", "says this twice"),
+        (Control::Grbl, "M8 M9", "says this twice"),
+        (Control::LinuxCnc, "N-1 G0 X5", "a block number is not negative"),
+        (Control::Fanuc, "N-1 G0 X5.", "a block number is not negative"),
+    ] {
+        let (_, message) = refused(&format!("{head}{block}\nM2\n"), control);
+        assert!(message.contains(":4:") && message.contains(why), "{block}: {message}");
+    }
+    // A Fanuc control takes both.
+    read(&format!("{head}G0 G28 Z5.\nM8 M9\nM30\n"), Control::Fanuc);
+    // An end of a cycle beside a move, and several signs.
+    let reading = read(&format!("{head}G80 G0 X--5 Y-+2\nG1 G80 X+-7 F100\nM2\n"), Control::LinuxCnc);
+    assert_eq!(places(&reading.program)[1..], [('R', [5.0, -2.0, 5.0]), ('F', [-7.0, -2.0, 5.0])]);
+    for control in [Control::Grbl, Control::Fanuc] {
+        refused(&format!("{head}G0 X--5\nM2\n"), control);
     }
 }
