@@ -27,7 +27,7 @@ pub(crate) struct Time {
     /// Folder for time.html, made if it is not there: the times with graphs of the motion
     #[arg(long)]
     out: Option<PathBuf>,
-    /// Number of blocks in the table of those that lose most time
+    /// Number of blocks in the table of those that lose most time, and of corners in that of those smoothed most (ten at most)
     #[arg(long, value_name = "N", default_value_t = 10)]
     slowest: usize,
     /// File for samples of the motion, .csv or .json: time, line, and position, velocity, acceleration and jerk of each axis

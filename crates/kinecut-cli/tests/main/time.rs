@@ -71,6 +71,17 @@ fn the_time_of_a_program_has_its_bracket_shares_and_slowest_blocks() {
         let [programmed, mean] = ["programmed_feed", "mean_feed"].map(|key| slow[key].as_f64().unwrap());
         assert!((programmed - 4000.0).abs() < 1e-6 && mean < 3900.0, "{slow}");
     }
+    assert!(shown.contains("Corners that are smoothed most"), "{shown}");
+    let smoothed = sheet["smoothed"].as_array().unwrap();
+    assert!((1..=2).contains(&smoothed.len()), "{smoothed:?}");
+    for joint in smoothed {
+        let [corner, off] = ["corner", "off"].map(|key| joint[key].as_f64().unwrap());
+        assert!((corner - 90.0).abs() < 1e-9 && off > 0.0 && off <= 0.01 + 1e-12, "{joint}");
+        let line = joint["line"].as_u64().unwrap();
+        assert!((9..=11).contains(&line), "{joint}");
+        let text = PROGRAM.lines().nth(line as usize - 1).unwrap();
+        assert_eq!(joint["block"].as_str(), Some(text));
+    }
     std::fs::remove_dir_all(folder).unwrap();
 }
 

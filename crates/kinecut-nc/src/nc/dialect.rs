@@ -142,8 +142,8 @@ pub(super) struct Dialect {
     pub(super) one_of_group: bool,
     /// Whether a number may have several signs.
     pub(super) signs: bool,
-    /// Meaning of the heights of a cycle in later blocks of its series.
-    pub(super) heights: Heights,
+    /// Rule by which it runs the later blocks of a series of cycles.
+    pub(super) series: SeriesRule,
     /// Word of the repetitions of a cycle.
     pub(super) repeats: &'static str,
     /// Whether a feed is in the units in force before the block.
@@ -160,13 +160,14 @@ pub(super) struct Dialect {
     pub(super) mismatch: Mismatch,
 }
 
-/// Meaning of R and Z of a cycle in later blocks of its series, where G90 and G91 change.
+/// The rule by which a control runs the later blocks of a series of cycles.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Heights {
-    /// The numbers stay, and mean what they would mean in that block (LinuxCNC).
-    AsGiven,
-    /// The heights stay that they were where they were given (FANUC).
-    Kept,
+pub(super) enum SeriesRule {
+    /// R and Z stay as numbers, and mean what they would mean in that block; the way to the next hole is straight, at the
+    /// height of the return (LinuxCNC).
+    Interpreter,
+    /// R and Z stay the heights that they were where they were given; the way to the next hole is at the present height.
+    Fanuc,
 }
 
 /// The rule by which a control refuses an arc.

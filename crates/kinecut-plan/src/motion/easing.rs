@@ -1,5 +1,4 @@
-//! Small changes of a speed, as smooth as the axes can follow: cells that exceed a limit by little are passed slower, and ends
-//! that just miss the feed get it.
+//! Cells that exceed a limit by little are passed slower, and the way beside them as smoothly as the axes can follow.
 
 use rayon::prelude::*;
 
@@ -78,7 +77,12 @@ fn factors<const A: usize>(
         let even = ends.into_iter().zip([place - places[0], places[places.len() - 1] - place]);
         let even = even.filter(|(side, _)| *side == End::Even);
         let reach = even.fold(BESIDE, |reach, (_, distance)| reach.min(distance));
-        add_hill(&mut factors, &places, [place, reach], missing);
+        let from = places.partition_point(|p| *p < place - reach);
+        let to = places.partition_point(|p| *p < place + reach);
+        for (factor, p) in factors[from..to].iter_mut().zip(&places[from..to]) {
+            let u = (p - place) / reach;
+            *factor += missing * (1.0 - u * u).powi(3);
+        }
     }
     factors
 }
@@ -96,44 +100,6 @@ fn places<const A: usize>(limits: &[AxisLimit; A], speed: &Speed) -> Vec<f64> {
         end += ways;
     }
     places
-}
-
-/// Adds a smooth hill of a height to the factors of the cells within its reach of a place: none without reach.
-fn add_hill(factors: &mut [f64], places: &[f64], [place, reach]: [f64; 2], height: f64) {
-    let from = places.partition_point(|p| *p < place - reach);
-    let to = places.partition_point(|p| *p < place + reach);
-    for (factor, p) in factors[from..to].iter_mut().zip(&places[from..to]) {
-        let u = (p - place) / reach;
-        *factor += height * (1.0 - u * u).powi(3);
-    }
-}
-
-/// The speed with the feed at the ends that are no rests, where it misses it there by no more than a solution leaves: the path
-/// goes on at the feed.
-pub(super) fn with_feed_at_ends<const A: usize, C: Course<A>>(
-    course: &C,
-    limits: &[AxisLimit; A],
-    speed: Speed,
-    ends: [End; 2],
-) -> Speed {
-    /// Part of the feed that a solution leaves.
-    const REST: f64 = 1e-3;
-    let length = course.length();
-    let missing = [(0.0, ends[0]), (length, ends[1])].map(|(s, end)| {
-        let missing = 1.0 - speed.square(s)[0].sqrt() / course.feed(s);
-        if end == End::Even && missing > 0.0 && missing < REST { missing } else { 0.0 }
-    });
-    if missing == [0.0; 2] {
-        return speed;
-    }
-    let places = places(limits, &speed);
-    let mut factors = vec![1.0; places.len()];
-    let [first, last] = [places[0], places[places.len() - 1]];
-    let reach = BESIDE.min(last - first);
-    for (place, missing) in [first, last].into_iter().zip(missing) {
-        add_hill(&mut factors, &places, [place, reach], -missing);
-    }
-    speed.slower_by(&factors)
 }
 
 #[cfg(test)]

@@ -1,16 +1,17 @@
 //! The fastest run along a path, from rest to rest, under velocity, acceleration and jerk of each axis.
 
-use super::easing::{eased, with_feed_at_ends};
+use super::easing::eased;
 use super::reach::{WithoutJerk, without_jerk};
 use super::shape::{Shape, places};
 use super::shares::{CellShares, Shares, at_rests, of_all, of_cells, of_run};
+use super::solution::{Precision, Solution};
 use super::start::Start;
-use super::windows::{Precision, Solution, solution};
+use super::windows::solution;
 use super::{AxisLimit, Course, End, Speed, grid};
 use crate::base::{Code, Finding, Progress, Result, Silent};
 
-/// The fastest run: feed, speed, acceleration and jerk of each axis hold at fifteen places of each cell; where they did not
-/// to the last digit, the whole run was slowed ([`TimeLaw::dilation`]).
+/// The fastest run: feed, speed, acceleration and jerk of each axis hold at fifteen places of each cell. Cells that exceeded
+/// one by little are passed slower; for the last digits the whole run was slowed ([`TimeLaw::dilation`]).
 ///
 /// The path is followed exactly. Which of its joints may be passed without a stop is the course's matter.
 #[derive(Clone, Debug)]
@@ -182,7 +183,6 @@ impl TimeLaw {
         let (mut speed, cells) = loop {
             let (solution, speed) = grid.solved(course, limits, Precision::Settled, before, progress)?;
             steps += solution.steps;
-            let speed = with_feed_at_ends(course, limits, speed, ends);
             let (speed, found) = eased(course, limits, speed, ends);
             let (solution, is_finer) = grid.refined(solution, &found, SLOWED);
             if left == 0 || !is_finer {

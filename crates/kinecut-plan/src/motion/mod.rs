@@ -20,6 +20,7 @@ mod s_curve;
 mod servo;
 mod shape;
 mod shares;
+mod solution;
 mod speed;
 mod spline;
 mod start;

@@ -43,7 +43,7 @@
 use crate::program::WorkOffset;
 use crate::tool::Hand;
 
-use super::dialect::{Code, CompWord, CycleKind, Dialect, Heights, Mismatch, StateWord, TurnWord};
+use super::dialect::{Code, CompWord, CycleKind, Dialect, Mismatch, SeriesRule, StateWord, TurnWord};
 use super::multi_axis::{MultiAxis, TcpWord, TiltWord};
 use super::native::{Canned, Native, TapWord};
 
@@ -142,7 +142,7 @@ pub(super) const DIALECT: Dialect = Dialect {
     cancel_beside_motion: true,
     one_of_group: false,
     signs: false,
-    heights: Heights::Kept,
+    series: SeriesRule::Fanuc,
     repeats: "K",
     feed_before_units: false,
     mode_forgets_feed: true,

@@ -17,7 +17,7 @@
 
 use crate::program::WorkOffset;
 
-use super::dialect::{Code, CompWord, Dialect, Heights, Mismatch, StateWord, TurnWord};
+use super::dialect::{Code, CompWord, Dialect, Mismatch, SeriesRule, StateWord, TurnWord};
 use super::multi_axis::MultiAxis;
 use super::native::{Native, TapWord};
 
@@ -85,7 +85,7 @@ pub(super) const DIALECT: Dialect = Dialect {
     cancel_beside_motion: false,
     one_of_group: true,
     signs: false,
-    heights: Heights::AsGiven,
+    series: SeriesRule::Interpreter,
     repeats: "L",
     feed_before_units: true,
     mode_forgets_feed: true,

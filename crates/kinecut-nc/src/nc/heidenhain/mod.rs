@@ -36,7 +36,7 @@ pub(super) use read::{TIP_CONTROLLED, read};
 
 use crate::program::WorkOffset;
 
-use super::dialect::{CompWord, Dialect, Heights, Mismatch, StateWord, TurnWord};
+use super::dialect::{CompWord, Dialect, Mismatch, SeriesRule, StateWord, TurnWord};
 use super::multi_axis::{MultiAxis, ROTARY};
 use super::native::{Native, TapWord};
 
@@ -129,7 +129,7 @@ pub(super) const DIALECT: Dialect = Dialect {
     cancel_beside_motion: false,
     one_of_group: false,
     signs: false,
-    heights: Heights::Kept,
+    series: SeriesRule::Fanuc,
     repeats: "",
     feed_before_units: false,
     mode_forgets_feed: false,

@@ -19,7 +19,7 @@
 
 use crate::program::WorkOffset;
 
-use super::dialect::{Code, CompWord, CycleKind, Dialect, Heights, Mismatch, StateWord, TurnWord};
+use super::dialect::{Code, CompWord, CycleKind, Dialect, Mismatch, SeriesRule, StateWord, TurnWord};
 use super::multi_axis::MultiAxis;
 use super::native::{Canned, Native, TapWord};
 
@@ -105,7 +105,7 @@ pub(super) const DIALECT: Dialect = Dialect {
     cancel_beside_motion: true,
     one_of_group: true,
     signs: true,
-    heights: Heights::AsGiven,
+    series: SeriesRule::Interpreter,
     repeats: "L",
     feed_before_units: true,
     mode_forgets_feed: true,

@@ -7,12 +7,12 @@
 //! G99 to R.
 //!
 //! Two rules differ. Under G91 R counts from where the series began and Z from R: LinuxCNC counts them anew in each block,
-//! a Fanuc control keeps the heights that they were when they were given ([`Heights`]). The way to a hole is at the present
+//! a Fanuc control keeps the heights that they were where they were given ([`SeriesRule`]). The way to a hole is at the present
 //! height; LinuxCNC goes straight to that of the return where it is not above R, up or across
 //! (`interp_internal.hh`, `CYCLE_MACRO`).
 
 use crate::base::{Code, CountBound, Result};
-use crate::nc::dialect::{AXES, CycleKind, Heights, Plane};
+use crate::nc::dialect::{AXES, CycleKind, Plane, SeriesRule};
 use crate::nc::native::Native;
 use crate::program::{Cycle, Path, Speed, Spindle, State, Tapping, Tcp};
 
@@ -72,12 +72,12 @@ impl<'s> Reader<'s> {
         let (reference, bottom) = (lengths(words, "R"), lengths(words, "Z"));
         let sticky = &mut self.modal.sticky;
         let begun = *sticky.begun.get_or_insert(z);
-        match (self.dialect.heights, self.modal.absolute) {
-            (Heights::AsGiven, _) | (Heights::Kept, true) => {
+        match (self.dialect.series, self.modal.absolute) {
+            (SeriesRule::Interpreter, _) | (SeriesRule::Fanuc, true) => {
                 sticky.reference = reference.or(sticky.reference);
                 sticky.bottom = bottom.or(sticky.bottom);
             }
-            (Heights::Kept, false) => {
+            (SeriesRule::Fanuc, false) => {
                 sticky.reference = reference.map(|r| begun + r).or(sticky.reference);
                 let from_reference = |z| sticky.reference.map(|r: f64| r + z);
                 sticky.bottom = bottom.and_then(from_reference).or(sticky.bottom);
@@ -116,9 +116,9 @@ impl<'s> Reader<'s> {
             (_, step) => step.unwrap_or(0.0),
         };
         let moves = [take(words, AXES[0]), take(words, AXES[1])].map(|w| w.map(|v| v.value * unit));
-        let (reference, bottom) = match (self.dialect.heights, self.modal.absolute) {
-            (Heights::AsGiven, false) => (begun + reference, begun + reference + bottom),
-            (Heights::Kept, _) | (Heights::AsGiven, true) => (reference, bottom),
+        let (reference, bottom) = match (self.dialect.series, self.modal.absolute) {
+            (SeriesRule::Interpreter, false) => (begun + reference, begun + reference + bottom),
+            (SeriesRule::Fanuc, _) | (SeriesRule::Interpreter, true) => (reference, bottom),
         };
         let retract = if self.modal.return_to_start && begun > reference { begun } else { reference };
         self.repeated.add(&REPEATS, f64::from(repeats - 1)).map_err(|e| self.place.located(&here, e))?;
@@ -135,10 +135,10 @@ impl<'s> Reader<'s> {
             self.note(BEYOND);
         }
         for repetition in 0..repeats {
-            let way = match self.dialect.heights {
-                Heights::Kept => [reference.max(self.height()); 2],
+            let way = match self.dialect.series {
+                SeriesRule::Fanuc => [reference.max(self.height()); 2],
                 // The first hole is at the present height only if that is above R.
-                Heights::AsGiven => {
+                SeriesRule::Interpreter => {
                     let rises = if begun < reference { reference } else { self.height() };
                     [rises, if repetition == 0 && rises > reference { rises } else { retract }]
                 }

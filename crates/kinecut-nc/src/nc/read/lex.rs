@@ -264,16 +264,19 @@ impl<'s> Lexer<'s> {
     /// The number from `from` on with all its signs, where the control takes several.
     fn signed(&self, from: usize, end: usize) -> Number {
         let text = &self.place.text()[..end];
-        let blanks = self.dialect.round_comments;
+        let bytes = text.as_bytes();
         let mut at = from;
         let mut minus = false;
+        let sign = |at: usize| bytes.get(at).copied().filter(|b| matches!(b, b'+' | b'-'));
         while self.dialect.signs
-            && let [sign @ (b'+' | b'-'), next, ..] = &text.as_bytes()[at..]
-            && matches!(next, b'+' | b'-')
+            && let Some(first) = sign(at)
+            && let next = self.blanks(at + 1, end)
+            && sign(next).is_some()
         {
-            minus ^= *sign == b'-';
-            at += 1;
+            minus ^= first == b'-';
+            at = next;
         }
+        let blanks = self.dialect.round_comments;
         let number = Number::written(text, at, blanks);
         let value = number.value.map(|v| if minus { -v } else { v });
         Number { value, ..number }

@@ -24,7 +24,7 @@ pub(super) mod swivel;
 
 use crate::program::WorkOffset;
 
-use super::dialect::{Code, CompWord, Dialect, Heights, Mismatch, StateWord, TurnWord};
+use super::dialect::{Code, CompWord, Dialect, Mismatch, SeriesRule, StateWord, TurnWord};
 use super::multi_axis::{MultiAxis, TcpWord, TiltWord};
 use super::native::{Native, TapWord};
 
@@ -122,7 +122,7 @@ pub(super) const DIALECT: Dialect = Dialect {
     cancel_beside_motion: false,
     one_of_group: false,
     signs: false,
-    heights: Heights::Kept,
+    series: SeriesRule::Fanuc,
     repeats: "L",
     feed_before_units: false,
     mode_forgets_feed: false,

@@ -234,6 +234,27 @@ pub(super) fn facets(path: f64) -> Written {
 }
 
 #[test]
+fn short_lines_along_a_gentle_wave_are_run_at_their_feed() {
+    const FEED: f64 = 100.0;
+    let mut written = Written::new();
+    written.state.speed = Speed::PerMinute(FEED);
+    written.state.blend = Blend::Tolerance { path: 0.01, angle: 0.0 };
+    for i in 1..=1000 {
+        let x = 0.3 * f64::from(i);
+        written.to([x, 2.0 * (x / 7.0).sin(), 0.0]);
+    }
+    let machine = machine();
+    let (time, trace) = (written.time(&machine).unwrap(), written.traced(&machine));
+    assert_eq!((time.smoothing.stops, time.jerk_left_out, time.refused), (0, 0, 0));
+    assert!(time.smoothing.most_off() <= 0.01, "{}", time.smoothing.most_off());
+    let n = time.segments.len();
+    for (own, segment) in time.segments.iter().zip(&trace.segments).take(n - 200).skip(200) {
+        let wanted = segment.curve.length() / FEED;
+        assert!((own / wanted - 1.0).abs() < 1e-8, "{own} {wanted}");
+    }
+}
+
+#[test]
 fn facets_are_faster_within_a_wider_tolerance_and_stay_within_it() {
     let machine = machine();
     let [narrow, wide] = [0.005, 0.05].map(|path| {

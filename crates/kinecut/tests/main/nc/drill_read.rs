@@ -434,7 +434,7 @@ fn the_interpreter_takes_one_code_of_a_group_and_one_use_of_axis_words() {
     // A Fanuc control takes both.
     read(&format!("{head}G0 G28 Z5.\nM8 M9\nM30\n"), Control::Fanuc);
     // An end of a cycle beside a move, and several signs.
-    let reading = read(&format!("{head}G80 G0 X--5 Y-+2\nG1 G80 X+-7 F100\nM2\n"), Control::LinuxCnc);
+    let reading = read(&format!("{head}G80 G0 X--5 Y- +2\nG1 G80 X+-7 F100\nM2\n"), Control::LinuxCnc);
     assert_eq!(places(&reading.program)[1..], [('R', [5.0, -2.0, 5.0]), ('F', [-7.0, -2.0, 5.0])]);
     for control in [Control::Grbl, Control::Fanuc] {
         refused(&format!("{head}G0 X--5\nM2\n"), control);
