@@ -123,7 +123,7 @@ impl Control {
             Control::Sinumerik840d | Control::Fanuc | Control::Grbl | Control::Heidenhain => {
                 Blend::Continuous
             }
-            Control::LinuxCnc => Blend::Tolerance { path: 0.005, angle: 0.0 },
+            Control::LinuxCnc => Blend::within(0.005),
         }
     }
 

@@ -73,6 +73,8 @@ pub(super) struct Dialect {
     pub(super) exact_path: Option<&'static str>,
     pub(super) continuous: &'static str,
     pub(super) rounded: Option<[&'static str; 2]>,
+    /// Whether the distance within which lines are merged comes after that, and a tolerance of zero is none at all.
+    pub(super) merges: bool,
     /// Words before G0, after it and after the axes of a move in machine coordinates.
     pub(super) machine_frame: [&'static str; 3],
     /// Whether that move switches the tool length off until it is called again.
@@ -343,6 +345,11 @@ impl Dialect {
             _ if self.exact_stop == self.continuous && !self.continuous.is_empty() => Blend::Continuous,
             Blend::Exact if self.exact_path.is_none() => Blend::Stop,
             Blend::Tolerance { .. } if self.rounded.is_none() => self.blend(Blend::Exact),
+            // The largest distance from the path stays; zero would be the opposite of what was asked for.
+            Blend::Tolerance { path, merge, angle } if !self.merges => {
+                Blend::Tolerance { path: path + merge, merge: 0.0, angle }
+            }
+            Blend::Tolerance { path: 0.0, .. } => self.blend(Blend::Exact),
             other => other,
         }
     }

@@ -94,11 +94,38 @@ pub enum Blend {
     Continuous,
     /// Continuous path within a tolerance.
     Tolerance {
-        /// Largest distance from the programmed path [mm].
+        /// Largest distance from the path at its corners [mm].
         path: f64,
+        /// Distance within which the control makes one line of several before that [mm] (`Q` of LinuxCNC's `G64`); zero where
+        /// it does not.
+        merge: f64,
         /// Largest deviation of rotary axes [rad].
         angle: f64,
     },
+}
+
+impl Blend {
+    /// A continuous path within a distance [mm], on which no lines are merged.
+    pub fn within(path: f64) -> Blend {
+        Blend::Tolerance { path, merge: 0.0, angle: 0.0 }
+    }
+
+    /// Largest distance from the programmed path [mm]; none where the control rounds as it likes. What the merging of lines
+    /// and the rounding of corners take may add up.
+    ///
+    /// ```
+    /// # use kinecut_nc as kinecut;
+    /// use kinecut::program::Blend;
+    /// assert_eq!(Blend::Tolerance { path: 0.25, merge: 0.5, angle: 0.0 }.bound(), Some(0.75));
+    /// assert_eq!((Blend::Stop.bound(), Blend::Continuous.bound()), (Some(0.0), None));
+    /// ```
+    pub fn bound(self) -> Option<f64> {
+        match self {
+            Blend::Stop | Blend::Exact => Some(0.0),
+            Blend::Continuous => None,
+            Blend::Tolerance { path, merge, .. } => Some(path + merge),
+        }
+    }
 }
 
 /// Cutter compensation by the control; the path is then the programmed contour.

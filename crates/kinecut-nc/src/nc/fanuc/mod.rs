@@ -72,6 +72,7 @@ pub(super) const DIALECT: Dialect = Dialect {
     exact_path: None,
     continuous: "G64",
     rounded: None,
+    merges: false,
     machine_frame: ["G53 ", "", ""],
     suspends_length: false,
     recalls_length: true,

@@ -41,6 +41,7 @@ pub(super) const DIALECT: Dialect = Dialect {
     exact_path: None,
     continuous: "G61",
     rounded: None,
+    merges: false,
     machine_frame: ["G53 ", "", ""],
     suspends_length: false,
     recalls_length: false,

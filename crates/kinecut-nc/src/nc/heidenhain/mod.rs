@@ -92,6 +92,7 @@ pub(super) const DIALECT: Dialect = Dialect {
     exact_path: None,
     continuous: "",
     rounded: Some(["", ""]),
+    merges: false,
     machine_frame: ["", "", ""],
     suspends_length: false,
     recalls_length: false,

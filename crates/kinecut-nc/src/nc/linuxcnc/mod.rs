@@ -45,8 +45,9 @@ pub(super) const DIALECT: Dialect = Dialect {
     exact_stop: "G61.1",
     exact_path: Some("G61"),
     continuous: "G64",
-    // Q0: the interpreter does not merge lines, so that what was proven is what runs.
-    rounded: Some(["G64 P", " Q0"]),
+    // Q is always said: left out it is P, and with Q0 no lines are merged, so that what was proven is what runs.
+    rounded: Some(["G64 P", " Q"]),
+    merges: true,
     machine_frame: ["G53 ", "", ""],
     suspends_length: false,
     recalls_length: false,

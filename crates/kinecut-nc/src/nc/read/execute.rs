@@ -5,12 +5,12 @@ use std::f64::consts::TAU;
 
 use crate::base::{Code as FindingCode, Finding, Result};
 use crate::nc::dialect::{AXES, Code};
-use crate::program::{Blend, Coolant, SetupId, Speed, Spindle, StopKind, Tcp, ToolNumber, WorkOffset};
+use crate::program::{Coolant, SetupId, Speed, Spindle, StopKind, Tcp, ToolNumber, WorkOffset};
 
 use super::lex::Word;
 use super::modal::FeedMode;
 use super::place::Bytes;
-use super::reader::{Kind, Reader, Value, take};
+use super::reader::{Kind, Reader, take};
 
 /// Millimetres in an inch.
 const INCH: f64 = 25.4;
@@ -322,37 +322,6 @@ impl<'s> Reader<'s> {
         }
     }
 
-    fn path_mode(&mut self, words: &mut [Word<'s>]) -> Result<()> {
-        let unit = self.modal.length_unit;
-        let is_mode = |c| matches!(c, Code::ExactStop | Code::ExactPath | Code::Continuous | Code::Rounded);
-        let Some((code, _)) = self.code(is_mode) else {
-            return Ok(());
-        };
-        let tolerance = |path: f64| Blend::Tolerance { path, angle: 0.0 };
-        self.modal.blend_said = true;
-        self.modal.blend = match code {
-            Code::ExactStop => Blend::Stop,
-            Code::ExactPath => Blend::Exact,
-            Code::Rounded => {
-                if let Some(distance) = take(words, "ADIS") {
-                    self.modal.rounding = self.not_negative(&distance)? * unit;
-                }
-                tolerance(self.modal.rounding)
-            }
-            _ if self.dialect.long_addresses || self.dialect.rounded.is_none() => Blend::Continuous,
-            _ => match take(words, "P") {
-                // Path tolerance, and the tolerance within which lines are merged; both may add up.
-                Some(path) => {
-                    let path = self.not_negative(&path)?;
-                    let merged = take(words, "Q").map_or(Ok(path), |q| self.not_negative(&q))?;
-                    tolerance((path + merged) * unit)
-                }
-                None => Blend::Continuous,
-            },
-        };
-        Ok(())
-    }
-
     fn distances(&mut self) {
         for (code, _) in &self.codes {
             match *code {
@@ -368,12 +337,5 @@ impl<'s> Reader<'s> {
     pub(super) fn motion_code(&self) -> Option<(Code, Bytes)> {
         let motion = |c: Code| c.group() == Code::Rapid.group();
         self.code(|c| motion(c) && c != Code::NoMotion).or_else(|| self.code(motion))
-    }
-
-    fn not_negative(&self, value: &Value) -> Result<f64> {
-        if value.value >= 0.0 {
-            return Ok(value.value);
-        }
-        Err(self.place.malformed(&value.bytes, "a tolerance is not negative").into())
     }
 }

@@ -20,6 +20,7 @@ mod lex;
 mod modal;
 mod motion;
 mod number;
+mod path_mode;
 pub(super) mod place;
 mod plane;
 mod reader;

@@ -48,6 +48,7 @@ pub(super) const DIALECT: Dialect = Dialect {
     exact_path: None,
     continuous: "G64",
     rounded: Some(["G641 ADIS=", ""]),
+    merges: false,
     machine_frame: ["", " SUPA", " D0"],
     suspends_length: true,
     recalls_length: false,

@@ -102,19 +102,20 @@ impl Writer<'_> {
             Blend::Stop => self.dialect.exact_stop.to_owned(),
             Blend::Exact => self.dialect.exact_path.unwrap_or(self.dialect.exact_stop).to_owned(),
             Blend::Continuous => self.dialect.continuous.to_owned(),
-            Blend::Tolerance { path, .. } => {
-                if !(path.is_finite() && path >= 0.0) {
+            Blend::Tolerance { path, merge, .. } => {
+                if !(path.is_finite() && path >= 0.0 && merge.is_finite() && merge >= 0.0) {
                     return Err(Finding::error(
                         Code::POST_NUMBER,
                         "the tolerance of a continuous path is not usable",
                     )
-                    .value_mm(path)
+                    .value_mm(path + merge)
                     .into());
                 }
                 let Some([before, after]) = self.dialect.rounded else {
                     return Err(unsupported("this control has no tolerance of a continuous path").into());
                 };
-                format!("{before}{}{after}", plain(path))
+                let merge = if self.dialect.merges { plain(merge) } else { String::new() };
+                format!("{before}{}{after}{merge}", plain(path))
             }
         }))
     }

@@ -65,6 +65,7 @@ impl<'a> Setting<'a> {
             Blend::Stop => Ending::Stop,
             Blend::Exact => Ending::Exact,
             Blend::Continuous => Ending::Within(self.machine.control.tolerance.unwrap_or(0.0)),
+            // Its planner is given P alone; lines are merged before it.
             Blend::Tolerance { path, .. } => Ending::Within(path),
         }
     }
@@ -81,8 +82,8 @@ impl<'a> Setting<'a> {
             Blend::Stop => None,
             Blend::Exact => Some(Tolerance::NONE),
             Blend::Continuous => Some(Tolerance { way, turn }),
-            Blend::Tolerance { path, angle } => {
-                Some(Tolerance { way: path, turn: if angle > 0.0 { angle } else { turn } })
+            Blend::Tolerance { path, merge, angle } => {
+                Some(Tolerance { way: path + merge, turn: if angle > 0.0 { angle } else { turn } })
             }
         }
     }

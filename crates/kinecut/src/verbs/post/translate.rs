@@ -15,7 +15,7 @@ use crate::job::external::given::GivenJob;
 use crate::job::external::{Missing, follow};
 use crate::nc::{self, Control, PostSettings};
 use crate::page::{Block, Fact, Section};
-use crate::program::{Item, Origin, Program};
+use crate::program::{Blend, Item, Origin, Program};
 use crate::trace::{RegisterState, Trace, TraceOptions, trace};
 use crate::verbs::Answer;
 
@@ -193,24 +193,28 @@ fn lost_blends(
     let mut findings = Vec::new();
     for i in 0..program.items.len() {
         let wanted = program.state(i).blend;
-        if !matches!(program.items.get(i), Item::Move(_))
-            || blend_on(to, wanted) == wanted
-            || told.contains(&wanted)
-        {
+        let written = blend_on(to, wanted);
+        // One distance for two of the same sum: the path is the same within it.
+        let within = |blend| matches!(blend, Blend::Tolerance { .. });
+        let same =
+            written == wanted || within(written) && within(wanted) && written.bound() == wanted.bound();
+        if !matches!(program.items.get(i), Item::Move(_)) || same || told.contains(&wanted) {
             continue;
         }
         told.push(wanted);
-        let name = |blend: crate::program::Blend| match blend {
-            crate::program::Blend::Stop => "an exact stop".to_owned(),
-            crate::program::Blend::Exact => "an exact path".to_owned(),
-            crate::program::Blend::Continuous => "a continuous path".to_owned(),
-            crate::program::Blend::Tolerance { path, .. } => format!("a continuous path within {path} mm"),
+        let name = |blend: Blend| match blend {
+            Blend::Stop => "an exact stop".to_owned(),
+            Blend::Exact => "an exact path".to_owned(),
+            Blend::Continuous => "a continuous path".to_owned(),
+            Blend::Tolerance { path, merge, .. } => {
+                format!("a continuous path within {} mm", ((path + merge) * 1e6).round() / 1e6)
+            }
         };
         let what = format!(
             "{} has no word for {} between moves: {} is written",
             to.title(),
             name(wanted),
-            name(blend_on(to, wanted))
+            name(written)
         );
         let finding = Finding::warning(Code::TRANSLATED, what).help("look at the corners of the part");
         findings.push(Finding { place: place(&program.origin(i)), ..finding });

@@ -82,7 +82,7 @@ fn farthest_step(written: &Written, machine: &Machine) -> f64 {
 
 #[test]
 fn positions_have_no_steps_in_arcs_of_corners_and_in_overlaps() {
-    for blend in [Blend::Stop, Blend::Exact, Blend::Continuous, Blend::Tolerance { path: 0.02, angle: 0.0 }] {
+    for blend in [Blend::Stop, Blend::Exact, Blend::Continuous, Blend::within(0.02)] {
         let most = farthest_step(&contour(blend), &machine());
         assert!(most > 0.01 && most <= 1.0, "{blend:?} {most}");
     }
@@ -109,7 +109,7 @@ fn the_speed_of_a_corner_that_is_passed_is_that_of_its_arc() {
         joint.dynamics.acceleration = Some(2000.0);
         joint.dynamics.rapid = Some(500.0);
     }
-    let mut written = Written::at_feed(Blend::Tolerance { path: 0.02, angle: 0.0 });
+    let mut written = Written::at_feed(Blend::within(0.02));
     written.to([100.0, 0.0, 0.0]);
     written.to([100.0, 100.0, 0.0]);
     let half = 0.5_f64.sqrt();

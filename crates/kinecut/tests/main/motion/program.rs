@@ -186,14 +186,14 @@ fn exact_stops_stop_in_every_corner_and_a_tolerance_is_never_slower() {
     same(stops.segments.iter().sum(), stops.moves);
     assert_eq!((stops.smoothing.stops, stops.smoothing.smoothed, stops.smoothing.most_off()), (3, 0, 0.0));
     for path in [0.0, 1e-4, 1e-3, 0.01, 0.05, 0.2, 1.0, 5.0] {
-        let within = square(Blend::Tolerance { path, angle: 0.0 });
+        let within = square(Blend::within(path));
         assert!(within.moves <= stops.moves * (1.0 + 1e-3), "{path}: {} {}", within.moves, stops.moves);
         assert!(within.moves >= within.without_jerk, "{path}: {within:?}");
         assert!(within.smoothing.most_off() <= path, "{path}: {within:?}");
         assert_eq!(within.smoothing.stops + within.smoothing.smoothed, 3, "{path}: {within:?}");
         assert_eq!(within.refused, 0, "{path}: {within:?}");
     }
-    let wide = square(Blend::Tolerance { path: 5.0, angle: 0.0 });
+    let wide = square(Blend::within(5.0));
     assert!(wide.moves < 0.95 * stops.moves, "{} {}", wide.moves, stops.moves);
 }
 
@@ -225,7 +225,7 @@ pub(super) fn facets(path: f64) -> Written {
     let mut written = Written::new();
     written.to([20.0, 0.0, 0.0]);
     written.state.speed = Speed::PerMinute(FEED);
-    written.state.blend = Blend::Tolerance { path, angle: 0.0 };
+    written.state.blend = Blend::within(path);
     for i in 1..=72 {
         let (sin, cos) = (f64::from(i) / 72.0 * TAU).sin_cos();
         written.to([20.0 * cos, 20.0 * sin, 0.0]);
@@ -238,7 +238,7 @@ fn short_lines_along_a_gentle_wave_are_run_at_their_feed() {
     const FEED: f64 = 100.0;
     let mut written = Written::new();
     written.state.speed = Speed::PerMinute(FEED);
-    written.state.blend = Blend::Tolerance { path: 0.01, angle: 0.0 };
+    written.state.blend = Blend::within(0.01);
     for i in 1..=1000 {
         let x = 0.3 * f64::from(i);
         written.to([x, 2.0 * (x / 7.0).sin(), 0.0]);
@@ -285,7 +285,7 @@ pub(super) fn contour(blend: Blend) -> Written {
 
 #[test]
 fn half_the_acceleration_and_jerk_never_make_a_program_faster() {
-    let within = |path| Blend::Tolerance { path, angle: 0.0 };
+    let within = |path| Blend::within(path);
     let programs = [
         ("facets, 0.005", facets(0.005)),
         ("facets, 0.05", facets(0.05)),
@@ -503,7 +503,7 @@ fn a_control_of_which_nothing_is_said_smooths_within_a_hundredth() {
 #[test]
 fn a_step_of_curvature_leaves_the_path_beside_the_joint_and_not_at_it() {
     // A line and an arc of 1 mm that goes on from it: the axes step in their second derivative alone.
-    let mut written = Written::at_feed(Blend::Tolerance { path: 1e-4, angle: 0.0 });
+    let mut written = Written::at_feed(Blend::within(1e-4));
     written.to([30.0, 0.0, 0.0]);
     let path = Path::Arc { centre: DVec3::new(30.0, 1.0, 0.0), axis: DVec3::Z, sweep: TAU / 2.0, rise: 0.0 };
     let end = Target::Tip { point: DVec3::new(30.0, 2.0, 0.0), axis: ToolAxis::Fixed };

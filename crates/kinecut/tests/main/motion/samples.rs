@@ -93,7 +93,7 @@ fn differences_agree(written: &Written, machine: &Machine) -> usize {
 
 #[test]
 fn differences_of_positions_are_the_motion_and_keep_the_limits() {
-    let within = |path| Blend::Tolerance { path, angle: 0.0 };
+    let within = |path| Blend::within(path);
     for (name, written) in [
         ("facets", facets(0.05)),
         ("contour, stops", contour(Blend::Stop)),

@@ -131,7 +131,7 @@ fn part(control: Control) -> Program {
     b.tool(2);
     b.state.spindle = Spindle::Clockwise(3500.0 / 60.0 * TAU);
     b.state.coolant = if small { Coolant::Flood } else { Coolant::Mist };
-    b.state.blend = Blend::Tolerance { path: 0.01, angle: 0.0 };
+    b.state.blend = Blend::within(0.01);
     for x in [-110.0, 110.0] {
         b.line(RAPID, x, 110.0, 50.0);
         b.state.speed = if small { feed(420.0) } else { Speed::PerRevolution(0.12) };

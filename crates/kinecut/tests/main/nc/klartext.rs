@@ -332,7 +332,7 @@ fn datum_shift_dwell_tolerance_and_coolant() {
     assert_eq!((found[0].2.coolant, found[2].2.coolant), (Coolant::Flood, Coolant::Off));
     // M9 acts at the end of its block.
     assert_eq!(found[1].2.coolant, Coolant::Flood);
-    assert_eq!(found[1].2.blend, Blend::Tolerance { path: 0.02, angle: 0.0 });
+    assert_eq!(found[1].2.blend, Blend::within(0.02));
     let others: Vec<Item<'_>> = (0..reading.program.items.len())
         .map(|i| reading.program.items.get(i))
         .filter(|i| !matches!(i, Item::Move(_)))

@@ -10,6 +10,7 @@ mod fixtures;
 mod klartext;
 mod klartext_multi_axis;
 mod multi_axis;
+mod path_mode;
 mod read;
 mod round_trip;
 mod tap;

@@ -301,7 +301,9 @@ fn states_are_followed() {
     assert_eq!(state(1).speed, Speed::Rapid { linear: true });
     assert_eq!(state(1).coolant, Coolant::Off);
     assert!(matches!(state(1).spindle, Spindle::CounterClockwise(w) if close(w, 20.0 * PI)));
-    assert!(matches!(state(1).blend, Blend::Tolerance { path, .. } if close(path, 0.03)));
+    assert!(
+        matches!(state(1).blend, Blend::Tolerance { path, merge, .. } if close(path, 0.01) && close(merge, 0.02))
+    );
     assert_eq!(state(2).speed, Speed::PerMinute(2.0));
     assert_eq!(state(2).coolant, Coolant::Flood);
     assert_eq!(state(3).speed, Speed::PerRevolution(0.2));

@@ -167,7 +167,13 @@ fn step() -> impl Strategy<Value = Step> {
             Just(Blend::Stop),
             Just(Blend::Exact),
             Just(Blend::Continuous),
-            (1u32..500).prop_map(|k| Blend::Tolerance { path: f64::from(k) / 1000.0, angle: 0.0 }),
+            (1u32..500).prop_map(|k| Blend::within(f64::from(k) / 1000.0)),
+            // Their sum is exact, too.
+            (1u32..60, 0u32..60).prop_map(|(k, m)| Blend::Tolerance {
+                path: f64::from(k) / 64.0,
+                merge: f64::from(m) / 64.0,
+                angle: 0.0,
+            }),
         ].prop_map(Step::Blend),
         1 => (1u32..4, prop::option::weighted(0.8, 1u32..4)).prop_map(|(t, l)| Step::Tool(t, l)),
         1 => Just(Step::Retract),

@@ -91,7 +91,7 @@ impl<'s> Reader<'s> {
             Some((path, bytes)) if path < 0.0 => {
                 return Err(self.place.malformed(&bytes, "a tolerance is not negative").into());
             }
-            Some((path, _)) if path > 0.0 => Blend::Tolerance { path: path * self.modal.unit, angle: 0.0 },
+            Some((path, _)) if path > 0.0 => Blend::within(path * self.modal.unit),
             _ => Blend::Continuous,
         };
         Ok(())

@@ -77,6 +77,7 @@ impl Writer<'_> {
 
     /// `CYCL DEF 32`; an exact stop is refused where it would matter, in a feed move.
     fn path_tolerance(&mut self, blend: Blend) -> Result<()> {
+        let blend = self.dialect.blend(blend);
         self.modal.pen.stop = matches!(blend, Blend::Stop | Blend::Exact);
         if self.modal.pen.stop || self.modal.pen.blend == Some(blend) {
             return Ok(());
