@@ -143,7 +143,7 @@ pub enum Item<'a> {
     /// A cycle and its expansion along the tool axis, at the present position.
     Cycle(&'a Cycle, &'a [CycleStep]),
     /// A tool and the registers of its length and radius; the tool is changed when the number differs from the
-    /// one before. `length: None` is an offset switched off.
+    /// one before, or `again` says so. `length: None` is an offset switched off.
     Tool {
         /// Tool in the spindle.
         id: ToolNumber,
@@ -151,6 +151,9 @@ pub enum Item<'a> {
         length: Option<u32>,
         /// Register of the radius.
         radius: Option<u32>,
+        /// The change is called for though the tool is in the spindle already (a second `M6`): the spindle stops, and the place
+        /// after it is the control's.
+        again: bool,
     },
     /// A wait [s].
     Dwell(f64),
@@ -179,6 +182,7 @@ struct ToolCall {
     id: ToolNumber,
     length: Option<u32>,
     radius: Option<u32>,
+    again: bool,
 }
 
 /// The straight move of the tip to a point.
@@ -223,8 +227,8 @@ impl Items {
                 Item::Cycle(cycle, steps)
             }
             Slot::Tool(i) => {
-                let ToolCall { id, length, radius } = self.tools[i as usize];
-                Item::Tool { id, length, radius }
+                let ToolCall { id, length, radius, again } = self.tools[i as usize];
+                Item::Tool { id, length, radius, again }
             }
             Slot::Dwell(i) => Item::Dwell(self.dwells[i as usize]),
             Slot::Stop(kind) => Item::Stop(kind),
@@ -350,7 +354,7 @@ impl Program {
         state: &State,
         origin: Origin,
     ) {
-        self.items.tools.push(ToolCall { id, length, radius });
+        self.items.tools.push(ToolCall { id, length, radius, again: false });
         let slot = Slot::Tool(self.items.tools.len() as u32 - 1);
         self.push(slot, state, origin);
     }
@@ -359,6 +363,13 @@ impl Program {
     pub fn set_tool_length(&mut self, index: usize, register: Option<u32>) {
         if let Some(Slot::Tool(i)) = self.items.slots.get(index) {
             self.items.tools[*i as usize].length = register;
+        }
+    }
+
+    /// Makes the last item, a tool, a change that is called for though that tool is in the spindle already.
+    pub fn change_again(&mut self) {
+        if let Some(Slot::Tool(i)) = self.items.slots.last() {
+            self.items.tools[*i as usize].again = true;
         }
     }
 

@@ -168,9 +168,12 @@ impl Program {
                     new.push_cycle(raised, &state, origin)?;
                     place.at.z = f64::NAN;
                 }
-                Item::Tool { id, length, radius } => {
+                Item::Tool { id, length, radius, again } => {
                     place.at = DVec3::NAN;
                     new.push_tool(id, length, radius, &state, origin);
+                    if again {
+                        new.change_again();
+                    }
                 }
                 Item::Dwell(seconds) => new.push_dwell(seconds, &state, origin),
                 Item::Stop(kind) => new.push_stop(kind, &state, origin),

@@ -195,7 +195,8 @@ impl<'s> Reader<'s> {
         if let Some(register) = self.dialect.register_after_change {
             self.modal.tool.length = Some(register);
         }
-        // Told again even if it is the same tool: the change is an item.
+        // Told again even if it is the same tool: the change is an item. LinuxCNC does not load the tool that is in the spindle, but
+        // stops the spindle and goes to its place for changes (`convert_tool_change`, `CHANGE_TOOL`, `emcToolLoad`).
         self.modal.told.id = None;
         self.tool_origin = self.origin;
         self.modal.length_hidden = false;

@@ -69,6 +69,8 @@ pub(super) struct Modal {
     pub(super) tool: ToolState,
     /// State in the program's last tool item.
     pub(super) told: ToolState,
+    /// Tool of the program's last tool item.
+    pub(super) called: Option<ToolNumber>,
     /// The last tool item, as long as Z has not moved in the frame since.
     pub(super) tool_item: Option<usize>,
     /// The length was switched off for a move in machine coordinates only.
@@ -116,6 +118,7 @@ impl Modal {
             chosen: None,
             tool: ToolState::default(),
             told: ToolState::default(),
+            called: None,
             tool_item: None,
             length_hidden: false,
             return_to_start: true,

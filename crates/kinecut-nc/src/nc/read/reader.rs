@@ -402,6 +402,9 @@ impl<'s> Reader<'s> {
         let radius = tool.length.filter(|_| self.dialect.one_register);
         let state = self.state(Speed::Rapid { linear: false });
         self.program.push_tool(id, tool.length, radius, &state, self.tool_origin);
+        if self.modal.called.replace(id) == Some(id) && told.id.is_none() {
+            self.program.change_again();
+        }
         // Only after a change of tool is the place of Z unknown, and the length not in use.
         self.modal.tool_item = told.id.is_none().then(|| self.program.items.len() - 1);
         self.modal.told = tool;

@@ -300,7 +300,12 @@ impl Writer<'_> {
         match item {
             Item::Move(motion) => self.motion(&motion, &state),
             Item::Cycle(cycle, steps) => self.cycle(index, cycle, steps, &state),
-            Item::Tool { id, length, radius } => self.tool_call(id, length, radius),
+            Item::Tool { id, length, radius, again } => {
+                if again {
+                    self.tool = None;
+                }
+                self.tool_call(id, length, radius)
+            }
             Item::Dwell(seconds) => {
                 if !(seconds.is_finite() && seconds >= 0.0) {
                     let finding =

@@ -121,9 +121,12 @@ impl<'a> Walk<'a> {
         match self.program.items.get(index) {
             Item::Move(motion) => self.made.push_move(motion, &state, origin),
             Item::Cycle(cycle, _) => self.made.push_cycle(*cycle, &state, origin)?,
-            Item::Tool { id, length, radius } => {
+            Item::Tool { id, length, radius, again } => {
                 self.tool = Some(id);
                 self.made.push_tool(id, length, radius, &state, origin);
+                if again {
+                    self.made.change_again();
+                }
             }
             Item::Dwell(seconds) => self.made.push_dwell(seconds, &state, origin),
             Item::Stop(kind) => self.made.push_stop(kind, &state, origin),

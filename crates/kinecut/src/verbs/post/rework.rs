@@ -60,7 +60,7 @@ pub(crate) fn rework(source: &Program, radii: &[(u32, f64)], from: Control, to: 
         match source.items.get(index) {
             Item::Move(motion) => program.push_move(motion, &state, origin),
             Item::Cycle(cycle, _) => program.push_cycle(*cycle, &state, origin)?,
-            Item::Tool { id, length, radius } => {
+            Item::Tool { id, length, radius, again } => {
                 tool = Some(id);
                 let mut of = |r: Option<u32>| r.map(|r| number(r, tool));
                 // A tool that does not move in Z before its length is called may as well be called with it.
@@ -78,6 +78,9 @@ pub(crate) fn rework(source: &Program, radii: &[(u32, f64)], from: Control, to: 
                     length = Some(to.length_register(id));
                 }
                 program.push_tool(id, length, radius, &state, origin);
+                if again {
+                    program.change_again();
+                }
             }
             Item::Dwell(seconds) => program.push_dwell(seconds, &state, origin),
             Item::Stop(kind) => program.push_stop(kind, &state, origin),

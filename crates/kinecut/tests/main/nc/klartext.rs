@@ -340,7 +340,7 @@ fn datum_shift_dwell_tolerance_and_coolant() {
     assert_eq!(
         others,
         [
-            Item::Tool { id: ToolNumber(2), length: Some(1), radius: Some(1) },
+            Item::Tool { id: ToolNumber(2), length: Some(1), radius: Some(1), again: false },
             Item::Dwell(1.5),
             Item::Stop(StopKind::Program),
             Item::Stop(StopKind::Optional),

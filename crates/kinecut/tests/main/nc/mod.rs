@@ -14,4 +14,5 @@ mod path_mode;
 mod read;
 mod round_trip;
 mod tap;
+mod tool_change;
 mod turned;

@@ -294,7 +294,7 @@ fn states_are_followed() {
         M8\nG1 X2 F120\nG95 G1 X3 F0.2\nG93 X4 F30\nG94 G61 G20 G1 X0 F12\nM9 M5\nG4 P1.5\nM1\nM2\n";
     let reading = read(text, LinuxCnc);
     let program = &reading.program;
-    let Item::Tool { id, length, radius } = program.items.get(0) else { panic!() };
+    let Item::Tool { id, length, radius, .. } = program.items.get(0) else { panic!() };
     assert_eq!((id.0, length, radius), (3, Some(7), None));
     let state = |i: usize| program.state(i);
     assert_eq!(program.frames[state(1).frame.0 as usize], Frame::Work(WorkOffset::parse("G55").unwrap()));

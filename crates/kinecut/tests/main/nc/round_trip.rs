@@ -223,6 +223,11 @@ fn build(steps: &[Step], control: Control) -> Program {
                     b.program.push_tool(id, register, None, &b.state, Origin::default());
                     length = register;
                     b.rapid(b.at);
+                } else if control != Control::Heidenhain {
+                    // There a second call of the same tool changes nothing.
+                    b.program.push_tool(id, register, None, &b.state, Origin::default());
+                    b.program.change_again();
+                    b.rapid(b.at);
                 }
             }
             Step::Retract => {
