@@ -26,16 +26,35 @@ pub(super) fn lines(text: &str, longest: usize) -> Vec<String> {
         let safe: String = line.chars().map(safe).collect();
         let mut rest = safe.trim();
         while !rest.is_empty() {
-            // ASCII only: every byte index is a boundary.
-            let cut = match rest.len() {
-                n if n <= longest => n,
-                _ => rest[..longest].rfind(' ').filter(|&at| at > 0).unwrap_or(longest),
-            };
-            out.push(tame(rest[..cut].trim_end()));
-            rest = rest[cut..].trim_start();
+            let (line, more) = cut(rest, longest);
+            out.push(tame(line));
+            rest = more;
         }
     }
     out
+}
+
+/// Text in printable ASCII, cut at a blank where it is longer than a line.
+pub(super) fn cut(text: &str, longest: usize) -> (&str, &str) {
+    // ASCII only: every byte index is a boundary.
+    let at = match text.len() {
+        n if n <= longest => n,
+        _ => text[..longest].rfind(' ').filter(|&at| at > 0).unwrap_or(longest),
+    };
+    (text[..at].trim_end(), text[at..].trim_start())
+}
+
+/// Text of a message in one line that stays between its marks: between quotes, or in round brackets.
+pub(super) fn message(text: &str, quoted: bool) -> String {
+    let inside = |c: char| match c {
+        '"' if quoted => '\'',
+        '(' if !quoted => '[',
+        ')' if !quoted => ']',
+        ' '..='~' => c,
+        c if c.is_whitespace() => ' ',
+        _ => '?',
+    };
+    text.trim().chars().map(inside).collect()
 }
 
 fn safe(c: char) -> char {

@@ -133,6 +133,12 @@ impl Control {
         self.dialect().blend(wanted)
     }
 
+    /// Whether it shows messages of a program to the operator: `(MSG, ..)` of LinuxCNC, `MSG("..")` of SINUMERIK. Grbl drops
+    /// all comments; `(MSG, ..)` is for the program that sends the text. `#3006` of FANUC is a stop.
+    pub fn has_messages(self) -> bool {
+        matches!(self, Control::LinuxCnc | Control::Sinumerik840d)
+    }
+
     /// Decimals of coordinates that are usual: FANUC's increment system IS-B has three.
     pub fn usual_decimals(self) -> u8 {
         if self == Control::Fanuc { 3 } else { 4 }

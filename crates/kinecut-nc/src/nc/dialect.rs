@@ -49,6 +49,8 @@ pub(super) struct Dialect {
     // Writing.
     /// Marks around a comment.
     pub(super) comment: [&'static str; 2],
+    /// Marks around a message to the operator.
+    pub(super) message: Option<[&'static str; 2]>,
     /// Whether comments are in capitals.
     pub(super) capitals: bool,
     /// Longest line that the control reads.

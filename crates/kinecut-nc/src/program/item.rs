@@ -159,8 +159,10 @@ pub enum Item<'a> {
     Dwell(f64),
     /// A stop.
     Stop(StopKind),
-    /// A comment or operator message.
+    /// A comment.
     Text(&'a str),
+    /// A message to the operator, which the control shows while it runs on; empty takes the one before away.
+    Message(&'a str),
 }
 
 /// Kind of an item, and where its values are.
@@ -174,6 +176,7 @@ enum Slot {
     Dwell(u32),
     Stop(StopKind),
     Text(u32),
+    Message(u32),
 }
 
 /// A tool with the registers of its length and radius.
@@ -233,6 +236,7 @@ impl Items {
             Slot::Dwell(i) => Item::Dwell(self.dwells[i as usize]),
             Slot::Stop(kind) => Item::Stop(kind),
             Slot::Text(i) => Item::Text(&self.texts[i as usize]),
+            Slot::Message(i) => Item::Message(&self.texts[i as usize]),
         }
     }
 
@@ -425,7 +429,14 @@ impl Program {
         self.push(Slot::Stop(kind), state, origin);
     }
 
-    /// Appends a comment or message.
+    /// Appends a message to the operator.
+    pub fn push_message(&mut self, text: impl Into<String>, state: &State, origin: Origin) {
+        self.items.texts.push(text.into());
+        let slot = Slot::Message(self.items.texts.len() as u32 - 1);
+        self.push(slot, state, origin);
+    }
+
+    /// Appends a comment.
     pub fn push_text(&mut self, text: impl Into<String>, state: &State, origin: Origin) {
         self.items.texts.push(text.into());
         let slot = Slot::Text(self.items.texts.len() as u32 - 1);

@@ -178,6 +178,7 @@ impl Program {
                 Item::Dwell(seconds) => new.push_dwell(seconds, &state, origin),
                 Item::Stop(kind) => new.push_stop(kind, &state, origin),
                 Item::Text(text) => new.push_text(text, &state, origin),
+                Item::Message(text) => new.push_message(text, &state, origin),
             }
         }
         Ok(new)

@@ -59,6 +59,7 @@ const LIFT: f64 = 1.0;
 
 pub(super) const DIALECT: Dialect = Dialect {
     comment: ["(", ")"],
+    message: None,
     capitals: true,
     line_limit: None,
     point: true,

@@ -28,6 +28,7 @@ fn has_offset(offset: WorkOffset) -> bool {
 
 pub(super) const DIALECT: Dialect = Dialect {
     comment: ["(", ")"],
+    message: Some(["(MSG,", ")"]),
     capitals: false,
     line_limit: Some(79),
     point: false,

@@ -79,6 +79,7 @@ pub(super) const LONGEST_DWELL: f64 = 3600.0;
 /// The entries of the shared tables that this control uses; its blocks are written and read by functions of their own.
 pub(super) const DIALECT: Dialect = Dialect {
     comment: ["; ", ""],
+    message: None,
     capitals: false,
     line_limit: None,
     point: false,

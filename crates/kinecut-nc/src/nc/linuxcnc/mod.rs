@@ -33,6 +33,7 @@ const LIFT: f64 = 0.254;
 
 pub(super) const DIALECT: Dialect = Dialect {
     comment: ["( ", " )"],
+    message: Some(["(MSG,", ")"]),
     capitals: false,
     line_limit: None,
     point: false,

@@ -17,6 +17,7 @@ mod cubic;
 mod cycle;
 mod execute;
 mod lex;
+mod message;
 mod modal;
 mod motion;
 mod number;
@@ -126,7 +127,7 @@ pub fn read_source(sources: &Sources, file: FileId, control: Control, setups: &[
             reader.block(&mut block)?;
             continue;
         }
-        if !started && block.is_empty() {
+        if !started && block.is_empty() && !reader.has_message(&block) {
             reader.header.extend(block.comments.iter().map(|c| c.0.to_owned()));
             continue;
         }

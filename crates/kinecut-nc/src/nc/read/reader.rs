@@ -138,13 +138,7 @@ impl<'s> Reader<'s> {
         if let Some(torn) = &block.torn {
             self.warn(torn, "a number has blanks within: the control ignores them");
         }
-        for (text, bytes) in block.comments.iter().chain(&block.message) {
-            if !text.is_empty() {
-                let origin = Origin { span: Some(self.place.span(bytes)), ..Origin::default() };
-                self.flush(Kind::Other);
-                self.program.push_text(*text, &self.state(Speed::Rapid { linear: false }), origin);
-            }
-        }
+        self.remarks(block);
         if block.words.is_empty() && block.call.is_none() {
             return Ok(());
         }

@@ -35,6 +35,7 @@ fn has_offset(offset: WorkOffset) -> bool {
 
 pub(super) const DIALECT: Dialect = Dialect {
     comment: ["; ", ""],
+    message: Some(["MSG(\"", "\")"]),
     capitals: false,
     line_limit: None,
     point: false,

@@ -14,6 +14,7 @@ mod klartext;
 mod moves;
 mod page;
 mod plane;
+mod remark;
 mod rotary_axes;
 mod series;
 mod spiral;
@@ -32,7 +33,7 @@ use crate::tool::Tool;
 use super::dialect::Dialect;
 use super::grid::Grid;
 use super::multi_axis::TcpWord;
-use super::{PostNotes, PostSettings, Posted, comment};
+use super::{PostNotes, PostSettings, Posted};
 use page::Page;
 use state::Modal;
 
@@ -263,30 +264,10 @@ impl Writer<'_> {
         Ok(())
     }
 
-    fn comment(&mut self, text: &str) {
-        let [before, after] = self.dialect.comment;
-        let room =
-            self.dialect.line_limit.unwrap_or(usize::MAX).saturating_sub(before.len() + after.len() + 2);
-        for mut line in comment::lines(text, room.min(comment::LONGEST)) {
-            if self.klartext() {
-                // At the end of a line it would join the next one.
-                line = line.replace('~', "-");
-            }
-            if self.settings.control == crate::nc::Control::Fanuc {
-                // Sent line by line it would end the program on some controls.
-                line = line.replace('%', "-");
-            }
-            if self.dialect.capitals {
-                line.make_ascii_uppercase();
-            }
-            self.page.line(format!("{before}{line}{after}"));
-        }
-    }
-
     fn item(&mut self, index: usize) -> Result<()> {
         let state = *self.program.state(index);
         let item = self.program.items.get(index);
-        if self.ended && !matches!(item, Item::Text(_)) {
+        if self.ended && !matches!(item, Item::Text(_) | Item::Message(_)) {
             return Err(unsupported("an item follows the end of the program").into());
         }
         if let Item::Cycle(..) | Item::Tool { .. } | Item::Stop(StopKind::End) = item {
@@ -294,7 +275,7 @@ impl Writer<'_> {
         }
         match item {
             Item::Move(_) if self.joins_series(index)? => return Ok(()),
-            Item::Cycle(..) | Item::Text(_) => {}
+            Item::Cycle(..) | Item::Text(_) | Item::Message(_) => {}
             _ => self.end_series(),
         }
         match item {
@@ -336,6 +317,10 @@ impl Writer<'_> {
             }
             Item::Text(text) => {
                 self.comment(text);
+                Ok(())
+            }
+            Item::Message(text) => {
+                self.message(text);
                 Ok(())
             }
         }

@@ -84,7 +84,8 @@ impl Stretch {
         let stops = |s: &Segment| matches!(item(s.item), Item::Cycle(..)) && !decides;
         !stops(before)
             && !stops(after)
-            && (before.item + 1..after.item).all(|i| matches!(item(i), Item::Text(_) | Item::Move(_)))
+            && (before.item + 1..after.item)
+                .all(|i| matches!(item(i), Item::Text(_) | Item::Message(_) | Item::Move(_)))
     }
 
     /// Its moves in the time that the program gives them.

@@ -131,6 +131,7 @@ impl<'a> Walk<'a> {
             Item::Dwell(seconds) => self.made.push_dwell(seconds, &state, origin),
             Item::Stop(kind) => self.made.push_stop(kind, &state, origin),
             Item::Text(text) => self.made.push_text(text, &state, origin),
+            Item::Message(text) => self.made.push_message(text, &state, origin),
         }
         self.of.push(index as u32);
         Ok(())

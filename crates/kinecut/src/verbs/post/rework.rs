@@ -85,6 +85,7 @@ pub(crate) fn rework(source: &Program, radii: &[(u32, f64)], from: Control, to: 
             Item::Dwell(seconds) => program.push_dwell(seconds, &state, origin),
             Item::Stop(kind) => program.push_stop(kind, &state, origin),
             Item::Text(text) => program.push_text(text, &state, origin),
+            Item::Message(text) => program.push_message(text, &state, origin),
         }
     }
     done.program = program;

@@ -141,6 +141,7 @@ pub fn translate(
     );
     findings.extend(lost_words(&source.reading.findings, to));
     findings.extend(lost_blends(read, to, place));
+    findings.extend(lost_messages(read, from, to, place));
     findings.extend(rapids(program, &source.trace, &written, to));
     findings.extend(apart(&read_back, &file));
     findings.sort_by_key(|f| std::cmp::Reverse(f.severity));
@@ -220,6 +221,27 @@ fn lost_blends(
         findings.push(Finding { place: place(&program.origin(i)), ..finding });
     }
     findings
+}
+
+/// A warning when messages to the operator become comments.
+fn lost_messages(
+    program: &Program,
+    from: Control,
+    to: Control,
+    place: impl Fn(&Origin) -> Option<crate::base::Location>,
+) -> Option<Finding> {
+    let items = &program.items;
+    let is_message = |i: &usize| matches!(items.get(*i), Item::Message(text) if !text.is_empty());
+    let messages: Vec<usize> = (0..items.len()).filter(is_message).collect();
+    let first = *messages.first().filter(|_| from != to && !to.has_messages())?;
+    let what = format!(
+        "{} shows no messages of a program to the operator: {} of them are comments in the text",
+        to.title(),
+        messages.len()
+    );
+    let finding =
+        Finding::warning(Code::TRANSLATED, what).help("stop there (M0) where the operator has to read it");
+    Some(Finding { place: place(&program.origin(first)), ..finding })
 }
 
 /// A warning when rapid moves that keep to the straight line no longer do.

@@ -9,6 +9,7 @@ mod drill_series;
 mod fixtures;
 mod klartext;
 mod klartext_multi_axis;
+mod messages;
 mod multi_axis;
 mod path_mode;
 mod read;

@@ -328,7 +328,7 @@ fn sinumerik_states_are_followed() {
     let items = &reading.program.items;
     assert_eq!(reading.header, ["HEAD"]);
     assert!(matches!(items.get(0), Item::Tool { length: Some(2), radius: Some(2), .. }));
-    assert_eq!(items.get(1), Item::Text("HELLO ; M30"));
+    assert_eq!(items.get(1), Item::Message("HELLO ; M30"));
     assert!(matches!(reading.program.state(2).blend, Blend::Tolerance { path, .. } if close(path, 2.54)));
     assert!(matches!(reading.program.state(3).speed, Speed::PerMinute(f) if close(f, 254.0 / 60.0)));
     assert_eq!(items.get(4), Item::Text("COMMENT"));

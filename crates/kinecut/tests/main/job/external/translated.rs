@@ -71,3 +71,22 @@ fn what_the_other_control_lacks_is_an_error_at_its_block_or_a_finding() {
     let done = translated(compensated, Control::Fanuc, Control::Sinumerik840d).unwrap();
     assert!(done.text.contains("G41") && done.read_back.largest < 1e-3, "{}", done.text);
 }
+
+#[test]
+fn messages_that_become_comments_are_reported() {
+    let text = SINUMERIK.replace("T2 M6", "MSG(\"TURN (IT)\")\nT2 M6\nMSG()");
+    let done = |to| translated(&text, Control::Sinumerik840d, to).unwrap();
+    let told =
+        |done: &Translation| done.findings.iter().filter(|f| f.message.contains("shows no messages")).count();
+    let linuxcnc = done(Control::LinuxCnc);
+    assert!(linuxcnc.text.contains("(MSG,TURN [IT])") && told(&linuxcnc) == 0, "{}", linuxcnc.text);
+    for to in [Control::Fanuc, Control::Heidenhain] {
+        let done = done(to);
+        let found = done.findings.iter().find(|f| f.message.contains("shows no messages")).unwrap();
+        assert_eq!(
+            (found.code, found.place.as_ref().unwrap().text.contains("MSG")),
+            (Code::TRANSLATED, true)
+        );
+        assert!(done.text.contains("TURN [IT]"), "{}", done.text);
+    }
+}
