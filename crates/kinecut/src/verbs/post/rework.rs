@@ -15,7 +15,8 @@ pub(crate) struct Reworked {
 }
 
 /// Gives the registers of a program the numbers that another control uses for the same thing: the tool's own register, and
-/// that of its wear. Another register keeps its number, and is reported.
+/// that of its wear. The second, where it gets another number, and a register that is neither, which keeps its number, are
+/// reported.
 ///
 /// # Errors
 /// None but those of cycles, which the program already has.
@@ -26,20 +27,16 @@ pub(crate) fn rework(source: &Program, radii: &[(u32, f64)], from: Control, to: 
     }
     let mut done = Reworked { program: Program::default(), radii: Vec::new(), findings: Vec::new() };
     let mut tool = None;
-    let mut told: Vec<u32> = Vec::new();
+    let mut told: Vec<(Option<ToolNumber>, u32)> = Vec::new();
     let mut without_lengths = false;
     for index in 0..source.items.len() {
         let mut number = |register: u32, tool: Option<ToolNumber>| {
-            let (new, known) = register_on(to, from, tool, register);
-            if from != to && !known && !told.contains(&register) {
-                told.push(register);
-                let what = format!(
-                    "register {register} is not the tool's own on {}: it keeps its number on {}",
-                    from.title(),
-                    to.title()
-                );
-                let finding = Finding::warning(Code::REGISTER, what)
-                    .help("check what stands in this register on the other machine");
+            let (new, order) = register_on(to, from, tool, register);
+            let of = tool.filter(|_| order == Order::Wear);
+            if let Some(finding) =
+                moved(from, to, of, [register, new], order).filter(|_| !told.contains(&(of, register)))
+            {
+                told.push((of, register));
                 done.findings.push((index as u32, finding));
             }
             if let Some((_, value)) = radii.iter().find(|(r, _)| *r == register)
@@ -111,12 +108,51 @@ fn length_to_come(program: &Program, call: usize, tool: ToolNumber) -> Option<u3
     })?
 }
 
-/// The register of another control that replaces this one, and whether that is known.
-fn register_on(to: Control, from: Control, tool: Option<ToolNumber>, register: u32) -> (u32, bool) {
+/// A finding about a register that is not the tool's own: `of` the tool, where its number depends on that; its numbers on
+/// both controls.
+fn moved(
+    from: Control,
+    to: Control,
+    of: Option<ToolNumber>,
+    [old, new]: [u32; 2],
+    order: Order,
+) -> Option<Finding> {
+    let (here, there) = (from.title(), to.title());
+    let (what, help) = match order {
+        _ if from == to => return None,
+        Order::Kept => (
+            format!("register {old} is not the tool's own on {here}: it keeps its number on {there}"),
+            "check what stands in this register on the other machine".to_owned(),
+        ),
+        Order::Wear if old != new => {
+            let tool = of.map_or_else(String::new, |tool| format!(" of {tool}"));
+            (
+                format!("register {old}{tool} on {here} is called as register {new} on {there}"),
+                format!("put what register {old} holds into register {new} of the other machine"),
+            )
+        }
+        Order::Own | Order::Wear => return None,
+    };
+    Some(Finding::warning(Code::REGISTER, what).help(help))
+}
+
+/// Place of a register in the order of a control.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Order {
+    /// The tool's own.
+    Own,
+    /// The one that kinecut takes for the wear of the tool: others may use it for anything.
+    Wear,
+    /// Neither: its number stays.
+    Kept,
+}
+
+/// The register of another control that replaces this one.
+fn register_on(to: Control, from: Control, tool: Option<ToolNumber>, register: u32) -> (u32, Order) {
     match tool {
-        Some(tool) if register == from.length_register(tool) => (to.length_register(tool), true),
-        Some(tool) if register == from.wear_register(tool) => (to.wear_register(tool), true),
-        _ => (register, false),
+        Some(tool) if register == from.length_register(tool) => (to.length_register(tool), Order::Own),
+        Some(tool) if register == from.wear_register(tool) => (to.wear_register(tool), Order::Wear),
+        _ => (register, Order::Kept),
     }
 }
 
@@ -128,9 +164,9 @@ mod tests {
     fn the_tools_own_register_is_called_by_its_number_on_the_other_control() {
         let tool = Some(ToolNumber(7));
         let on = |to, from, register| register_on(to, from, tool, register);
-        assert_eq!(on(Control::Sinumerik840d, Control::Fanuc, 7), (1, true));
-        assert_eq!(on(Control::Fanuc, Control::Heidenhain, 1), (7, true));
-        assert_eq!(on(Control::LinuxCnc, Control::Sinumerik840d, 2), (107, true));
-        assert_eq!(on(Control::LinuxCnc, Control::Fanuc, 12), (12, false));
+        assert_eq!(on(Control::Sinumerik840d, Control::Fanuc, 7), (1, Order::Own));
+        assert_eq!(on(Control::Fanuc, Control::Heidenhain, 1), (7, Order::Own));
+        assert_eq!(on(Control::LinuxCnc, Control::Sinumerik840d, 2), (107, Order::Wear));
+        assert_eq!(on(Control::LinuxCnc, Control::Fanuc, 12), (12, Order::Kept));
     }
 }

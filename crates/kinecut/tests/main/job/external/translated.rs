@@ -50,6 +50,15 @@ fn the_registers_are_those_of_the_other_control() {
     let found: Vec<_> = done.findings.iter().filter(|f| f.message.contains("keeps its number")).collect();
     assert_eq!(found.len(), 1, "{:?}", done.findings);
     assert!(found[0].place.is_some() && done.text.contains("H22"), "{}", done.text);
+    // A second cutting edge has another number in the other table: which, is said once a tool.
+    let edge =
+        SINUMERIK.replace("T1 M6\nD1", "T1 M6\nD2").replace("Z20 M9", "Z20 M9\nD1\nG0 Z30\nD2\nG0 Z20");
+    let done = translated(&edge, Control::Sinumerik840d, Control::LinuxCnc).unwrap();
+    let found: Vec<_> = done.findings.iter().filter(|f| f.code == Code::REGISTER).collect();
+    assert!(done.text.contains("G43 H101"), "{}", done.text);
+    let moved: Vec<_> = found.iter().filter(|f| f.message.contains("called as register 101")).collect();
+    assert_eq!(moved.len(), 1, "{:?}", done.findings);
+    assert!(moved[0].message.starts_with("register 2 of T1 ") && moved[0].place.is_some(), "{:?}", moved[0]);
 }
 
 #[test]
