@@ -43,6 +43,21 @@ impl Speed {
             Speed::Duration(seconds) => Speed::Duration(seconds / factor),
         }
     }
+
+    /// The speed of a part of a move, by its part of the length: a time is shared, all else holds for each part.
+    ///
+    /// ```
+    /// # use kinecut_nc as kinecut;
+    /// use kinecut::program::Speed;
+    /// assert_eq!(Speed::Duration(3.0).of_part(0.5), Speed::Duration(1.5));
+    /// assert_eq!(Speed::PerMinute(3.0).of_part(0.5), Speed::PerMinute(3.0));
+    /// ```
+    pub fn of_part(self, part: f64) -> Speed {
+        match self {
+            Speed::Duration(seconds) => Speed::Duration(seconds * part),
+            other => other,
+        }
+    }
 }
 
 /// Spindle: turning sense seen from the spindle, and speed [rad/s].

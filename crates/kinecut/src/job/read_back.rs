@@ -166,6 +166,7 @@ fn compare_move(segment: &Segment, pieces: &[Segment], answer: &mut ReadBack) ->
     let length: f64 = pieces.iter().map(|p| p.curve.length()).sum();
     if pieces.is_empty() && segment.curve.length() > LOST_BELOW
         || pieces.iter().any(|p| p.motion != segment.motion && !close_feed(p, segment))
+            && !shares_time(segment, pieces)
     {
         return Err(lost(segment));
     }
@@ -207,6 +208,25 @@ fn lost(segment: &Segment) -> Error {
 
 /// Moves shorter than any control's resolution may vanish when they are written [mm].
 const LOST_BELOW: f64 = 2e-3;
+
+/// Whether the pieces of a move take its time, at one feed: chords are a little shorter than their curve, and where the time is
+/// given they are slower by as much. A piece that could as well vanish has a time of few digits.
+fn shares_time(segment: &Segment, pieces: &[Segment]) -> bool {
+    use crate::trace::SegmentPace::Feed;
+    let mut time = 0.0;
+    let mut length = 0.0;
+    for piece in pieces {
+        let (Feed(_), Some(seconds)) = (piece.motion, piece.duration) else { return false };
+        time += seconds;
+        length += piece.curve.length();
+    }
+    let (Feed(_), Some(planned)) = (segment.motion, segment.duration) else { return false };
+    let close = |a: f64, b: f64| (a - b).abs() <= 1e-3 * b.abs();
+    let even = |p: &Segment| {
+        p.curve.length() <= LOST_BELOW || matches!(p.motion, Feed(feed) if close(feed, length / time))
+    };
+    close(time, planned) && pieces.iter().all(even)
+}
 
 /// Feeds are written with few decimals: equal to a thousandth.
 fn close_feed(a: &Segment, b: &Segment) -> bool {

@@ -88,6 +88,7 @@ impl<'s> Reader<'s> {
                 stop[n] = stop[n].map(|_| start[n] + rise * done / total);
             }
             let rise = rise * part.sweep / total;
+            let speed = speed.of_part(part.sweep / total);
             self.push_tip(stop, Path::Arc { centre: middle, axis, sweep: part.sweep, rise }, speed);
         }
         Ok(())

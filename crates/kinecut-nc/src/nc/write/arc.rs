@@ -204,6 +204,26 @@ impl Writer<'_> {
         self.arc(&second, point, speed)
     }
 
+    /// Length of the arc that the control makes of a block [mm].
+    fn arc_length(
+        &self,
+        plane: Plane,
+        ccw: bool,
+        end: [f64; 3],
+        centre: [i64; 2],
+        turns: u32,
+    ) -> Result<f64> {
+        let mut way = [0.0; 3];
+        for axis in 0..3 {
+            way[axis] = (self.grid.round(end[axis])? - self.written(axis)?) as f64;
+        }
+        let [a, b, normal] = plane.axes();
+        let centre = DVec2::new(centre[0] as f64, centre[1] as f64);
+        let (centre, sweep) = fit(DVec2::ZERO, DVec2::new(way[a], way[b]), centre, ccw);
+        let angle = sweep.abs() + TAU * f64::from(turns);
+        Ok((centre.length() * angle).hypot(way[normal]) * self.grid.unit())
+    }
+
     fn arc_block(
         &mut self,
         plane: Plane,
@@ -213,6 +233,7 @@ impl Writer<'_> {
         turns: u32,
         speed: Speed,
     ) -> Result<()> {
+        let speed = self.timed(speed, self.arc_length(plane, word == "G3", end, centre, turns)?);
         if self.klartext() {
             return self.klartext_arc(end, centre, word == "G3", speed);
         }

@@ -64,6 +64,9 @@ impl Writer<'_> {
         if !takes || !handles.iter().all(long) {
             return self.cubic_as_arcs(span, point, speed);
         }
+        let [first, second] = handles.map(|h| DVec2::new(self.grid.value(h[0]), self.grid.value(h[1])));
+        let rounded = CubicSpan::new([start, start + first, stop + second, stop]);
+        let speed = self.timed(speed, rounded.map_or_else(|_| span.length(), |rounded| rounded.length()));
         let mut axes = String::new();
         for (axis, value) in point.to_array().into_iter().enumerate() {
             self.axis(&mut axes, axis, value, axis != 2)?;

@@ -17,6 +17,7 @@ mod plane;
 mod remark;
 mod rotary_axes;
 mod series;
+mod shares;
 mod spiral;
 mod state;
 mod tap;
@@ -103,6 +104,7 @@ pub fn write(program: &Program, tools: &[Tool], settings: &PostSettings) -> Resu
         parameters_used: false,
         turns_kept: false,
         beyond_turn: false,
+        shares: None,
     };
     if writer.klartext() {
         writer.grid = writer.grid.signed();
@@ -194,6 +196,8 @@ struct Writer<'a> {
     turns_kept: bool,
     /// A rotary axis was written beyond a whole turn.
     beyond_turn: bool,
+    /// Parts of a move in inverse time.
+    shares: Option<shares::Shares>,
 }
 
 impl Writer<'_> {

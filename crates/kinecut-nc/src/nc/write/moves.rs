@@ -141,7 +141,12 @@ impl Writer<'_> {
     fn turned_tip(&mut self, motion: &Move, point: DVec3, state: &State) -> Result<()> {
         let turns = !self.modal.rotary_axes.words.is_empty();
         let before = self.page.len();
-        self.tip(motion, point, state)?;
+        match (state.speed, motion.path) {
+            (Speed::Duration(seconds), path) if path != Path::Line => {
+                self.in_shared_time(seconds, |writer| writer.tip(motion, point, state))?;
+            }
+            _ => self.tip(motion, point, state)?,
+        }
         if turns && (self.page.len() != before + 1 || !matches!(motion.path, Path::Line | Path::Arc { .. })) {
             return Err(unsupported("a curve on which rotary axes turn does not fit into one block")
                 .help("give it as straight moves")
@@ -217,6 +222,7 @@ impl Writer<'_> {
     /// A straight move to `point`; coordinates that are not numbers stay. Nothing is written for no movement.
     pub(super) fn line(&mut self, point: [f64; 3], speed: Speed) -> Result<()> {
         let mut axes = String::new();
+        let before = self.place.written;
         for (axis, value) in point.into_iter().enumerate() {
             // After a polar arc the control may be off the grid.
             self.axis(&mut axes, axis, value, axis != 2 && self.modal.pen.beside.is_some())?;
@@ -225,6 +231,7 @@ impl Writer<'_> {
         if axes.is_empty() {
             return Ok(());
         }
+        let speed = self.timed(speed, self.straight_length(before));
         if self.klartext() {
             return self.klartext_line(&axes, speed);
         }

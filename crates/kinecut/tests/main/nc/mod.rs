@@ -7,6 +7,7 @@ mod drill_cycles;
 mod drill_read;
 mod drill_series;
 mod fixtures;
+mod inverse_time;
 mod klartext;
 mod klartext_multi_axis;
 mod messages;

@@ -199,8 +199,10 @@ impl<'s> Reader<'s> {
         if (from - centre).length() == 0.0 || parts.iter().any(|p| p.centre == from) {
             return Err(self.no_fit("an arc with radius zero").into());
         }
+        let total: f64 = parts.iter().map(|p| p.sweep).sum();
         for part in parts {
             let end = part.end.unwrap_or(to);
+            let speed = speed.of_part(part.sweep / total);
             let path = Path::Arc {
                 centre: part.centre.extend(start.z),
                 axis: DVec3::Z,

@@ -183,6 +183,14 @@ impl Writer<'_> {
     }
 
     fn polar_block(&mut self, pole: [i64; 2], ticks: i64, end: DVec3, speed: Speed) -> Result<()> {
+        let from = match self.modal.pen.beside {
+            Some(beside) => beside,
+            None => self.written_xy()?,
+        };
+        let centre = DVec2::new(self.grid.value(pole[0]), self.grid.value(pole[1]));
+        let rise = self.grid.value(self.grid.round(end.z)?) - self.grid.value(self.written(2)?);
+        let angle = degrees(ticks).to_radians();
+        let speed = self.timed(speed, ((from - centre).length() * angle).hypot(rise));
         self.pole(pole);
         let mut block = String::from("CP ");
         Grid::new(4, None, false)?.signed().word(&mut block, "IPA", ticks);

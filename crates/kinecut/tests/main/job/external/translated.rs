@@ -99,3 +99,23 @@ fn messages_that_become_comments_are_reported() {
         assert!(done.text.contains("TURN [IT]"), "{}", done.text);
     }
 }
+
+#[test]
+fn arcs_in_inverse_time_are_translated() {
+    let text = |arc: &str| {
+        format!(
+            "G17 G21 G90 G94\nT1 M6\nG43 H1\nG54\nG64\nS1000 M3\nG0 X0 Y0\nZ25\nG93\n{arc}\nG94\nG0 Z50\nM5\nM2\n"
+        )
+    };
+    for arc in [
+        "G2 Z-23.13 J1.96473 I-8.59839 P2 F13.08",
+        "G3 R2.09 Z1.8849 Y-0.77014 F14.69",
+        "G18 G2 X8 Z17 I8 F30",
+    ] {
+        for to in Control::ALL.iter().copied() {
+            let done =
+                translated(&text(arc), Control::LinuxCnc, to).unwrap_or_else(|e| panic!("{to}: {arc}: {e}"));
+            assert!(done.findings.iter().all(|f| f.code != Code::READ_BACK), "{to}: {:?}", done.findings);
+        }
+    }
+}
