@@ -77,9 +77,9 @@ codes! {
         "A feed move without feed, a move before the position is known, a length offset without tool: the control would stop or guess.";
 
     COMPENSATION = "KC0205", "the control cannot compensate this contour",
-        "Cutter compensation (G41, G42) begins and ends on a straight move that is longer than the radius, turns inside corners only where there is room for the tool, and follows a hollow arc only when its radius is larger than the compensation. The control would stop with an alarm, or cut into the contour.";
+        "Cutter compensation (G41, G42) begins and ends on a straight move that is longer than the radius (on LinuxCNC it may begin on an arc), turns inside corners only where there is room for the tool, and follows a hollow arc only when its radius is larger than the compensation. The control would stop with an alarm, or cut into the contour.";
     REGISTER = "KC0206", "a register is not that of the tool",
-        "A tool runs with the length or radius of another register, or without its length. The control lifts the tool by what the register holds: a length that is too short drives the tool into the part. Where both lengths are known the simulation is done with the wrong one, as the machine would.";
+        "A tool runs with the length or radius of another register, or without its length. The control lifts the tool by what the register holds: a length that is too short drives the tool into the part. Where both lengths are known the simulation is done with the wrong one, as the machine would. In a translated program: which number a register has in the table of the other control.";
 
     NC_ASSUMED = "KC0207", "what a number means depends on a setting of the control",
         "A coordinate without a decimal point, a unit that the program does not say, a word with two readings: the control has a parameter for it. The message says what was assumed; write the program so that there is nothing to assume.";
@@ -94,7 +94,7 @@ codes! {
     POST_TEMPLATE = "KC0304", "a template of the post does not work",
         "The template of the start or the end of a program has an error, names something that does not exist, gives text that kinecut does not understand, or leaves the control in a state in which the program would mean something else.";
     TRANSLATED = "KC0305", "a translated program lacks something",
-        "A program was written for another control, and something of it has no counterpart there: a word that moves nothing, the passage between moves, the way of rapid moves. The path is the same; look at what is named before the new text is run.";
+        "A program was written for another control, and something of it has no counterpart there: a word that moves nothing, a message to the operator, the passage between moves, the way of rapid moves. The path is the same; look at what is named before the new text is run.";
 
     CUTTER_TOO_LARGE = "KC0401", "the cutter does not fit into the bore",
         "The path radius (bore diameter minus cutter diameter) / 2 minus the allowance must be positive.";

@@ -12,6 +12,10 @@
 //! program; `G52` shifts in the turned coordinates (measured on the stand-alone interpreter). Both are taken back before
 //! the program stops or ends, and its head says what an abort leaves behind.
 //!
+//! Path: `G64 P Q` has two distances, see `read/path_mode`. A second `M6` stops the spindle and goes to the place for changes; the tool
+//! that is in the spindle is not loaded again. Cutter compensation begins on a straight move or an arc, in the block of `G41`
+//! or later, from a place that is known, and ends on a straight move.
+//!
 //! Rotary axes are `A`, `B`, `C` in degrees, as positions of the axes: control of the tool centre point and tilted planes are
 //! switched by words that each machine defines for itself (`M428`), which are refused.
 //!

@@ -1,12 +1,14 @@
 //! Cutter compensation: G40, G41, G42 and their radius register, and what a control refuses while it is on.
 //!
-//! Both switches need a straight move in the plane next; in between there is no change of unit, plane, tool, register,
+//! Both switches need a straight move in the plane next, at whatever block (LinuxCNC enters on an arc too); in between there is no change of unit, plane, tool, register,
 //! work offset or side, no cycle and no move in machine coordinates. The values of the registers are not in the
 //! text.
 
+use glam::DVec3;
+
 use crate::base::{Code as FindingCode, Finding, Result};
-use crate::nc::dialect::{Code, CompWord, Plane};
-use crate::program::{Comp, Item, Path, Target, Tcp};
+use crate::nc::dialect::{AXES, Code, CompWord, Plane};
+use crate::program::{Comp, Item, Move, Path, Target, Tcp};
 
 use super::lex::Word;
 use super::place::Bytes;
@@ -134,28 +136,55 @@ impl<'s> Reader<'s> {
         if is_on && new().any(|item| matches!(item, Item::Cycle(..))) {
             return Err(self.while_on(&self.here).into());
         }
-        let first = new().find_map(|item| if let Item::Move(motion) = item { Some(motion) } else { None });
+        let mut moves =
+            new().filter_map(|item| if let Item::Move(motion) = item { Some(motion) } else { None });
         // The switch waits for its move.
-        let Some(first) = first else { return Ok(()) };
+        let Some(first) = moves.next() else { return Ok(()) };
+        let parts = 1 + moves.count();
         let Some(turned) = self.modal.comp_turned.take() else { return Ok(()) };
-        let [x, y, _] = before.position;
-        let straight = match first.end {
-            Target::Tip { point, .. } => {
-                first.path == Path::Line
-                    && point.truncate().is_finite()
-                    && x.is_some()
-                    && y.is_some()
-                    && (Some(point.x) != x || Some(point.y) != y)
-            }
-            Target::Joints(_) | Target::Orient => false,
-        };
-        if straight {
-            return Ok(());
+        match self.switch(&first, parts, before, is_on) {
+            None => Ok(()),
+            Some((what, help)) => Err(self.no_compensation(&turned, &what).help(help).into()),
         }
-        let finding = self.no_compensation(
-            &turned,
-            "the first move after a switch of the compensation is not straight in the plane, from a known place",
-        );
-        Err(finding.help("enter and leave by G0 or G1 in XY").into())
+    }
+
+    /// The fault of the first move after a switch of the compensation, and what to do about it; `parts`: moves of its block.
+    fn switch(
+        &self,
+        first: &Move,
+        parts: usize,
+        before: &Before,
+        is_on: bool,
+    ) -> Option<(String, &'static str)> {
+        let help = "enter and leave by G0 or G1 in XY";
+        let Target::Tip { point, .. } = first.end else {
+            return Some((
+                "the first move after a switch of the compensation is in machine coordinates".to_owned(),
+                help,
+            ));
+        };
+        let [x, y, _] = before.position;
+        let unknown: Vec<&str> = (0..2).filter(|i| before.position[*i].is_none()).map(|i| AXES[i]).collect();
+        if !unknown.is_empty() {
+            let what = format!(
+                "the first move after a switch of the compensation starts where the program has not set {}",
+                unknown.join(", ")
+            );
+            return Some((what, "move there before the compensation is switched"));
+        }
+        if !point.truncate().is_finite() || Some(point.x) == x && Some(point.y) == y {
+            let what = "the first move after a switch of the compensation does not move in the plane";
+            return Some((what.to_owned(), help));
+        }
+        // LinuxCNC enters on an arc too, and leaves by a straight move (`convert_arc`, `convert_arc_comp1`).
+        let enters_on_arcs = is_on && self.dialect.comp == CompWord::Register;
+        match first.path {
+            Path::Line => None,
+            Path::Arc { axis, .. } if enters_on_arcs && axis == DVec3::Z && parts == 1 => None,
+            _ => Some((
+                "the first move after a switch of the compensation is not straight in the plane".to_owned(),
+                help,
+            )),
+        }
     }
 }

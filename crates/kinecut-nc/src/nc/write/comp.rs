@@ -1,6 +1,6 @@
 //! Words of cutter compensation, in the block of the straight move on which it is switched on or off.
 //!
-//! Refused, as by the controls: a switch on anything but a straight move in XY, and a change of side, register, tool,
+//! Refused, as by the controls: a switch on anything but a straight move in XY (LinuxCNC enters on an arc too), and a change of side, register, tool,
 //! work offset, plane or to machine coordinates while it is on.
 
 use glam::DVec3;
@@ -11,7 +11,20 @@ use crate::program::{Comp, Move, Path, State};
 
 use super::{Writer, unsupported};
 
+/// Cosine between the axis of an arc and Z from which they are parallel: rounding of unit vectors.
+const LEVEL: f64 = 1.0 - 1e-9;
+
 impl Writer<'_> {
+    /// Refuses an entry on an arc of which several blocks became: the control enters on the first alone.
+    pub(super) fn entered_in_one_block(&self, motion: &Move, enters: bool, before: usize) -> Result<()> {
+        if !enters || motion.path == Path::Line || self.page.len() == before + 1 {
+            return Ok(());
+        }
+        Err(refused("a compensation is switched on an arc that does not fit into one block")
+            .help("enter by a straight move")
+            .into())
+    }
+
     /// The words before a move to `point`, where its state switches the compensation.
     pub(super) fn compensation(&mut self, motion: &Move, point: DVec3, state: &State) -> Result<()> {
         let before = self.modal.comp.unwrap_or(Comp::Off);
@@ -37,7 +50,14 @@ impl Writer<'_> {
             };
             moves |= !value.is_nan() && self.grid.round(value)? != written;
         }
-        if motion.path != Path::Line || !moves {
+        // LinuxCNC enters on an arc too.
+        let on_arc = state.comp != Comp::Off && self.dialect.comp == CompWord::Register;
+        let straight = match motion.path {
+            Path::Line => true,
+            Path::Arc { axis, .. } => on_arc && axis.z.abs() >= LEVEL,
+            _ => false,
+        };
+        if !straight || !moves {
             return Err(refused("a compensation is switched on a move that is not straight in the plane")
                 .help("enter and leave by straight moves in XY")
                 .into());

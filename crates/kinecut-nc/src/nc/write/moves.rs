@@ -41,8 +41,11 @@ impl Writer<'_> {
                     // Words of the control of the tip are those of a state too.
                     prepared + self.page.len() - before
                 };
+                let enters = self.modal.comp.is_none() && state.comp != Comp::Off;
                 self.compensation(motion, point, state)?;
+                let before = self.page.len();
                 self.turned_tip(motion, point, state)?;
+                self.entered_in_one_block(motion, enters, before)?;
                 if self.page.len() == prepared {
                     self.page.truncate(lines);
                     let same = self.modal.rotary_axes.same_coordinates(&modal.rotary_axes);

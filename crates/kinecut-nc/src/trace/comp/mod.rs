@@ -1,6 +1,6 @@
 //! Cutter compensation by the control: from the programmed contour to the path of the tool's centre.
 //!
-//! For the trace. A run of compensated moves begins with a straight entry and ends with the first, straight move
+//! For the trace. A run of compensated moves begins with its entry (see [`entry`]) and ends with the first, straight move
 //! without compensation. In between each move is replaced by its parallel, exactly; see [`corner`] for the joints.
 //! Moves across the plane run at the present place of the tool. The plane is XY of the frame of the moves (`G17`).
 //!
@@ -9,6 +9,7 @@
 //! intersection, which differs by less than a thousandth of the compensation.
 
 mod corner;
+mod entry;
 mod flat;
 mod spiral;
 #[cfg(test)]
@@ -16,7 +17,7 @@ mod tests;
 
 use glam::{DVec2, DVec3};
 
-use crate::base::{Code, Error, Finding, Result};
+use crate::base::{Code, Finding, Result};
 use crate::geom::{Arc, Curve, CurveKind, Line, PlaneCurve};
 use corner::{Corner, corner};
 use flat::{Flat, Shape};
@@ -52,8 +53,9 @@ pub(super) fn refused(item: usize, message: impl Into<String>) -> Finding {
 /// to the move after it. With `d` zero they are the programmed curves.
 ///
 /// # Errors
-/// `KC0205` for an entry or exit that is not straight in the plane, an entry that is not longer than the compensation,
-/// a move in another plane, and a contour that the tool cannot follow without cutting into it.
+/// `KC0205` for an exit that is not straight in the plane, an entry that is neither that nor an arc where the control takes
+/// one, or not longer than the compensation, a move in another plane, and a contour that the tool cannot follow without
+/// cutting into it.
 pub(super) fn compensate(
     contour: &[Programmed],
     exit: Option<&Programmed>,
@@ -61,9 +63,9 @@ pub(super) fn compensate(
     start: CompStart,
 ) -> Result<Vec<Programmed>> {
     let Some(entry) = contour.first() else { return Ok(exit.into_iter().cloned().collect()) };
-    check_entry(entry, d)?;
+    entry::check(entry, d, start)?;
     if let Some(exit) = exit {
-        straight(exit, "the end of a compensation")?;
+        entry::straight(exit, "the end of a compensation")?;
     }
     in_plane(contour)?;
     if d == 0.0 {
@@ -84,6 +86,9 @@ pub(super) fn compensate(
                 .help("use a smaller radius register or tool, or a larger radius")
         })?;
     }
+    if let Some(first @ Planar { index: 0, flat: Flat::Arc { .. }, .. }) = planar.first_mut() {
+        first.path = entry::arc(first.item, &first.flat, &first.path)?;
+    }
     let rounds = join(&mut planar, d, start)?;
     let mut path = Path { curves: Vec::new(), here: entry.curve.start() };
     let mut next = planar.iter().zip(&rounds).peekable();
@@ -93,7 +98,7 @@ pub(super) fn compensate(
             path.to(programmed.item, path.here + DVec3::Z * rise);
             continue;
         };
-        if index == 0 {
+        if index == 0 && !matches!(element.flat, Flat::Arc { .. }) {
             let end = element.path.at(element.path.length() - element.cuts[1]).0;
             path.to(programmed.item, end.extend(path.here.z + rise));
             continue;
@@ -188,29 +193,6 @@ fn no_room(element: &Planar, d: f64) -> Finding {
         .value_mm(element.flat.length())
         .bound_mm(d.abs())
         .help("use a smaller radius register or tool, or a longer move")
-}
-
-fn check_entry(entry: &Programmed, d: f64) -> Result<()> {
-    let length = straight(entry, "the start of a compensation")?;
-    if length <= d.abs() {
-        return Err(refused(entry.item, "the entry of a compensation is not longer than the radius")
-            .value_mm(length)
-            .bound_mm(d.abs())
-            .help("enter by a longer straight move, or use a smaller radius register")
-            .into());
-    }
-    Ok(())
-}
-
-/// Length in the plane of a move that must be straight there [mm].
-fn straight(programmed: &Programmed, what: &str) -> Result<f64> {
-    match Flat::of(&programmed.curve) {
-        Shape::Flat(Flat::Line { start, end }) => Ok(start.distance(end)),
-        _ => Err(Error::from(
-            refused(programmed.item, format!("{what} must be a straight move in the plane"))
-                .help("program G0 or G1 with an axis of the plane in this block"),
-        )),
-    }
 }
 
 /// The path so far.

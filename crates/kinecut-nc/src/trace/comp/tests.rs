@@ -63,6 +63,50 @@ fn assert_as(path: &[Programmed], wanted: &[&[f64]]) {
 }
 
 #[test]
+fn an_entry_on_an_arc_is_run_as_linuxcnc_runs_it() {
+    let half: &[f64] = &[20.0, 0.0, 5.0, 10.0, 0.0, 180.0];
+    let back: &[f64] = &[20.0, 0.0, 5.0, 10.0, 0.0, -180.0];
+    let run = |moves: &[&[f64]], d: f64| path([0.0, 0.0, 5.0], moves, d).unwrap();
+    // On in its direction, round an outside corner, and cut off by an inside one.
+    assert_as(
+        &run(&[half, &[20.0, 20.0, 5.0], &[40.0, 60.0, 5.0]], 2.0),
+        &[&[18.0, 0.0, 9.0, 0.0, 1.0, 5.0], &[18.0, 20.0, 5.0], &[40.0, 60.0, 5.0]],
+    );
+    assert_as(
+        &run(&[half, &[25.0, 20.0, 5.0], &[40.0, 60.0, 5.0]], 2.0),
+        &[
+            &[18.0, 0.0, 9.0, 0.0, 1.0, 5.0],
+            &[18.0597, 0.4851, 20.0, 0.0, -1.0, 5.0],
+            &[23.0597, 20.4851, 5.0],
+            &[40.0, 60.0, 5.0],
+        ],
+    );
+    assert_as(
+        &run(&[half, &[10.0, 20.0, 5.0], &[40.0, 60.0, 5.0]], 2.0),
+        &[&[17.9888, -0.4497, 9.0, 0.0, 1.0, 5.0], &[8.2111, 19.1056, 5.0], &[40.0, 60.0, 5.0]],
+    );
+    // Outside of it, and with a second turn and a rise.
+    assert_as(
+        &run(&[back, &[20.0, -20.0, 5.0], &[40.0, -60.0, 5.0]], 2.0),
+        &[&[22.0, 0.0, 11.0, 0.0, -1.0, 5.0], &[22.0, -20.0, 5.0], &[40.0, -60.0, 5.0]],
+    );
+    let turns = run(&[&[20.0, 0.0, 1.0, 10.0, 0.0, -540.0], &[20.0, -20.0, 1.0], &[40.0, -60.0, 1.0]], -2.0);
+    assert_as(&turns, &[&[18.0, 0.0, 9.0, 0.0, -1.0, 1.0], &[18.0, -20.0, 1.0], &[40.0, -60.0, 1.0]]);
+    let CurveKind::Arc(arc) = turns[0].curve.kind() else { panic!() };
+    assert!((arc.sweep + 3.0 * std::f64::consts::PI).abs() < 1e-9);
+    // Less than half a turn, between two radii that are not on one line: S, P and the new centre.
+    assert_as(
+        &run(&[&[25.0, 25.0, 5.0, 25.0, 0.0, -90.0], &[50.0, 25.0, 5.0], &[40.0, -60.0, 5.0]], 20.0),
+        &[&[25.0, 45.0, 25.0, 15.5556, -1.0, 5.0], &[50.0, 45.0, 5.0], &[40.0, -60.0, 5.0]],
+    );
+    // By the other rule it is refused, and so is one that is too short.
+    let all = contour([0.0, 0.0, 5.0], &[half, &[20.0, 20.0, 5.0], &[40.0, 60.0, 5.0]]);
+    let by = |d, start| compensate(&all[..2], all.last(), d, start).unwrap_err().code();
+    assert_eq!(by(2.0, CompStart::AtNext), Code::COMPENSATION);
+    assert_eq!(by(-20.0, CompStart::AtEntry), Code::COMPENSATION);
+}
+
+#[test]
 fn a_rectangle_is_run_as_linuxcnc_runs_it() {
     let moves: &[&[f64]] = &[
         &[0.0, 0.0, 0.0],
@@ -222,9 +266,10 @@ fn what_a_control_refuses_is_refused_with_the_move_the_number_and_the_bound() {
     let narrow: &[&[f64]] =
         &[&[10.0, 0.0, 0.0], &[20.0, 0.0, 0.0], &[21.0, 1.0, 0.0], &[21.0, 30.0, 0.0], &[0.0, 40.0, 0.0]];
     assert_eq!(refusal(narrow, 2.0).0, 2);
-    // Entry on an arc, exit straight down, arc in another plane.
+    // Entry on an arc that is hollow and no larger than the tool, exit straight down, arc in another plane.
     let arc: &[&[f64]] = &[&[2.0, 2.0, 0.0, 0.0, 2.0, 90.0], &[2.0, 20.0, 0.0], &[30.0, 0.0, 0.0]];
-    assert_eq!(refusal(arc, 0.1).0, 0);
+    assert_eq!(refusal(arc, 2.0).0, 0);
+    assert!(path([0.0; 3], arc, 0.1).is_ok());
     let down: &[&[f64]] = &[&[10.0, 0.0, 0.0], &[20.0, 0.0, 0.0], &[20.0, 0.0, -5.0]];
     assert_eq!(refusal(down, 0.1).0, 2);
     let mut tilted = contour([0.0; 3], &[&[10.0, 0.0, 0.0], &[20.0, 0.0, 0.0], &[30.0, 0.0, 0.0]]);

@@ -379,7 +379,9 @@ fn what_a_control_does_not_take_is_refused_when_read() {
         assert!(!comp(control, &format!("{on}G40 X20\n")));
         assert!(!comp(control, &format!("G41{d}\nG1 X10 F100\nG40\nX20\n")));
         // Switched on arcs, or without movement in the plane.
-        assert!(comp(control, &format!("G41{d} G2 X10 I5 F100\nG40 G1 X20\n")));
+        // LinuxCNC enters on arcs, and never leaves on one.
+        let arc = format!("G41{d} G2 X10 I5 F100\nG40 G1 X20\n");
+        assert_eq!(comp(control, &arc), control != Control::LinuxCnc);
         assert!(comp(control, &format!("G41{d} G1 Z-1 F100\nX10\nG40 X20\n")));
         assert!(comp(control, &format!("{on}G40 G2 X20 I5\n")));
         assert!(comp(control, &format!("{on}G40\nZ50\nX20\n")));
@@ -447,4 +449,37 @@ fn what_a_control_does_not_take_is_refused_when_written() {
     bad = good;
     bad[2].1 = Comp::Right(2);
     assert_eq!(code(Control::LinuxCnc, &bad, 1), Code::COMPENSATION);
+}
+
+#[test]
+fn an_entry_comes_later_and_may_be_an_arc_on_linuxcnc() {
+    let head = "G17 G21 G40 G90 G94\nT1 M6\nG54\nS1000 M3\nG0 X0 Y0 Z5\n";
+    let text =
+        format!("{head}G41 D101\n(now)\nM8\nG4 P0.5\nF100\nG3 X20 Y0 I10\nG1 X20 Y20\nG40\nG1 X40 Y60\nM2\n");
+    let reading = read(&text, Control::LinuxCnc);
+    let again = post(&reading.program, Control::LinuxCnc);
+    assert!(again.contains("G41 D101 G3 X20 Y0 I10 J0 F100\n"), "{again}");
+    for program in [&reading.program, &read(&again, Control::LinuxCnc).program] {
+        let mut program = program.clone();
+        program.setups = vec![setup()];
+        let path: Vec<Curve> = feeds(&follow(&program, Control::LinuxCnc, 4.0).unwrap());
+        // As rs274 runs it: ARC_FEED(18, 0, 9, 0, 1), STRAIGHT_FEED(18, 20), STRAIGHT_FEED(40, 60).
+        let CurveKind::Arc(arc) = path[0].kind() else { panic!("{path:?}") };
+        assert!(arc.centre.distance(DVec3::new(9.0, 0.0, 5.0)) < 1e-9, "{arc:?}");
+        let ends: Vec<DVec3> = path.iter().map(Curve::end).collect();
+        let wanted = [[18.0, 0.0, 5.0], [18.0, 20.0, 5.0], [40.0, 60.0, 5.0]].map(DVec3::from_array);
+        assert!(ends.len() == 3 && ends.iter().zip(wanted).all(|(a, b)| a.distance(b) < 1e-9), "{ends:?}");
+    }
+    // The others want a straight one, and what is wrong with a move is said.
+    let settings = PostSettings::new(Control::Fanuc);
+    assert_eq!(nc::write(&reading.program, &[], &settings).unwrap_err().code(), Code::COMPENSATION);
+    let fault = |body: &str| {
+        let text = format!("G17 G21 G40 G90 G94\nT1 M6\nG54\nS1000 M3\nG0 Z5\n{body}M2\n");
+        let refused = nc::read(&mut Sources::default(), "a.nc", &text, Control::LinuxCnc, &[]).unwrap_err();
+        assert_eq!(refused.code(), Code::COMPENSATION, "{refused}");
+        refused.to_string()
+    };
+    assert!(fault("G41 D2\nG0 X0 Y0\nG1 X10 F100\n").contains("has not set X, Y"));
+    assert!(fault("G0 X0 Y0\nG41 D2\nG1 Z1 F100\nX10\n").contains("does not move in the plane"));
+    assert!(fault("G0 X0 Y0\nG41 D2\nG1 X10 F100\nY10\nG40\nG2 X20 I5\n").contains("is not straight"));
 }
