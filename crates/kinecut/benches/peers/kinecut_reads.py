@@ -23,7 +23,8 @@ class Refused(Exception):
 
 def altered(text):
     """The number of an axis word in the middle, larger by a tenth."""
-    words = [m for m in re.finditer(r"(?i)(?<![<\w])([XYZ])([-+]?\d+\.?\d*)", text) if not re.search(r"[;(]", text[text.rfind("\n", 0, m.start()) + 1:m.start()])]
+    before = lambda m: text[text.rfind("\n", 0, m.start()) + 1:m.start()]
+    words = [m for m in re.finditer(r"(?i)(?<![<\w])([XYZ])([-+]?\d+\.?\d*)", text) if not re.search("[;(]", before(m))]
     if not words:
         return re.sub(r"(?im)^(N\d+)?[ \t]*(M0?2|M30|%\s*\Z)", r"G0 X7\n\2", text, count=1)
     word = words[len(words) // 2]

@@ -417,7 +417,7 @@ def trains(events):
                 train["pieces"][-1] = e | {"piece": Line(train["pieces"][-1]["piece"].a, piece.b)}
             else:
                 train["pieces"].append(e)
-        else:
+        elif kind != "dwell" or e["seconds"] > 0:
             out.append(e)
     return out
 

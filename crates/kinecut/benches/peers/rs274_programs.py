@@ -20,19 +20,23 @@ GROUPS = {
     "messages": "MSG, DEBUG, PRINT", "forms": "spelling, N words, order of words", "stops": "M0, M1, M60", "wrong": "programs to be refused",
     "probe": "G38.2", "tap": "G33.1", "context": "M70, M72, M73",
 }
+MODES = ["planes", "distance", "centres", "units", "feeds", "systems", "g10", "g52", "g92", "machine", "home", "lengths",
+         "tools", "table", "dwell", "spindle", "path", "stops", "messages", "probe", "tap", "context"]
+MESSAGES = ["(MSG, change the clamp)", "(DEBUG, at #5420 and #100)", "(PRINT, %.3f #100)", "(msg,again)", "(only words)", "; only words"]
 OFF = {"probe", "tap", "context"}  # not drawn unless named
 UNARY = ["ABS", "ACOS", "ASIN", "COS", "EXP", "FIX", "FUP", "ROUND", "LN", "SIN", "SQRT", "TAN"]
 BINARY = ["+", "-", "*", "/", "**", "MOD", "EQ", "NE", "GT", "GE", "LT", "LE", "AND", "OR", "XOR"]
 AXES = {17: "XYZ", 18: "ZXY", 19: "YZX"}  # the two of the plane, and the third
 CENTRE = dict(zip("XYZ", "IJK"))
 WRONG = [
-    "G1 X1 X2", "G0 G1 X1", "M3 M4", "G17 G2 X5 Y5", "G1 X[1/0]", "G1 XSQRT[-1]", "G1 X#<never_set>", "G1 X[1", "G77", "G0 X1 P2", "G4",
-    "#0=1", "G28 G1 X5", "G92", "G10 L2 P12 X1", "o900 endif", "o901 call [1] 2", "M98", "(a (b) c)", "(not closed", "G0 X1 )", "G53 G2 X1 I1",
-    "G91 G53 G0 X1\nG90", "G17 G2 X9 I1 K1", "T77 M6", "G43 H77", "M7 M8", "M48 M49", "G1 X1.2.3", "G1 X", "G0 X1 F-3", "S-1", "o902 sub\no903 sub\no903 endsub\no902 endsub",
-    "G81 X1 Z-1\nG80", "G17 G81 X1 Z5 R1\nG80", "G83 X1 Z-1 R1\nG80", "G82 X1 Z-1 R1\nG80", "#5420=1", "#<_x>=1", "G1 X[2 FOO 3]", "G1 X#6000",
-    "#1.5=2", "G0 A1e2", "X#1=5", "o904 repeat [2]\no904 break\no904 endrepeat", "o905 while [0]\no906 endwhile\no905 endwhile", "G80 X5", "N-1 G0 X1",
-    "G90 G1 X1 R5", "G33.1 X1", "M19 R400", "G17 G3 R5", "G17 G2 X40 Y40 R1", "o907 if [1] G0 X1\no907 endif", "G0 Q3", "G5.3", "G18 G5 X1 Y1 I1 J1 P1 Q1\nG17",
-    "G5.1 X1 Y1 I2", "M200", "G1 XACOS[2]", "G1 XLN[0]", "G1 XATAN[1]", "G2 X1 I1 P0", "M98 P5000",
+    "G1 X1 X2", "G0 G1 X1", "M3 M4", "G17 G2 X5 Y5", "G1 X[1/0]", "G1 XSQRT[-1]", "G1 X#<never_set>", "G1 X[1", "G77", "G0 X1 P2",
+    "G4", "#0=1", "G28 G1 X5", "G92", "G10 L2 P12 X1", "o900 endif", "o901 call [1] 2", "M98", "(a (b) c)", "(not closed",
+    "G0 X1 )", "G53 G2 X1 I1", "G91 G53 G0 X1\nG90", "G17 G2 X9 I1 K1", "T77 M6", "G43 H77", "M7 M8", "M48 M49", "G1 X1.2.3",
+    "G1 X", "G0 X1 F-3", "S-1", "o902 sub\no903 sub\no903 endsub\no902 endsub", "G81 X1 Z-1\nG80", "G17 G81 X1 Z5 R1\nG80",
+    "G83 X1 Z-1 R1\nG80", "G82 X1 Z-1 R1\nG80", "#5420=1", "#<_x>=1", "G1 X[2 FOO 3]", "G1 X#6000", "#1.5=2", "G0 A1e2", "X#1=5",
+    "o904 repeat [2]\no904 break\no904 endrepeat", "o905 while [0]\no906 endwhile\no905 endwhile", "G80 X5", "N-1 G0 X1",
+    "G90 G1 X1 R5", "G33.1 X1", "M19 R400", "G17 G3 R5", "G17 G2 X40 Y40 R1", "o907 if [1] G0 X1\no907 endif", "G0 Q3", "G5.3",
+    "G18 G5 X1 Y1 I1 J1 P1 Q1\nG17", "G5.1 X1 Y1 I2", "M200", "G1 XACOS[2]", "G1 XLN[0]", "G1 XATAN[1]", "G2 X1 I1 P0", "M98 P5000",
 ]
 
 
@@ -302,7 +306,8 @@ class Program:
                 if code in (84, 86) and self.turning != 1:
                     code = 81
             above, depth = round(r.uniform(-8, 4) / self.unit, 3), round(r.uniform(1, 12) / self.unit, 3)
-            words = [f"{c}{self.number(-depth if incremental else level + above - depth)}", f"R{self.number(above if incremental else level + above)}"]
+            base = 0 if incremental else level + above
+            words = [f"{c}{self.number(base - depth)}", f"R{self.number(above if incremental else base)}"]
             words += [f"{x}{self.number(self.coordinate(10 if incremental else 40))}" for x in (a, b) if r.random() < 0.9 or n == 0]
             if code in (73, 83):
                 words.append(f"Q{self.number(round(depth * r.uniform(0.2, 1.2), 3))}")
@@ -316,7 +321,7 @@ class Program:
             for _ in range(r.randint(0, 3)):
                 words = [f"{x}{self.number(self.coordinate(10 if incremental else 40))}" for x in r.sample([a, b], r.randint(1, 2))]
                 if r.random() < 0.15:
-                    words.append(f"R{self.number(round(above + r.uniform(0, 2), 3) if incremental else round(level + above + r.uniform(0, 2), 3))}")
+                    words.append(f"R{self.number(round((0 if incremental else level) + above + r.uniform(0, 2), 3))}")
                 if self.on("repeats") and r.random() < 0.15:
                     words.append(f"L{r.randint(1, 3)}")
                 self.say(f"{r.choice(['', '', '', 'G98 ', 'G99 '])}{' '.join(words)}")
@@ -348,8 +353,7 @@ class Program:
     def modes(self):
         """One change of something in force."""
         r = self.r
-        able = [name for name in ("planes", "distance", "centres", "units", "feeds", "systems", "g10", "g52", "g92", "machine", "home", "lengths", "tools",
-                                  "table", "dwell", "spindle", "path", "stops", "messages", "probe", "tap", "context") if self.on(name)]
+        able = [name for name in MODES if self.on(name)]
         if not able:
             return
         what = r.choice(able)
@@ -436,7 +440,7 @@ class Program:
         elif what == "stops":
             self.say(r.choice(["M0", "M1", "M60"]))
         elif what == "messages":
-            self.say(r.choice(["(MSG, change the clamp)", "(DEBUG, at #5420 and #100)", "(PRINT, %.3f #100)", "(msg,again)", "(only words)", "; only words"]))
+            self.say(r.choice(MESSAGES))
         elif what == "probe":
             self.known()
             self.say(f"G91 G38.2 Z-{plain(round(r.uniform(1, 5) / self.unit, 3))}{self.feed()}\nG90" if self.mode != 93 else "G94")
@@ -624,10 +628,11 @@ class Program:
         self.say(self.feed().strip())
         self.stand()
         parts = [(self.line, 6), (self.modes, 9)]
+        numbered = self.on("numbered")
         parts += [(self.arc, 6)] * self.on("arcs") + [(self.cycles, 2.5)] * self.on("cycles") + [(self.splines, 1.2)] * self.on("splines")
-        parts += [(self.assign, 2.5)] * (self.on("numbered") or self.on("named")) + [(self.flow, 1.3)] * (self.on("flow") and self.on("numbered"))
-        parts += [(self.sub, 1.2)] * (self.on("subs") and self.on("numbered")) + [(self.m98, 0.7)] * self.on("m98")
-        parts += [(self.indirect, 0.5)] * (self.on("indirect") and self.on("numbered")) + [(self.positions, 0.6)] * self.on("position")
+        parts += [(self.assign, 2.5)] * (self.on("named") or numbered) + [(self.flow, 1.3)] * (self.on("flow") and numbered)
+        parts += [(self.sub, 1.2)] * (self.on("subs") and numbered) + [(self.m98, 0.7)] * (self.on("m98") and numbered)
+        parts += [(self.indirect, 0.5)] * (self.on("indirect") and numbered) + [(self.positions, 0.6)] * self.on("position")
         steps, weights = zip(*parts)
         for step in r.choices(steps, weights, k=r.randint(8, 24)):
             step()
@@ -666,14 +671,18 @@ def binary(name, a, b):
         if abs(b) < 1e-3 or min(math.fmod(a, b) % abs(b), abs(b) - a % abs(b)) < 1e-6:
             raise ValueError
         return math.fmod(a, b) + (abs(b) if math.fmod(a, b) < 0 else 0)
-    return {"+": lambda: a + b, "-": lambda: a - b, "*": lambda: a * b, "/": lambda: a / b, "**": lambda: power(a, b), "EQ": lambda: float(a == b),
-            "NE": lambda: float(a != b), "GT": lambda: float(a > b), "GE": lambda: float(a >= b), "LT": lambda: float(a < b),
-            "LE": lambda: float(a <= b), "AND": lambda: float(bool(a) and bool(b)), "OR": lambda: float(bool(a) or bool(b)),
-            "XOR": lambda: float(bool(a) != bool(b))}[name]()
+    return {"+": lambda: a + b, "-": lambda: a - b, "*": lambda: a * b, "/": lambda: a / b, "**": lambda: power(a, b),
+            "EQ": lambda: float(a == b), "NE": lambda: float(a != b), "GT": lambda: float(a > b), "GE": lambda: float(a >= b),
+            "LT": lambda: float(a < b), "LE": lambda: float(a <= b), "AND": lambda: float(bool(a) and bool(b)),
+            "OR": lambda: float(bool(a) or bool(b)), "XOR": lambda: float(bool(a) != bool(b))}[name]()
 
 
-WORDS = re.compile(r"""(?P<o>\bo(?:<[^>]*>|\[[^\]]*\]|\d+)[\ \t]*(?P<word>[a-z]*))|(?P<code>[GM]\s*\d+(?:\.\d+)?)|(?P<function>""" + "|".join([*UNARY, "ATAN", "EXISTS"]) +
-                   r""")\[|(?P<operator>\*\*|(?<=[\s\]])(?:MOD|EQ|NE|GT|GE|LT|LE|AND|OR|XOR)(?=[\s\[#])|[-+*/](?=[\s\[#]))|(?P<parameter>\#\d|\#<_|\#<|\#\#|\#\[)|(?P<magic>\((?:MSG|DEBUG|PRINT),)""", re.I | re.X)
+WORDS = re.compile(
+    r"(?P<o>\bo(?:<[^>]*>|\[[^\]]*\]|\d+)[ \t]*(?P<word>[a-z]*))|(?P<code>[GM][ \t]*\d+(?:\.\d+)?)"
+    rf"|(?P<function>{'|'.join([*UNARY, 'ATAN', 'EXISTS'])})\["
+    r"|(?P<operator>\*\*|(?<=[\s\]])(?:MOD|EQ|NE|GT|GE|LT|LE|AND|OR|XOR)(?=[\s\[#])|[-+*/](?=[\s\[#]))"
+    r"|(?P<parameter>#\d|#<_|#<|##|#\[)|(?P<magic>\((?:MSG|DEBUG|PRINT),)", re.I)
+PARAMETERS = {"#<": "#<name>", "#<_": "#<_name>", "##": "##1", "#[": "#[..]"}
 
 
 def count(text, counts=None):
@@ -683,9 +692,8 @@ def count(text, counts=None):
         if found["o"]:
             counts[f"o {(found['word'] or 'alone').lower()}"] += 1
         elif found["code"]:
-            letter, number = re.match(r"([GM])\s*(.*)", found["code"], re.I).groups()
-            counts[letter.upper() + number.lstrip("0").replace("..", ".") if number.strip("0") else letter.upper() + "0"] += 1
+            counts[re.sub(r"(?<=[GM])0+(?=\d)", "", re.sub(r"\s", "", found["code"].upper()))] += 1
         else:
-            kind = found.lastgroup
-            counts[found[kind].upper() if kind != "parameter" else {"#<": "#<name>", "#<_": "#<_name>", "##": "##1", "#[": "#[..]"}.get(found[kind], "#1")] += 1
+            text = found[found.lastgroup].upper()
+            counts[PARAMETERS.get(text, "#1") if found.lastgroup == "parameter" else text] += 1
     return counts

@@ -30,7 +30,8 @@ HERE = {}
 
 
 def options():
-    ask = argparse.ArgumentParser(description=__doc__.split("\n")[0], epilog="features: " + "; ".join(f"{k} ({v})" for k, v in rs274_programs.GROUPS.items()))
+    groups = "; ".join(f"{name} ({what})" for name, what in rs274_programs.GROUPS.items())
+    ask = argparse.ArgumentParser(description=__doc__.split("\n")[0], epilog=f"features: {groups}")
     ask.add_argument("--seed", type=int, default=1)
     ask.add_argument("--count", type=int, default=2000)
     ask.add_argument("--first", type=int, default=0, help="number of the first program")
@@ -102,7 +103,8 @@ def judged(text):
     if not found:
         return "equal", []
     source = text.splitlines()
-    told = [f"{what} at line {line}: {words}" + (f" | {source[line - 1]}" if line and line <= len(source) else "") for what, line, words in found]
+    there = lambda line: f" | {source[line - 1]}" if line and line <= len(source) else ""
+    told = [f"{what} at line {line}: {words}{there(line)}" for what, line, words in found]
     return f"differs: {found[0][0]}", told
 
 
