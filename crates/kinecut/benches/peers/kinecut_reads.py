@@ -77,6 +77,5 @@ def answer(done):
         first = found[0] if isinstance(found, list) and found else found
         first = first.get("error", first) if isinstance(first, dict) else {}
         place = first.get("place") or {}
-        start = place.get("start") or place
-        raise Refused(first.get("message", said[:200]), start.get("line"), start.get("column", start.get("col")), first.get("code", ""))
+        raise Refused(first.get("message", said[:200]), place.get("line"), place.get("column"), first.get("code", ""))
     return found

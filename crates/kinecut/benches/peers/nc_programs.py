@@ -28,7 +28,7 @@ CONTROLS = {"fanuc": "fanuc", "haas": "haas", "grbl": "grbl", "linuxcnc": "linux
 def control_of(program, text, named):
     """The control that a program is read for."""
     bare = re.sub(r"\([^)]*\)|;.*", "", text)
-    if program["dialect"] == "grbl" and re.search(r"\bM\s*0?6\b", bare, re.I):
+    if program["dialect"] == "grbl" and re.search(r"(?<![A-Z])M[ \t]*0?6(?!\d)", bare, re.I):
         return named.get("sender", "linuxcnc")
     return named.get(program["dialect"], CONTROLS[program["dialect"]])
 
@@ -84,7 +84,7 @@ def main():
                 details = "splines have no length in the manifest: " + off[0]
                 count["nothing to compare"] += 1
             elif off:
-                details, bad = "; ".join(off), bad + 1
+                details, bad = "; ".join(off + [f"kinecut: {v}" for v in sheet.get("remarks", [])[:1]]), bad + 1
                 count["off"] += 1
             else:
                 count["equal"] += 1

@@ -12,8 +12,8 @@ import re
 GROUPS = {
     "arcs": "G2, G3 with centres and helices", "radius": "R in arcs", "turns": "P in arcs", "planes": "G18, G19", "distance": "G91",
     "centres": "G90.1", "units": "G20", "feeds": "G93, G95", "systems": "G54 to G59.3", "g10": "G10 L2, L20", "rotation": "R in G10 L2",
-    "g52": "G52", "g92": "G92 to G92.3", "machine": "G53", "home": "G28, G28.1, G30, G30.1", "lengths": "G43, G43.1, G43.2, G49",
-    "tools": "T, M6", "table": "G10 L1, L10, L11", "cycles": "G73, G81 to G89", "tapping": "G84", "repeats": "L in cycles",
+    "g52": "G52", "g92": "G92 to G92.3", "machine": "G53", "home": "G28", "stored": "G28.1, G30, G30.1", "lengths": "G43, G43.1, G43.2, G49",
+    "tools": "T, M6", "table": "G10 L1, L10, L11", "cycles": "G73, G81, G82, G83", "boring": "G85, G86, G89", "tapping": "G84", "repeats": "L in cycles",
     "planecycles": "cycles in G18, G19", "dwell": "G4", "splines": "G5, G5.1, G5.2", "spindle": "M3, M4, M5, M7, M8, M9", "path": "G61, G64",
     "expressions": "operators and functions", "numbered": "#1 and on", "named": "#<name>, #<_name>", "indirect": "##1, #[1+1]",
     "position": "#5420 and on, #<_x>", "subs": "o sub, call, return", "flow": "if, while, do, repeat, break, continue", "m98": "M98, M99",
@@ -40,9 +40,9 @@ WRONG = [
 ]
 
 
-def plain(v, r=None):
+def plain(v, r=None, digits=4):
     """A number as it is written, in one of several spellings."""
-    text = f"{v:.4f}".rstrip("0")
+    text = f"{v:.{digits}f}".rstrip("0")
     text = "0." if text in ("-0.", "0.") else text
     if r and r.random() < 0.3:
         text = re.sub(r"^(-?)0\.(?=\d)", r"\1.", text)
@@ -152,16 +152,16 @@ class Program:
         v = round(r.uniform(-9, 9), r.randint(0, 3))
         return plain(v, r), v
 
-    def number(self, v, chance=0.2):
+    def number(self, v, chance=0.2, digits=4):
         """The text of a number; at times as an expression that comes to it."""
         r = self.r
-        v = round(v, 4)
+        v = round(v, digits)
         if not self.on("expressions") or r.random() > chance:
-            return plain(v, r if self.on("forms") else None)
+            return plain(v, r if self.on("forms") else None, digits)
         text, value = self.expression(r.randint(1, 2))
         if abs(value) > 500:
             return plain(v)
-        rest = f"{v - value:.6f}"
+        rest = f"{v - value:.8f}"
         return f"[{rest} + {text}]" if r.random() < 0.5 else f"[{text}{'' if rest[0] == '-' else '+'}{rest}]"
 
     # Moves.
@@ -204,12 +204,12 @@ class Program:
         self.say(self.feed().strip())
         self.stand()
 
-    def words(self, target):
+    def words(self, target, digits=4):
         """Axis words for a target by axis letter, absolute or not; keeps the position."""
         out = []
         for a, v in target.items():
             n = "XYZ".index(a)
-            out.append(f"{a}{self.number(v if self.absolute else v - self.at[n])}")
+            out.append(f"{a}{self.number(v if self.absolute else v - self.at[n], digits=digits)}")
             self.at[n] = v
         return out
 
@@ -234,19 +234,19 @@ class Program:
         from_, sweep, code = r.uniform(0, math.tau), r.uniform(0.2, 6), r.choice([2, 3])
         whole = r.random() < 0.12
         turn = (math.tau if whole else sweep) * (1 if code == 3 else -1)
-        centre = [round(start[0] - radius * math.cos(from_), 4), round(start[1] - radius * math.sin(from_), 4)]
+        # Seven digits, so that the radii at both ends are the same.
+        centre = [round(start[0] - radius * math.cos(from_), 7), round(start[1] - radius * math.sin(from_), 7)]
         away, angle = math.hypot(start[0] - centre[0], start[1] - centre[1]), math.atan2(start[1] - centre[1], start[0] - centre[0])
-        end = start if whole else [round(centre[0] + away * math.cos(angle + turn), 4), round(centre[1] + away * math.sin(angle + turn), 4)]
+        end = start if whole else [round(centre[0] + away * math.cos(angle + turn), 7), round(centre[1] + away * math.sin(angle + turn), 7)]
         new = {} if whole and r.random() < 0.5 and self.absolute else {a: end[0], b: end[1]}
         if r.random() < 0.35:
             new[c] = round(self.at[k] + r.uniform(-5, 5) / self.unit, 4)
+        words = self.words(new, 7)
         if self.on("radius") and not whole and r.random() < 0.35 and abs(sweep - math.pi) > 0.1:
-            words = self.words(new)
-            words.append(f"R{self.number(away if sweep < math.pi else -away, 0.1)}")
+            words.append(f"R{self.number(away if sweep < math.pi else -away, 0.1, 7)}")
         else:
-            words = self.words(new)
             offsets = [v if self.centres else v - s for v, s in zip(centre, start)]
-            words += [f"{CENTRE[x]}{self.number(v)}" for x, v in zip((a, b), offsets)]
+            words += [f"{CENTRE[x]}{self.number(v, digits=7)}" for x, v in zip((a, b), offsets)]
         if self.on("turns") and r.random() < 0.2:
             words.append(f"P{r.randint(1, 4)}")
         r.shuffle(words)
@@ -290,7 +290,7 @@ class Program:
             self.choose_mode(94)
         if self.plane != 17 and not self.on("planecycles"):
             self.choose_plane(17)
-        codes = [81, 82, 73, 83, 85, 86, 89] + [84] * (2 * self.on("tapping"))
+        codes = [81, 82, 73, 83] + [85, 86, 89] * self.on("boring") + [84] * (2 * self.on("tapping"))
         a, b, c = AXES[self.plane]
         self.stand()
         k = "XYZ".index(c)
@@ -399,8 +399,8 @@ class Program:
             self.say(f"G53 G{0 if rapid else 1} {words}{'' if rapid else self.feed()}")
             self.stand()
         elif what == "home":
-            code = r.choice([28, 30])
-            if r.random() < 0.35:
+            code = r.choice([28, 30]) if self.on("stored") else 28
+            if self.on("stored") and r.random() < 0.35:
                 self.say(f"G{code}.1")
             else:
                 words = " ".join(f"{a}{self.number(self.coordinate(20))}" for a in r.sample("XYZ", r.randint(0, 3)))

@@ -111,9 +111,13 @@ def judged(text):
 def signature(kind, details):
     """Failing programs of one kind: numbers and names do not count."""
     if kind.startswith("differs"):
-        return kind
+        source = details[0].rsplit(" | ", 1)
+        codes = re.findall(r"[GM]\s*\d+(?:\.\d)?", re.sub(r"\[.*?\]|\(.*?\)", "", source[1].upper())) if len(source) > 1 else []
+        return f"{kind}, {' '.join(sorted(c for c in codes if c not in ('G90', 'G91', 'G98', 'G99'))) or 'no code in the line'}"
     text = details[0].split(" | ")[0] if details else ""
-    return f"{kind}: " + re.sub(r"`[^`]*`|'[^']*'|#<[^>]*>|-?\d[\d.]*", "_", text)[:90]
+    word = re.search(r"`\s*([GM]\d+(?:\.\d)?)|`(#|o)", text, re.I)
+    bare = re.sub(r"^\S+:\S+ ", "", text)
+    return f"{kind}: {(word[1] or word[2]).upper() if word else ''} " + re.sub(r"`[^`]*`|'[^']*'|#<[^>]*>|-?\d[\d.]*", "_", bare)[:90]
 
 
 def one(number):
@@ -129,13 +133,15 @@ def one(number):
 def shrunk(text, wanted, tries=400):
     """The text without the lines that it fails without; the interpreter must take what is left, if it took all."""
     lines = [line for line in text.splitlines() if line.strip()]
+    place = re.compile(r"(?i)(?=.*G0?0(?!\d))(?=.*X)(?=.*Y).*Z")
+    stays = next((line for line in lines if place.match(line)), None)  # the place of a feed move must be known
     part = max(len(lines) // 2, 1)
     while part and tries:
         n, smaller = 0, False
         while n < len(lines) and tries:
             rest = lines[:n] + lines[n + part:]
             tries -= 1
-            if rest and signature(*judged("\n".join(rest) + "\n")) == wanted:
+            if rest and (stays is None or stays in rest) and signature(*judged("\n".join(rest) + "\n")) == wanted:
                 lines, smaller = rest, True
             else:
                 n += part
