@@ -60,7 +60,7 @@ class Program:
         self.unit, self.plane, self.absolute, self.centres = 1.0, 17, True, False
         self.mode, self.turning, self.at = 94, 0, [None] * 3
         self.values, self.named, self.labels, self.subs, self.fanuc = {}, {}, 100, [], []
-        self.tool = False
+        self.tool, self.length = False, None  # the unit in which a length was taken up
         self.wrong = self.on("wrong") and r.random() < 0.06
         while True:
             self.draw()
@@ -357,6 +357,11 @@ class Program:
         if not able:
             return
         what = r.choice(able)
+        if what in ("machine", "home", "table") and self.length not in (None, self.unit):
+            # The one known mistake of the interpreter: it does not convert a length in force when the unit changes.
+            self.say("G49")
+            self.length = None
+            self.stand()
         if what == "planes":
             self.choose_plane(r.choice([17, 18, 19]))
         elif what == "distance":
@@ -410,6 +415,10 @@ class Program:
             code = r.choice(["G43", "G43 H", "G43.1", "G43.2 H", "G49"])
             if code == "G43" and not self.tool:
                 code = "G43 H"
+            kept = self.length not in (None, self.unit) and code in ("G43.1", "G43.2 H")
+            self.length = None if code == "G49" else self.unit
+            if kept or code in ("G43.1", "G43.2 H") and r.random() < 0.5:
+                self.say("G49")
             self.say(code + (str(r.randint(1, 4)) if code.endswith("H") else " " + self.offset_words() if code == "G43.1" else ""))
             self.stand()
         elif what == "tools":
@@ -422,6 +431,7 @@ class Program:
         elif what == "table":
             n, l = r.randint(1, 4), r.choice([1, 10, 11])
             self.say(f"G10 L{l} P{n} {self.offset_words()}\nG43 H{n}")
+            self.length = self.unit
             self.stand()
         elif what == "dwell":
             self.say(f"G4 P{self.number(round(r.uniform(0, 3), 2))}")
@@ -622,6 +632,7 @@ class Program:
             self.tool = True
             if self.on("lengths") and r.random() < 0.7:
                 self.say("G43")
+                self.length = self.unit
         if self.on("spindle"):
             self.say(f"S{r.randint(500, 9000)} M3")
             self.turning = 1
