@@ -34,6 +34,7 @@ sys.dont_write_bytecode = True
 INCH = 25.4
 TABLE = {1: (0, 0, 10, 5), 2: (1, 2, 20, 6), 3: (0, 0, -5, 8), 4: (0.5, -0.25, 33.125, 10)}  # number: X Y Z and diameter, mm
 LINEAR = [n for first in (5161, 5181, 5211, *range(5221, 5400, 20)) for n in (*range(first, first + 3), *range(first + 6, first + 9))]
+STATE = ("tool", "turn", "rpm", "surface", "flood", "mist")
 PLANES = {"XY": (0, 1, 2), "YZ": (1, 2, 0), "XZ": (2, 0, 1)}
 
 
@@ -268,10 +269,10 @@ class Arc:
         a0 = math.atan2(start[j] - centre[1], start[i] - centre[0])
         a1 = math.atan2(end[j] - centre[1], end[i] - centre[0])
         if turns > 0:
-            while a1 <= a0 + 1e-9:
+            while a1 <= a0 + 1e-6:  # as the control's motion takes it: an end that is the start but for rounding is a whole turn
                 a1 += math.tau
         else:
-            while a1 >= a0 - 1e-9:
+            while a1 >= a0 - 1e-6:
                 a1 -= math.tau
         self.a0, self.sweep = a0, a1 - a0 + math.tau * (turns - 1 if turns > 0 else turns + 1)
         self.r0, self.r1 = (math.hypot(p[i] - centre[0], p[j] - centre[1]) for p in (start, end))
@@ -307,7 +308,7 @@ def merged(printed, exact):
 
     def event(kind, **more):
         events.append({"kind": kind, "line": state["line"], **more,
-                       "state": tuple(state[k] for k in ("tool", "turn", "rpm", "surface", "flood", "mist")), "path": state["path"]})
+                       "state": tuple(state[k] if state["turn"] or k not in ("rpm", "surface") else 0 for k in STATE), "path": state["path"]})
 
     def settle(upto):
         """Offsets of the fine calls before a move; planes, feeds and the rest come with the printed ones."""
