@@ -28,7 +28,7 @@ use show::{complain, json as print_json, put};
 /// Exit codes: fine or safe; not safe, not proven or a denied warning; wrong input or cannot say; a defect of ours.
 const FINE: u8 = 0;
 const FINDINGS: u8 = 1;
-const WRONG_INPUT: u8 = 2;
+pub(crate) const WRONG_INPUT: u8 = 2;
 const DEFECT: u8 = 3;
 
 fn main() -> ExitCode {

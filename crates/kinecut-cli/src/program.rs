@@ -5,10 +5,10 @@ use std::path::{Path, PathBuf};
 use clap::ValueEnum;
 use kinecut::base::{Error, FileKind};
 use kinecut::job::{
-    GivenFile, GivenJob, GivenStock, InspectWants, ProgramWants, RunWants, SectionPlane, StockWants,
-    given_alone, given_with_job,
+    GivenFile, GivenJob, GivenStock, InspectWants, JobProgram, ProgramWants, RunWants, SectionPlane,
+    StockWants, control_of, given_alone, given_with_job, subprograms,
 };
-use kinecut::nc::{Control, PostSettings};
+use kinecut::nc::{Control, NumberInput, PostSettings};
 use kinecut::operations::OrientationName;
 use kinecut::verbs::check::program_sheet;
 use kinecut::verbs::post::translate;
@@ -162,6 +162,9 @@ pub(crate) struct ProgramOf {
     /// Number of the tool in the spindle before the program calls one
     #[arg(long, value_name = "N")]
     tool: Option<u32>,
+    /// On FANUC, coordinates without a decimal point: whole units, or least increments; default: what the program suggests
+    #[arg(long, value_name = "INPUT")]
+    input: Option<Input>,
 }
 
 impl ProgramOf {
@@ -181,6 +184,8 @@ impl ProgramOf {
         };
         let mut wants = ProgramWants {
             control: control.cloned(),
+            input: self.input.map(Input::of),
+            beside: self.beside(control, &bytes),
             stock: stock.map(RawStock::given).transpose()?,
             position: self.position,
             tool: self.tool,
@@ -194,6 +199,24 @@ impl ProgramOf {
         wants.machine = self.machine.as_deref().map(machine::of_name).transpose()?;
         wants.tools = self.tools.as_deref().map(named).transpose()?;
         given_alone(program, &wants, cut)
+    }
+}
+
+impl ProgramOf {
+    /// Files beside the program with what it calls.
+    fn beside(&self, control: Option<&String>, bytes: &[u8]) -> Vec<(String, Vec<u8>)> {
+        let (loader, name) = files::beside(&self.program);
+        // A control that is not known is said where the program is read.
+        let said = control.map(String::as_str);
+        let Ok((control, _)) = control_of(said, None, &name, bytes) else { return Vec::new() };
+        let folder = self.program.parent().map(|p| p.display().to_string()).filter(|p| !p.is_empty());
+        let text = JobProgram::new(&*name, bytes, control).text;
+        let named = |file: String| match &folder {
+            Some(folder) => format!("{folder}{}{file}", if folder.ends_with(['/', '\\']) { "" } else { "/" }),
+            None => file,
+        };
+        let called = subprograms(&name, &text, control, &loader);
+        called.into_iter().map(|called| (named(called.file), called.text.as_bytes().to_vec())).collect()
     }
 }
 
@@ -230,6 +253,24 @@ pub(crate) struct RunBy {
     /// The control that runs it; default: that of the job, then that of the file's ending (.mpf .ngc .gcode .h)
     #[arg(long, value_name = "CONTROL")]
     pub(crate) control: Option<String>,
+}
+
+/// Coordinates without a decimal point.
+#[derive(Clone, Copy, Debug, clap::ValueEnum)]
+pub(crate) enum Input {
+    Auto,
+    Calculator,
+    LeastIncrement,
+}
+
+impl Input {
+    fn of(self) -> NumberInput {
+        match self {
+            Input::Auto => NumberInput::Auto,
+            Input::Calculator => NumberInput::Calculator,
+            Input::LeastIncrement => NumberInput::LeastIncrement,
+        }
+    }
 }
 
 #[derive(Debug, clap::Args)]
@@ -284,7 +325,10 @@ impl Check {
     /// Reads a program of others and says what is wrong with it.
     pub(crate) fn answer(&self, args: &Printing) -> Result<u8, Error> {
         let given = self.of.given(self.by.control.as_ref(), None, false)?;
-        answer(args, To::default(), program_sheet(&given)?)
+        let sheet = program_sheet(&given)?;
+        let wrong = sheet.errors > 0;
+        let code = answer(args, To::default(), sheet)?;
+        Ok(if wrong { code.max(crate::WRONG_INPUT) } else { code })
     }
 }
 

@@ -46,7 +46,7 @@ fn main() {
     divan::main();
 }
 
-const CONTROLS: &[Control] = Control::ALL;
+const CONTROLS: &[Control] = Control::WRITTEN;
 
 /// A chain of 10 000 arcs of growing radius.
 fn arcs_10_000() -> Program {

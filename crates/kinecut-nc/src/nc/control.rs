@@ -17,15 +17,30 @@ pub enum Control {
     LinuxCnc,
     /// FANUC 0i-M, 30i-M (milling).
     Fanuc,
+    /// Haas (Classic, NGC), milling.
+    Haas,
     /// GRBL 1.1.
     Grbl,
+    /// grblHAL, and senders of its kind.
+    GrblHal,
     /// HEIDENHAIN TNC (iTNC 530, TNC 640), klartext.
     Heidenhain,
 }
 
 impl Control {
-    /// All of them.
-    pub const ALL: &[Control] =
+    /// All of them: their programs are read.
+    pub const ALL: &[Control] = &[
+        Control::Sinumerik840d,
+        Control::LinuxCnc,
+        Control::Fanuc,
+        Control::Haas,
+        Control::Grbl,
+        Control::GrblHal,
+        Control::Heidenhain,
+    ];
+
+    /// Those for which programs are written.
+    pub const WRITTEN: &[Control] =
         &[Control::Sinumerik840d, Control::LinuxCnc, Control::Fanuc, Control::Grbl, Control::Heidenhain];
 
     /// The name used in job files and on the command line.
@@ -34,7 +49,9 @@ impl Control {
             Control::Sinumerik840d => "sinumerik-840d",
             Control::LinuxCnc => "linuxcnc",
             Control::Fanuc => "fanuc",
+            Control::Haas => "haas",
             Control::Grbl => "grbl",
+            Control::GrblHal => "grblhal",
             Control::Heidenhain => "heidenhain",
         }
     }
@@ -45,7 +62,9 @@ impl Control {
             Control::Sinumerik840d => "SINUMERIK 840D",
             Control::LinuxCnc => "LinuxCNC",
             Control::Fanuc => "FANUC 0i/30i",
+            Control::Haas => "Haas",
             Control::Grbl => "GRBL 1.1",
+            Control::GrblHal => "grblHAL",
             Control::Heidenhain => "HEIDENHAIN TNC",
         }
     }
@@ -89,8 +108,8 @@ impl Control {
         match self {
             Control::Sinumerik840d => "mpf",
             Control::LinuxCnc => "ngc",
-            Control::Fanuc => "nc",
-            Control::Grbl => "gcode",
+            Control::Fanuc | Control::Haas => "nc",
+            Control::Grbl | Control::GrblHal => "gcode",
             Control::Heidenhain => "h",
         }
     }
@@ -106,7 +125,7 @@ impl Control {
     pub fn length_register(self, tool: ToolNumber) -> u32 {
         match self {
             Control::Sinumerik840d | Control::Grbl | Control::Heidenhain => 1,
-            Control::LinuxCnc | Control::Fanuc => tool.0,
+            Control::LinuxCnc | Control::Fanuc | Control::Haas | Control::GrblHal => tool.0,
         }
     }
 
@@ -120,9 +139,12 @@ impl Control {
     /// never leaves the path.
     pub fn usual_blend(self) -> Blend {
         match self {
-            Control::Sinumerik840d | Control::Fanuc | Control::Grbl | Control::Heidenhain => {
-                Blend::Continuous
-            }
+            Control::Sinumerik840d
+            | Control::Fanuc
+            | Control::Haas
+            | Control::Grbl
+            | Control::GrblHal
+            | Control::Heidenhain => Blend::Continuous,
             Control::LinuxCnc => Blend::within(0.005),
         }
     }
@@ -141,7 +163,7 @@ impl Control {
 
     /// Decimals of coordinates that are usual: FANUC's increment system IS-B has three.
     pub fn usual_decimals(self) -> u8 {
-        if self == Control::Fanuc { 3 } else { 4 }
+        if matches!(self, Control::Fanuc | Control::Haas) { 3 } else { 4 }
     }
 
     /// Whether it has cutter compensation (`G41`, `G42`).
@@ -179,7 +201,7 @@ impl Control {
             Control::Heidenhain => {
                 format!("WEAR IN TOOL {tool}.{register}: LENGTH AS {tool}, R 0, CORRECTION IN DR")
             }
-            Control::Fanuc | Control::Grbl => {
+            Control::Fanuc | Control::Haas | Control::Grbl | Control::GrblHal => {
                 format!("WEAR IN D{register}: RADIUS CORRECTION ONLY")
             }
         }

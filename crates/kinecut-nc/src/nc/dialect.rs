@@ -5,6 +5,7 @@ use crate::tool::Hand;
 
 use super::multi_axis::MultiAxis;
 use super::native::{Native, TapWord};
+use super::run::{Arithmetic, Level};
 
 /// A part of the state that is written by a block of its own.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -41,6 +42,43 @@ pub(super) enum TurnWord {
     Offset,
     /// `CYCL DEF 7` and `CYCL DEF 10` (HEIDENHAIN).
     Cycles,
+}
+
+/// The language of variables, branches and calls of a control.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum FlowWords {
+    /// It has none, or they are not read.
+    None,
+    /// Parameters, O words, `M98` (LinuxCNC).
+    OWords,
+    /// Custom macro B, `M98`, `G65` (FANUC).
+    MacroB,
+}
+
+impl FlowWords {
+    #[inline]
+    pub(super) fn has_variables(self) -> bool {
+        self != FlowWords::None
+    }
+
+    /// The rules by which it computes.
+    pub(super) fn arithmetic(self) -> Arithmetic {
+        if self == FlowWords::MacroB { Arithmetic::MacroB } else { Arithmetic::Ngc }
+    }
+
+    /// Local variables of a call, where they hold no value at first.
+    pub(super) fn level(self) -> Level {
+        match self {
+            FlowWords::None => Level::new(0, false),
+            FlowWords::OWords => Level::new(30, false),
+            FlowWords::MacroB => Level::new(33, true),
+        }
+    }
+
+    /// Deepest calls: ten levels of subprograms (LinuxCNC `INTERP_SUB_ROUTINE_LEVELS`; FANUC 10, and 5 of macros).
+    pub(super) fn depth(self) -> usize {
+        if self == FlowWords::MacroB { 15 } else { 10 }
+    }
 }
 
 /// Words of a control and their meanings.
@@ -134,6 +172,12 @@ pub(super) struct Dialect {
     pub(super) g_codes: &'static [(u32, Code)],
     pub(super) m_codes: &'static [(u32, Code)],
     pub(super) keywords: &'static [(&'static str, Code)],
+    /// Whether cycles return to R before the program says `G98` or `G99`, as the interpreter begins.
+    pub(super) starts_at_r: bool,
+    /// Whether it is a Haas, where that differs from FANUC.
+    pub(super) haas: bool,
+    /// Its variables, branches and calls.
+    pub(super) flow: FlowWords,
     /// Which work offsets it has.
     pub(super) has_offset: fn(WorkOffset) -> bool,
     /// Word of an arc's radius.
@@ -172,6 +216,8 @@ pub(super) enum SeriesRule {
     Interpreter,
     /// R and Z stay the heights that they were where they were given; the way to the next hole is at the present height.
     Fanuc,
+    /// As numbers, counted from the height at which the block began, and back to that (grblHAL).
+    EachBlock,
 }
 
 /// The rule by which a control refuses an arc.
@@ -198,7 +244,28 @@ pub(super) enum Code {
     },
     /// A cubic Bezier curve in the XY plane.
     Cubic,
+    /// `G5.1`.
+    Quadratic,
+    /// `G5.2`: a control point of a spline; `G5.3` runs it.
+    ControlPoint,
+    RunSpline,
     Cycle(CycleKind),
+    /// `M98` and `M99`: a program is called, and returns.
+    CallProgram,
+    Return,
+    /// `M97`: the block of a number is called (Haas).
+    CallBlock,
+    /// `G92`, `G52` of LinuxCNC's kind: the present position gets these coordinates; `G92.1`, `G92.2` end it, `G92.3` takes
+    /// the last again.
+    PresetShift,
+    ShiftOff {
+        keep: bool,
+    },
+    ShiftAgain,
+    /// `G16` (on) and `G15`: X is a radius, Y an angle.
+    Polar {
+        on: bool,
+    },
     /// `M29`: the next `G84` or `G74` is rigid.
     Rigid,
     /// `G33.1`: along the axis with the feed geared to the spindle, and back.
@@ -286,6 +353,14 @@ pub(super) enum CycleKind {
     Peck,
     ChipBreak,
     Tap(Hand),
+    /// `G85`: back at feed.
+    Bore,
+    /// `G86`: the spindle stops at the bottom, back in rapid.
+    BoreStop,
+    /// `G89`: a wait at the bottom, back at feed.
+    BoreDwell,
+    /// `G84` and `G74` with a floating holder: the spindle turns back at the bottom, the way out is at feed (LinuxCNC).
+    Floating(Hand),
 }
 
 /// Plane of arcs.
@@ -366,6 +441,9 @@ impl Code {
             | Code::Arc { .. }
             | Code::Involute { .. }
             | Code::Cubic
+            | Code::Quadratic
+            | Code::ControlPoint
+            | Code::RunSpline
             | Code::Cycle(_)
             | Code::SynchronisedTap
             | Code::NoMotion
@@ -381,12 +459,14 @@ impl Code {
             Code::Work(_) => 12,
             Code::ExactStop | Code::ExactPath | Code::Continuous | Code::Rounded => 13,
             Code::Dwell | Code::MachineFrame | Code::Reference => 20,
+            Code::PresetShift | Code::ShiftOff { .. } | Code::ShiftAgain => 20,
+            Code::Polar { .. } => 19,
             Code::LocalShift | Code::SetData | Code::FrameShift { .. } | Code::FrameTurn { .. } => 20,
             Code::Rotation { .. } | Code::Tilt | Code::TiltByTool => 16,
             Code::Orient => 20,
             Code::Transformation { .. } => 17,
             Code::Interpolation { .. } => 18,
-            Code::Stop(_) => 21,
+            Code::Stop(_) | Code::CallProgram | Code::CallBlock | Code::Return => 21,
             Code::ToolChange => 22,
             Code::SpindleClockwise | Code::SpindleCounterClockwise | Code::SpindleOff => 23,
             Code::Mist | Code::Flood | Code::CoolantOff | Code::Rigid | Code::Harmless(_) => return None,

@@ -429,6 +429,17 @@ impl Program {
         self.push(Slot::Stop(kind), state, origin);
     }
 
+    /// Adds the origin of a call, for the items within it.
+    pub fn add_origin(&mut self, origin: Origin) -> OriginId {
+        self.origins.push(origin);
+        OriginId(self.origins.len() as u32 - 1)
+    }
+
+    /// The origin of a call.
+    pub fn call(&self, id: OriginId) -> Origin {
+        self.origins[id.0 as usize]
+    }
+
     /// Appends a message to the operator.
     pub fn push_message(&mut self, text: impl Into<String>, state: &State, origin: Origin) {
         self.items.texts.push(text.into());

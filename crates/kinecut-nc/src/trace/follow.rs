@@ -45,7 +45,7 @@ pub struct TraceOptions<'a> {
 /// Follows a program.
 ///
 /// # Errors
-/// `KC0204` when a feed move starts at an unknown position or has no feed, or for a move that cannot be followed: in a
+/// `KC0204` when a feed move has no feed, when a compensated contour or a cycle starts at an unknown position, or for a move that cannot be followed: in a
 /// tilted plane before the rotary axes are turned to it, along an arc while rotary axes turn without tool centre point
 /// control. `KC0205` when the control could not compensate the contour, `KC0104` for a radius register without a value.
 pub fn trace(program: &Program, options: &TraceOptions<'_>) -> Result<Trace> {
@@ -420,7 +420,7 @@ impl<'a> Follow<'a> {
         Some(frame.inverse().point(tip))
     }
 
-    /// Runs to `end` along `path` [table frame]; a rapid without a known start is noted, a feed refused.
+    /// Runs to `end` along `path` [table frame]; a move without a known start is noted.
     pub(super) fn run(
         &mut self,
         index: usize,
@@ -428,24 +428,24 @@ impl<'a> Follow<'a> {
         end: [Option<f64>; 3],
         state: &State,
     ) -> Result<()> {
-        let rapid = matches!(state.speed, Speed::Rapid { .. });
         match path {
             Some(path) if path.length() > NO_MOVE => self.segment(index, &path, state)?,
             Some(_) => {}
-            None if rapid => self.untraced(index, end, state),
-            None => return Err(self.unknown_start(index)),
+            None => self.untraced(index, end, state),
         }
         self.tip = end;
         Ok(())
     }
 
-    /// Notes a rapid whose start is not known.
+    /// Notes a move whose start is not known.
     pub(super) fn untraced(&mut self, index: usize, end: [Option<f64>; 3], state: &State) {
         self.trace.untraced.push(Untraced {
             item: index as u32,
             setup: state.setup,
             tool: self.tool.map(|t| t.number),
             axis: self.axis,
+            feed: !matches!(state.speed, Speed::Rapid { .. }),
+            start: self.tip,
             end,
         });
     }

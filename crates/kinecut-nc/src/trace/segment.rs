@@ -165,6 +165,10 @@ pub struct Untraced {
     pub tool: Option<ToolNumber>,
     /// Unit vector from tip to holder at the end [table frame].
     pub axis: DVec3,
+    /// Whether it is a move at feed, otherwise a rapid.
+    pub feed: bool,
+    /// Start of the tip [table frame, mm]; a coordinate is `None` where it is not known.
+    pub start: [Option<f64>; 3],
     /// End of the tip [table frame, mm]; a coordinate is `None` while it is not known.
     pub end: [Option<f64>; 3],
 }
@@ -174,7 +178,7 @@ pub struct Untraced {
 pub struct Trace {
     /// Segments in order.
     pub segments: Vec<Segment>,
-    /// Moves that could not be followed: the first approach.
+    /// Moves that could not be followed: the first approach, and whatever starts at a place that is not known.
     pub untraced: Vec<Untraced>,
     /// Waits: item and seconds.
     pub dwells: Vec<(u32, f64)>,

@@ -3,8 +3,9 @@
 use serde::Serialize;
 
 use super::file::{JobFile, MachineEntry, StockTable};
-use super::{Subject, json_text, sha256};
-use crate::base::{Loader, Result};
+use super::{JobProgram, Subject, json_text, sha256, subprograms};
+use crate::base::{FileKind, Loader, Result};
+use crate::nc::Control;
 
 /// Tools, machine, stock, setups and design as subjects of a verdict: the hash of their canonical JSON (and of the
 /// bytes of the meshes and drawings they name).
@@ -39,6 +40,15 @@ pub fn parts(file: &JobFile, loader: &dyn Loader) -> Result<Vec<Subject>> {
     }
     for program in file.setups.iter().filter_map(|s| s.program.as_ref()) {
         parts.push(bytes("external program", &program.file)?);
+        let control = Control::parse(program.control.as_deref().unwrap_or(&file.post.control))?;
+        let text =
+            JobProgram::new(&*program.file, &loader.read_as(&program.file, FileKind::Program)?, control).text;
+        for called in subprograms(&program.file, &text, control, loader) {
+            let subject = bytes("external program", &called.file)?;
+            if !parts.contains(&subject) {
+                parts.push(subject);
+            }
+        }
     }
     if let Some(MachineEntry::Table(machine)) = &file.machine {
         for name in machine.bodies.iter().filter_map(|body| body.mesh.as_ref()) {

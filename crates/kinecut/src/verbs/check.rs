@@ -5,7 +5,7 @@ use serde::Serialize;
 use crate::base::{Code, Finding, Result, Silent};
 use crate::geom::{Aabb, Rigid};
 use crate::job::external::given::GivenJob;
-use crate::job::external::{Followed, Missing, at_block, follow};
+use crate::job::external::{Errors, Followed, Missing, at_block, follow};
 use crate::job::facets::facets_note;
 use crate::job::feeds::not_held;
 use crate::job::held_feed::HeldFeed;
@@ -51,6 +51,8 @@ pub struct ProgramSheet {
     pub time_terms: String,
     /// On which share of the way the axes hold the feed, and where most time is lost; where the limits are known.
     pub feed_held: Option<String>,
+    /// Kinds of blocks that are wrong or not understood: behind the first of them no move is proven.
+    pub errors: usize,
     /// Findings.
     pub findings: Vec<Finding>,
     /// Parts that were read and are not followed, and assumptions.
@@ -75,9 +77,10 @@ pub struct ProgramSheet {
 pub fn program_sheet(given: &GivenJob) -> Result<ProgramSheet> {
     let job = given.job();
     let program = given.program()?;
-    let done = follow(job, 0, program, Missing::StoodFor)?;
+    let done = follow(job, 0, program, Missing::StoodFor, Errors::GoOn)?;
     let read = &done.reading.program;
-    let mut findings = done.findings.clone();
+    let mut findings = done.errors.clone();
+    findings.extend(done.findings.iter().cloned());
     if let Some(machine) = &job.machine {
         let travel = travel_findings(&done.trace, read, machine).into_iter();
         let found = travel.chain(not_held(&done.trace, machine));
@@ -90,8 +93,8 @@ pub fn program_sheet(given: &GivenJob) -> Result<ProgramSheet> {
         );
     }
     let law = match &job.machine {
-        Some(machine) => program_time(read, &done.trace, machine, &Silent)?,
-        None => None,
+        Some(machine) if done.errors.is_empty() => program_time(read, &done.trace, machine, &Silent)?,
+        _ => None,
     };
     let reason = law.as_ref().and_then(|law| law.reason.clone());
     let facets = law.as_ref().zip(job.machine.as_ref());
@@ -128,6 +131,7 @@ pub fn program_sheet(given: &GivenJob) -> Result<ProgramSheet> {
             Some(if slowest.is_empty() { held } else { format!("{held}; {slowest}") })
         }),
         time_terms: terms(&[(&done.trace, law.as_ref())], job.machine.as_ref()),
+        errors: done.errors.len(),
         findings,
         remarks: remarks.collect(),
     })
@@ -191,7 +195,16 @@ impl Answer for ProgramSheet {
         let cycles = if self.cycles > 0 { format!(", {} cycles", self.cycles) } else { String::new() };
         let stops = if self.stops > 0 { format!(", {} stops", self.stops) } else { String::new() };
         let moves = format!("{} at feed, {} rapid{cycles}{stops}", self.feed_moves, self.rapid_moves);
-        let mut facts = vec![Fact::new("Program", head), Fact::new("Moves", moves)];
+        let mut facts = vec![Fact::new("Program", head)];
+        if let Some(first) = self.findings.iter().filter(|_| self.errors > 0).find_map(|f| f.place.as_ref()) {
+            let kinds = if self.errors == 1 { "one kind of block is" } else { "several kinds of blocks are" };
+            let read = format!(
+                "in part: {kinds} wrong or not understood; from line {} on nothing is proven",
+                first.line
+            );
+            facts.push(Fact::new("Read", read));
+        }
+        facts.push(Fact::new("Moves", moves));
         let lists = [("Tools", &self.tools), ("Offsets", &self.offsets)];
         let lists = lists.into_iter().filter(|(_, list)| !list.is_empty());
         facts.extend(lists.map(|(label, list)| Fact::new(label, list.join(", "))));

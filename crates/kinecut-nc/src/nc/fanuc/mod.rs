@@ -40,10 +40,15 @@
 //! Source: alarm list of the Series 16/18 for the involute; the rest from general knowledge of the operator's manuals
 //! of the 0i and 30i, not checked against a manual.
 
+pub(super) mod arguments;
+pub(super) mod statement;
+
 use crate::program::WorkOffset;
 use crate::tool::Hand;
 
-use super::dialect::{Code, CompWord, CycleKind, Dialect, Mismatch, SeriesRule, StateWord, TurnWord};
+use super::dialect::{
+    Code, CompWord, CycleKind, Dialect, FlowWords, Mismatch, SeriesRule, StateWord, TurnWord,
+};
 use super::multi_axis::{MultiAxis, TcpWord, TiltWord};
 use super::native::{Canned, Native, TapWord};
 
@@ -109,6 +114,9 @@ pub(super) const DIALECT: Dialect = Dialect {
     long_addresses: false,
     round_comments: true,
     g_codes: &[
+        (90, Code::Harmless("exact stop in the block")),
+        (150, Code::Polar { on: false }),
+        (160, Code::Polar { on: true }),
         (520, Code::LocalShift),
         (680, Code::Rotation { on: true }),
         (690, Code::Rotation { on: false }),
@@ -132,12 +140,18 @@ pub(super) const DIALECT: Dialect = Dialect {
         (810, Code::Cycle(CycleKind::Drill)),
         (820, Code::Cycle(CycleKind::DrillDwell)),
         (830, Code::Cycle(CycleKind::Peck)),
+        (850, Code::Cycle(CycleKind::Bore)),
+        (860, Code::Cycle(CycleKind::BoreStop)),
+        (890, Code::Cycle(CycleKind::BoreDwell)),
         (840, Code::Cycle(CycleKind::Tap(Hand::Right))),
         (980, Code::ReturnToStart(true)),
         (990, Code::ReturnToStart(false)),
     ],
-    m_codes: &[(29, Code::Rigid)],
+    m_codes: &[(29, Code::Rigid), (98, Code::CallProgram), (99, Code::Return)],
     keywords: &[],
+    starts_at_r: false,
+    haas: false,
+    flow: FlowWords::MacroB,
     has_offset,
     radius: "R",
     dwell_words: &[("P", 0.001), ("X", 1.0)],

@@ -17,7 +17,7 @@
 
 use crate::program::WorkOffset;
 
-use super::dialect::{Code, CompWord, Dialect, Mismatch, SeriesRule, StateWord, TurnWord};
+use super::dialect::{Code, CompWord, Dialect, FlowWords, Mismatch, SeriesRule, StateWord, TurnWord};
 use super::multi_axis::MultiAxis;
 use super::native::{Native, TapWord};
 
@@ -78,9 +78,14 @@ pub(super) const DIALECT: Dialect = Dialect {
         (610, Code::Continuous),
         (800, Code::NoMotion),
         (911, Code::CentreAbsolute(false)),
+        (920, Code::PresetShift),
+        (921, Code::ShiftOff { keep: false }),
     ],
     m_codes: &[],
     keywords: &[],
+    starts_at_r: false,
+    haas: false,
+    flow: FlowWords::None,
     has_offset,
     radius: "R",
     dwell_words: &[("P", 1.0)],

@@ -36,7 +36,7 @@ pub(super) use read::{TIP_CONTROLLED, read};
 
 use crate::program::WorkOffset;
 
-use super::dialect::{CompWord, Dialect, Mismatch, SeriesRule, StateWord, TurnWord};
+use super::dialect::{CompWord, Dialect, FlowWords, Mismatch, SeriesRule, StateWord, TurnWord};
 use super::multi_axis::{MultiAxis, ROTARY};
 use super::native::{Native, TapWord};
 
@@ -125,6 +125,9 @@ pub(super) const DIALECT: Dialect = Dialect {
     g_codes: &[],
     m_codes: &[],
     keywords: &[],
+    starts_at_r: false,
+    haas: false,
+    flow: FlowWords::None,
     has_offset,
     radius: "",
     dwell_words: &[],

@@ -6,7 +6,7 @@
 //!
 //! Rigid tapping: `G33.1 Z K` runs down along the turning spindle, K a revolution, reverses it, runs back to where it began and
 //! turns it back again; the sense of the spindle says the hand. It needs an encoder on the spindle, and runs on below Z until
-//! the spindle has reversed. `G84` and `G74` are for floating holders and are refused.
+//! the spindle has reversed. `G84` and `G74` are for floating holders: read as moves, with the spindle turning back at the bottom.
 //!
 //! Turned coordinates: `G10 L2 P R` sets the rotation of a work offset about its zero, which stays in the control beyond the
 //! program; `G52` shifts in the turned coordinates (measured on the stand-alone interpreter). Both are taken back before
@@ -21,9 +21,14 @@
 //!
 //! Source: the G-code reference of LinuxCNC 2.9 and its interpreter's own test-suite.
 
-use crate::program::WorkOffset;
+pub(super) mod o_word;
 
-use super::dialect::{Code, CompWord, CycleKind, Dialect, Mismatch, SeriesRule, StateWord, TurnWord};
+use crate::program::WorkOffset;
+use crate::tool::Hand;
+
+use super::dialect::{
+    Code, CompWord, CycleKind, Dialect, FlowWords, Mismatch, SeriesRule, StateWord, TurnWord,
+};
 use super::multi_axis::MultiAxis;
 use super::native::{Canned, Native, TapWord};
 
@@ -84,6 +89,9 @@ pub(super) const DIALECT: Dialect = Dialect {
         (100, Code::SetData),
         (520, Code::LocalShift),
         (50, Code::Cubic),
+        (51, Code::Quadratic),
+        (52, Code::ControlPoint),
+        (53, Code::RunSpline),
         (200, Code::Units { inch: true, feeds: true }),
         (280, Code::Reference),
         (210, Code::Units { inch: false, feeds: true }),
@@ -98,13 +106,30 @@ pub(super) const DIALECT: Dialect = Dialect {
         (810, Code::Cycle(CycleKind::Drill)),
         (820, Code::Cycle(CycleKind::DrillDwell)),
         (830, Code::Cycle(CycleKind::Peck)),
+        (740, Code::Cycle(CycleKind::Floating(Hand::Left))),
+        (840, Code::Cycle(CycleKind::Floating(Hand::Right))),
+        (850, Code::Cycle(CycleKind::Bore)),
+        (860, Code::Cycle(CycleKind::BoreStop)),
+        (890, Code::Cycle(CycleKind::BoreDwell)),
+        (920, Code::PresetShift),
+        (921, Code::ShiftOff { keep: false }),
+        (922, Code::ShiftOff { keep: true }),
+        (923, Code::ShiftAgain),
         (901, Code::CentreAbsolute(true)),
         (911, Code::CentreAbsolute(false)),
         (980, Code::ReturnToStart(true)),
         (990, Code::ReturnToStart(false)),
     ],
-    m_codes: &[(48, Code::Harmless("overrides on")), (49, Code::Harmless("overrides off"))],
+    m_codes: &[
+        (48, Code::Harmless("overrides on")),
+        (49, Code::Harmless("overrides off")),
+        (98, Code::CallProgram),
+        (99, Code::Return),
+    ],
     keywords: &[],
+    starts_at_r: true,
+    haas: false,
+    flow: FlowWords::OWords,
     has_offset,
     radius: "R",
     dwell_words: &[("P", 1.0)],

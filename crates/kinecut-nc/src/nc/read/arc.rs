@@ -7,7 +7,7 @@ use glam::{DVec2, DVec3};
 use crate::base::{Code as FindingCode, Finding, Result};
 use crate::geom::InvoluteRecord;
 use crate::nc::arc_fit::pieces;
-use crate::nc::dialect::{Mismatch, OFFSETS, Plane};
+use crate::nc::dialect::{AXES, Mismatch, OFFSETS, Plane};
 use crate::program::Path;
 
 use super::lex::Word;
@@ -38,9 +38,9 @@ impl<'s> Reader<'s> {
 
     pub(super) fn arc(&mut self, words: &mut [Word<'s>], ccw: bool) -> Result<()> {
         let speed = self.feed_speed()?;
-        let start = self.start()?;
         let plane = self.modal.plane;
         let [a, b, n] = plane.axes();
+        let start = self.start_of_arc(words, plane)?;
         let said = self.end(words)?;
         let end = said.map(|v| v.unwrap_or(f64::NAN));
         let flat = |p: [f64; 3]| DVec2::new(p[a], p[b]);
@@ -73,7 +73,7 @@ impl<'s> Reader<'s> {
         let mut axis = DVec3::ZERO;
         axis[n] = 1.0;
         let total: f64 = parts.iter().map(|p| p.sweep).sum();
-        let rise = end[n] - start[n];
+        let rise = if said[n].is_some() { end[n] - start[n] } else { 0.0 };
         let mut done = 0.0;
         for part in parts {
             let mut middle = start;
@@ -92,6 +92,18 @@ impl<'s> Reader<'s> {
             self.push_tip(stop, Path::Arc { centre: middle, axis, sweep: part.sweep, rise }, speed);
         }
         Ok(())
+    }
+
+    /// The start of an arc: in its plane it is known, and off it unless the arc stays there.
+    fn start_of_arc(&mut self, words: &[Word<'s>], plane: Plane) -> Result<DVec3> {
+        let [a, b, n] = plane.axes();
+        let at = self.modal.position;
+        let flat = at[a].is_some() && at[b].is_some();
+        if at[n].is_some() || !flat || words.iter().any(|w| !w.used && w.is(AXES[n])) {
+            return self.start();
+        }
+        self.from_nowhere.push(self.here.clone());
+        Ok(DVec3::from_array(at.map(|v| v.unwrap_or(f64::NAN))))
     }
 
     fn turns(&self, turns: &Value, base: u32) -> Result<u32> {
@@ -172,7 +184,11 @@ impl<'s> Reader<'s> {
     }
 
     fn no_fit(&self, message: &str) -> Finding {
-        self.place.error(FindingCode::NC_ARC, &self.here, message)
+        let finding = self.place.error(FindingCode::NC_ARC, &self.here, message);
+        match &self.points.increment {
+            Some(word) => finding.help(word.clone()),
+            None => finding,
+        }
     }
 
     pub(super) fn involute(&mut self, words: &mut [Word<'s>], ccw: bool) -> Result<()> {

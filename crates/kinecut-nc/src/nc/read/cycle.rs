@@ -1,4 +1,4 @@
-//! Canned drilling cycles of the RS274/NGC family in the XY plane.
+//! Canned cycles of the RS274/NGC family: along the axis that is square to the plane.
 //!
 //! The block may say where the hole is when that was not known before.
 //!
@@ -12,12 +12,13 @@
 //! (`interp_internal.hh`, `CYCLE_MACRO`).
 
 use crate::base::{Code, CountBound, Result};
-use crate::nc::dialect::{AXES, CycleKind, Plane, SeriesRule};
+use crate::nc::dialect::{AXES, CycleKind, SeriesRule};
 use crate::nc::native::Native;
-use crate::program::{Cycle, Path, Speed, Spindle, State, Tapping, Tcp};
+use crate::program::{Cycle, Speed, Tapping, Tcp};
 
-use super::lex::Word;
-use super::reader::{Kind, Reader, Value, take};
+use super::hole::Hole;
+use super::lex::{Word, WordMode};
+use super::reader::{Reader, Value, take, take_way};
 
 /// Said of the cycles whose short distance a program does not know.
 const BY_PARAMETER: &str =
@@ -40,12 +41,15 @@ const REPEATS: CountBound = CountBound {
 impl<'s> Reader<'s> {
     pub(super) fn cycle(&mut self, words: &mut [Word<'s>], kind: CycleKind) -> Result<()> {
         let here = self.here.clone();
-        if self.modal.plane != Plane::Xy {
-            return Err(self.place.not_understood(&here, "cycles are read in G17 only").into());
-        }
+        let [a, b, n] = self.modal.plane.axes();
         let Native::Canned(canned) = self.dialect.native else {
             return Err(self.place.not_understood(&here, "this control has no such cycles").into());
         };
+        if self.dialect.starts_at_r && !self.modal.return_said {
+            self.note(
+                "neither G98 nor G99 before the first cycle: cycles return to R, as the interpreter begins",
+            );
+        }
         if canned.by_parameter && matches!(kind, CycleKind::Peck | CycleKind::ChipBreak) {
             self.note(BY_PARAMETER);
         }
@@ -60,20 +64,25 @@ impl<'s> Reader<'s> {
         if let CycleKind::Tap(hand) = kind {
             (speed, spindle) = self.geared(speed, hand)?;
         }
-        let [x, y, z] = self.modal.position;
+        self.turns_as_it_must(kind)?;
+        let at = self.modal.position;
         // The block may say where the hole is.
         let says = |name: &str| self.modal.absolute && words.iter().any(|w| w.is(name));
-        let Some(z) = z.filter(|_| (x.is_some() || says(AXES[0])) && (y.is_some() || says(AXES[1]))) else {
+        let placed = |axis: usize| at[axis].is_some() || says(AXES[axis]);
+        let Some(z) = at[n].filter(|_| placed(a) && placed(b)) else {
             self.start()?;
             return Ok(());
         };
         let unit = self.modal.length_unit;
         let lengths = |words: &mut [Word<'s>], name| take(words, name).map(|v: Value| v.value * unit);
-        let (reference, bottom) = (lengths(words, "R"), lengths(words, "Z"));
+        let (reference, bottom) = (lengths(words, "R"), lengths(words, AXES[n]));
         let sticky = &mut self.modal.sticky;
+        if self.dialect.series == SeriesRule::EachBlock {
+            sticky.begun = Some(z);
+        }
         let begun = *sticky.begun.get_or_insert(z);
         match (self.dialect.series, self.modal.absolute) {
-            (SeriesRule::Interpreter, _) | (SeriesRule::Fanuc, true) => {
+            (SeriesRule::Interpreter | SeriesRule::EachBlock, _) | (SeriesRule::Fanuc, true) => {
                 sticky.reference = reference.or(sticky.reference);
                 sticky.bottom = bottom.or(sticky.bottom);
             }
@@ -86,13 +95,18 @@ impl<'s> Reader<'s> {
         sticky.step = lengths(words, "Q").or(sticky.step);
         let p = self.dialect.dwell_words.iter().find(|w| w.0 == "P").map_or(1.0, |w| w.1);
         sticky.dwell = take(words, "P").map(|v| v.value * p).or(sticky.dwell);
-        let sticky = *sticky;
+        let mut sticky = *sticky;
         if let CycleKind::Tap(_) = kind {
             self.plain_thread(sticky.step, sticky.dwell)?;
         }
-        let lacks = |what: &str| self.lacks(&here, what);
+        if self.dialect.haas && sticky.reference.is_none() && self.last_reference.is_some() {
+            sticky.reference = self.last_reference;
+            let message = "a cycle without R takes the one of the cycle before";
+            self.warn(&here, message);
+        }
+        self.last_reference = sticky.reference.or(self.last_reference);
         let (Some(reference), Some(bottom)) = (sticky.reference, sticky.bottom) else {
-            return Err(lacks("a cycle needs R and Z").into());
+            return Err(self.lacks(&here, "a cycle needs R and Z").into());
         };
         let repeats = match take(words, self.dialect.repeats) {
             Some(word) => self.count(&word, "a number of repetitions")?,
@@ -105,25 +119,42 @@ impl<'s> Reader<'s> {
                 .into());
         }
         let dwell = match (kind, sticky.dwell) {
-            (CycleKind::DrillDwell, None) => return Err(lacks("this cycle needs a dwell P").into()),
-            (CycleKind::DrillDwell, Some(p)) => p,
-            _ => 0.0,
+            (CycleKind::DrillDwell | CycleKind::BoreDwell, None) => {
+                return Err(self.lacks(&here, "this cycle needs a dwell P").into());
+            }
+            (
+                CycleKind::Peck
+                | CycleKind::ChipBreak
+                | CycleKind::Drill
+                | CycleKind::Bore
+                | CycleKind::Tap(_),
+                _,
+            ) => 0.0,
+            (_, p) => p.unwrap_or(0.0),
         };
         let step = match (kind, sticky.step) {
             (CycleKind::Peck | CycleKind::ChipBreak, None) => {
-                return Err(lacks("this cycle needs a step Q").into());
+                return Err(self.lacks(&here, "this cycle needs a step Q").into());
             }
             (_, step) => step.unwrap_or(0.0),
         };
-        let moves = [take(words, AXES[0]), take(words, AXES[1])].map(|w| w.map(|v| v.value * unit));
+        let moves = [a, b].map(|axis| {
+            let (word, way) = take_way(words, AXES[axis])?;
+            Some((word.value * unit, way == WordMode::Absolute || self.modal.absolute))
+        });
         let (reference, bottom) = match (self.dialect.series, self.modal.absolute) {
-            (SeriesRule::Interpreter, false) => (begun + reference, begun + reference + bottom),
-            (SeriesRule::Fanuc, _) | (SeriesRule::Interpreter, true) => (reference, bottom),
+            (SeriesRule::Interpreter | SeriesRule::EachBlock, false) => {
+                (begun + reference, begun + reference + bottom)
+            }
+            _ => (reference, bottom),
         };
         let retract = if self.modal.return_to_start && begun > reference { begun } else { reference };
         self.repeated.add(&REPEATS, f64::from(repeats - 1)).map_err(|e| self.place.located(&here, e))?;
         let cycle = match kind {
             CycleKind::Drill | CycleKind::DrillDwell => Cycle::Drill { reference, bottom, retract, dwell },
+            CycleKind::Bore | CycleKind::BoreStop | CycleKind::BoreDwell | CycleKind::Floating(_) => {
+                Cycle::Drill { reference, bottom, retract, dwell }
+            }
             CycleKind::Peck => Cycle::Peck { reference, bottom, retract, step, clearance: canned.clearance },
             CycleKind::ChipBreak => Cycle::ChipBreak { reference, bottom, retract, step, lift: canned.lift },
             CycleKind::Tap(hand) => {
@@ -136,7 +167,7 @@ impl<'s> Reader<'s> {
         }
         for repetition in 0..repeats {
             let way = match self.dialect.series {
-                SeriesRule::Fanuc => [reference.max(self.height()); 2],
+                SeriesRule::Fanuc | SeriesRule::EachBlock => [reference.max(self.height()); 2],
                 // The first hole is at the present height only if that is above R.
                 SeriesRule::Interpreter => {
                     let rises = if begun < reference { reference } else { self.height() };
@@ -144,44 +175,8 @@ impl<'s> Reader<'s> {
                 }
             };
             // In absolute coordinates this is the same hole again, as on the control.
-            self.drill(cycle, moves, way, speed, spindle)?;
+            self.drill(&Hole { kind, cycle, moves, way, speed, spindle })?;
         }
-        Ok(())
-    }
-
-    /// Height at which the tool is, where a cycle is read [mm].
-    fn height(&self) -> f64 {
-        self.modal.position[2].unwrap_or_default()
-    }
-
-    /// The way to a hole and the cycle: first to one height, then to the hole at another [mm].
-    fn drill(
-        &mut self,
-        cycle: Cycle,
-        moves: [Option<f64>; 2],
-        [first, height]: [f64; 2],
-        speed: Speed,
-        spindle: Spindle,
-    ) -> Result<()> {
-        let [_, _, retract] = cycle.heights();
-        let rapid = Speed::Rapid { linear: self.dialect.straight_rapid };
-        let [mut x, mut y, z] = self.modal.position;
-        if z != Some(first) {
-            self.push_tip([x, y, Some(first)], Path::Line, rapid);
-        }
-        let go = |from: &mut Option<f64>, to: Option<f64>| {
-            if let Some(to) = to {
-                *from = Some(if self.modal.absolute { to } else { from.unwrap_or(0.0) + to });
-            }
-        };
-        go(&mut x, moves[0]);
-        go(&mut y, moves[1]);
-        self.push_tip([x, y, Some(height)], Path::Line, rapid);
-        self.flush(Kind::Tip);
-        let state = State { spindle, ..self.state(speed) };
-        let located = |e: crate::base::Error| e.0.at(self.place.sources.locate(self.place.span(&self.here)));
-        self.program.push_cycle(cycle, &state, self.origin).map_err(located)?;
-        self.modal.position[2] = Some(retract);
         Ok(())
     }
 }

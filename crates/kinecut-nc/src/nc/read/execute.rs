@@ -63,18 +63,24 @@ impl<'s> Reader<'s> {
         self.distances();
         self.tilting(words)?;
         self.turning(words)?;
+        self.presetting(words)?;
         self.motion(words, machine)?;
         self.check_compensation(&before)?;
+        self.jumping(words)?;
         if let Some((Code::Stop(kind), _)) = self.code(|c| matches!(c, Code::Stop(_))) {
             if kind == StopKind::End {
                 self.modal.spindle = Spindle::Off;
                 self.modal.coolant = Coolant::Off;
                 self.ended = true;
             }
-            self.flush(Kind::Other);
-            self.program.push_stop(kind, &self.state(Speed::Rapid { linear: false }), self.origin);
+            self.push_stop(kind);
         }
         Ok(())
+    }
+
+    pub(super) fn push_stop(&mut self, kind: StopKind) {
+        self.flush(Kind::Other);
+        self.program.push_stop(kind, &self.state(Speed::Rapid { linear: false }), self.origin);
     }
 
     /// Whether a block has nothing but ends of axes X, Y, Z: nearly all of a long program.
@@ -248,7 +254,7 @@ impl<'s> Reader<'s> {
         Ok(())
     }
 
-    fn push_dwell(&mut self, seconds: f64) {
+    pub(super) fn push_dwell(&mut self, seconds: f64) {
         self.flush(Kind::Other);
         self.program.push_dwell(seconds, &self.state(Speed::Rapid { linear: false }), self.origin);
     }
@@ -328,7 +334,9 @@ impl<'s> Reader<'s> {
             match *code {
                 Code::Absolute(yes) => self.modal.absolute = yes,
                 Code::CentreAbsolute(yes) => self.modal.centre_absolute = yes,
-                Code::ReturnToStart(yes) => self.modal.return_to_start = yes,
+                Code::ReturnToStart(yes) => {
+                    (self.modal.return_to_start, self.modal.return_said) = (yes, true);
+                }
                 _ => {}
             }
         }

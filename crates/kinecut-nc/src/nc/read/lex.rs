@@ -1,7 +1,8 @@
 //! From the bytes of a line to the words of a block, each with its place.
 
 use crate::base::Result;
-use crate::nc::dialect::Dialect;
+use crate::nc::dialect::{Dialect, FlowWords};
+use crate::nc::run::{Expression, Names, Value};
 
 use super::number::Number;
 use super::place::{Bytes, SourceText};
@@ -17,6 +18,8 @@ pub(super) struct Word<'t> {
     pub(super) way: WordMode,
     /// Whether the number has a decimal point.
     pub(super) point: bool,
+    /// Whether the number was computed.
+    pub(super) computed: bool,
     /// Whether a code of the block has used it.
     pub(super) used: bool,
 }
@@ -34,7 +37,7 @@ impl<'t> Word<'t> {
 
     /// A keyword without a number.
     fn bare(name: &'t str, bytes: Bytes) -> Word<'t> {
-        Word { name, value: None, bytes, way: WordMode::Plain, point: false, used: false }
+        Word { name, value: None, bytes, way: WordMode::Plain, point: false, computed: false, used: false }
     }
 }
 
@@ -75,10 +78,27 @@ pub(super) struct Call<'t> {
     pub(super) bytes: Bytes,
 }
 
+/// A variable that a block sets.
+#[derive(Clone, Debug)]
+pub(super) struct Assignment {
+    pub(super) variable: Variable,
+    pub(super) value: Value,
+    pub(super) bytes: Bytes,
+}
+
+/// A variable by its number or its name.
+#[derive(Clone, Debug)]
+pub(super) enum Variable {
+    Numbered(u32),
+    Named(String),
+}
+
 /// The words of a line.
 #[derive(Debug, Default)]
 pub(super) struct Block<'t> {
     pub(super) words: Vec<Word<'t>>,
+    /// Variables that it sets, in the order of the text.
+    pub(super) assignments: Vec<Assignment>,
     pub(super) comments: Vec<(&'t str, Bytes)>,
     /// Call with arguments.
     pub(super) call: Option<Call<'t>>,
@@ -100,14 +120,15 @@ impl Block<'_> {
 
     /// Whether it says anything.
     pub(super) fn is_empty(&self) -> bool {
-        self.words.is_empty() && self.message.is_none() && self.call.is_none()
+        self.words.is_empty() && self.message.is_none() && self.call.is_none() && self.assignments.is_empty()
     }
 
     /// From the first to the last word.
     pub(super) fn bytes(&self) -> Bytes {
         let call = self.call.iter().map(|c| &c.bytes);
-        let mut all =
-            self.message.iter().map(|m| &m.1).chain(call).chain(self.words.iter().map(|w| &w.bytes));
+        let set = self.assignments.iter().map(|a| &a.bytes);
+        let words = self.words.iter().map(|w| &w.bytes);
+        let mut all = self.message.iter().map(|m| &m.1).chain(call).chain(set).chain(words);
         let Some(first) = all.next() else { return 0..0 };
         all.fold(first.clone(), |a, b| a.start.min(b.start)..a.end.max(b.end))
     }
@@ -117,13 +138,15 @@ impl Block<'_> {
 const LARGEST: f64 = 1e9;
 
 /// Cuts lines into words.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Lexer<'s> {
+#[derive(Clone, Copy)]
+pub(super) struct Lexer<'a, 's> {
     pub(super) place: SourceText<'s>,
     pub(super) dialect: &'static Dialect,
+    /// Variables in force.
+    pub(super) names: &'a dyn Names,
 }
 
-impl<'s> Lexer<'s> {
+impl<'s> Lexer<'_, 's> {
     /// Reads the line from `start` to `end` (without its line end) into `block`.
     pub(super) fn line(&self, start: usize, end: usize, block: &mut Block<'s>) -> Result<()> {
         block.clear();
@@ -142,10 +165,18 @@ impl<'s> Lexer<'s> {
                     block.skip = Some(range(at, at + 1 + level));
                     at + 1 + level
                 }
+                b':' if self.dialect.program_number && block.is_empty() => {
+                    let Number { value, end: stop, point, .. } =
+                        self.number(at, self.blanks(at + 1, end), end)?;
+                    let (name, bytes, way) = ("O", range(at, stop), WordMode::Plain);
+                    block.words.push(Word { name, value, bytes, way, point, computed: false, used: false });
+                    stop
+                }
                 b'%' if block.is_empty() => {
                     block.tape = true;
                     end
                 }
+                b'#' if self.dialect.flow.has_variables() => self.assignment(at, end, block)?,
                 b'#' | b'[' => {
                     let token = range(at, self.token_end(at, end));
                     return Err(self
@@ -221,6 +252,9 @@ impl<'s> Lexer<'s> {
         let bytes = text.as_bytes();
         let next = self.blanks(at + 1, end);
         let o_word = bytes[at].eq_ignore_ascii_case(&b'o') && !self.dialect.program_number;
+        if self.dialect.flow.has_variables() && !o_word && self.is_computed(next, end) {
+            return self.computed(at, next, end, block);
+        }
         if next < end && matches!(bytes[next], b'#' | b'[') || o_word {
             let token = range(at, self.token_end(next.max(at), end));
             return Err(self
@@ -229,6 +263,99 @@ impl<'s> Lexer<'s> {
                 .into());
         }
         self.numbered(at, at + 1, next, end, block)
+    }
+
+    /// Whether a value that is no plain number begins at a byte: with a parameter, a bracket, or a function.
+    #[inline]
+    fn is_computed(&self, from: usize, end: usize) -> bool {
+        let bytes = self.place.text().as_bytes();
+        let mut at = from;
+        while at < end && matches!(bytes[at], b'+' | b'-') {
+            at = self.blanks(at + 1, end);
+        }
+        match bytes.get(at).filter(|_| at < end) {
+            Some(b'#' | b'[') => true,
+            // A letter behind a letter is a function only with a bracket behind it.
+            Some(b) if b.is_ascii_alphabetic() => {
+                let rest = &bytes[at..end];
+                let letters = rest.iter().take_while(|b| b.is_ascii_alphabetic()).count();
+                letters > 1 && rest[letters..].iter().find(|b| **b != b' ') == Some(&b'[')
+            }
+            _ => false,
+        }
+    }
+
+    /// An address with a computed value; without a value the word counts for nothing (FANUC).
+    fn computed(&self, at: usize, from: usize, end: usize, block: &mut Block<'s>) -> Result<usize> {
+        let mut expression = self.expression(from, end);
+        let value = expression.value()?;
+        let (name, stop) = (&self.place.text()[at..at + 1], expression.at);
+        let bytes = range(at, stop);
+        if value == Value::Vacant {
+            return Ok(stop);
+        }
+        let value = Some(self.in_bounds(&bytes, value.number())?);
+        let way = WordMode::Plain;
+        block.words.push(Word { name, value, bytes, way, point: true, computed: true, used: false });
+        Ok(stop)
+    }
+
+    /// Values from a byte on.
+    pub(super) fn expression(&self, from: usize, end: usize) -> Expression<'_, 's> {
+        Expression::new(self.place, from, end, self.dialect.flow.arithmetic(), self.names)
+    }
+
+    /// `#1=2` or `#<name>=2`.
+    fn assignment(&self, at: usize, end: usize, block: &mut Block<'s>) -> Result<usize> {
+        let mut expression = self.expression(at + 1, end);
+        let named = self.dialect.flow == FlowWords::OWords && expression.pass("<");
+        let variable = if named {
+            expression.at -= 1;
+            Variable::Named(expression.name()?)
+        } else {
+            Variable::Numbered(expression.index()?)
+        };
+        if !expression.pass("=") {
+            let token = range(at, expression.at);
+            let why = "a value belongs to a letter, or is given to a parameter with `=`";
+            return Err(self.place.malformed(&token, why).into());
+        }
+        let value = expression.value()?;
+        if self.dialect.flow == FlowWords::MacroB {
+            return self.statement(at, expression, variable, value, block);
+        }
+        let stop = expression.at;
+        block.assignments.push(Assignment { variable, value, bytes: range(at, stop) });
+        Ok(stop)
+    }
+
+    /// An assignment of macro B: its value goes on to the end of the block, without brackets around it.
+    fn statement(
+        &self,
+        at: usize,
+        mut expression: Expression<'_, 's>,
+        variable: Variable,
+        first: Value,
+        block: &mut Block<'s>,
+    ) -> Result<usize> {
+        let value = expression.goes_on(first)?;
+        let bytes = range(at, expression.at);
+        if let Value::Truth(_) = value {
+            let why = "a condition has no value that a variable could hold";
+            return Err(self.place.malformed(&bytes, why).into());
+        }
+        let stop = expression.at;
+        block.assignments.push(Assignment { variable, value, bytes });
+        Ok(stop)
+    }
+
+    /// A computed number that is in the range of numbers.
+    fn in_bounds(&self, bytes: &Bytes, value: f64) -> Result<f64> {
+        if value.abs() <= LARGEST {
+            return Ok(value);
+        }
+        let finding = self.place.malformed(bytes, "the number is too large");
+        Err(finding.value(value, "").bound(LARGEST, "").into())
     }
 
     /// An address with a number that begins at `from`.
@@ -257,7 +384,8 @@ impl<'s> Lexer<'s> {
             block.torn = Some(place.clone());
         }
         let name = &text[at..name_end];
-        block.words.push(Word { name, value, bytes: place, way: WordMode::Plain, point, used: false });
+        let way = WordMode::Plain;
+        block.words.push(Word { name, value, bytes: place, way, point, computed: false, used: false });
         Ok(stop)
     }
 
@@ -426,7 +554,7 @@ impl<'s> Lexer<'s> {
             return Err(self.place.not_understood(&whole, "expressions and names are not read yet").into());
         }
         let (name, bytes) = (&text[at..name_end], range(at, close + 1));
-        block.words.push(Word { name, value, bytes, way: *way, point, used: false });
+        block.words.push(Word { name, value, bytes, way: *way, point, computed: false, used: false });
         Ok(Some(close + 1))
     }
 
@@ -547,7 +675,7 @@ impl<'s> Lexer<'s> {
     }
 }
 
-fn range(from: usize, to: usize) -> Bytes {
+pub(super) fn range(from: usize, to: usize) -> Bytes {
     // Texts end below 4 GiB.
     from as u32..to as u32
 }

@@ -28,7 +28,8 @@ impl<'s> Reader<'s> {
             if text.is_empty() && !message {
                 continue;
             }
-            let origin = Origin { span: Some(self.place.span(bytes)), ..Origin::default() };
+            let span = Some(self.place.span(bytes));
+            let origin = Origin { span, parent: self.parent, ..Origin::default() };
             self.flush(Kind::Other);
             let state = self.state(Speed::Rapid { linear: false });
             match message {

@@ -12,26 +12,39 @@
 
 mod arc;
 mod call;
+mod called;
+mod calls;
 mod comp;
 mod cubic;
 mod cycle;
 mod execute;
+mod hole;
+mod jump;
 mod lex;
 mod message;
 mod modal;
 mod motion;
-mod number;
+pub(super) mod number;
+mod nurbs;
+mod o_lines;
 mod path_mode;
 pub(super) mod place;
 mod plane;
+mod points;
+mod polar;
+mod preset;
 mod reader;
 mod reference;
 mod rotary_axes;
 mod rotary_state;
+mod run;
+mod settings;
+mod statements;
 mod sticky;
 mod tap;
 mod turn;
 mod turned;
+mod variables;
 
 use crate::base::{Code, FileId, Finding, Result, Sources};
 use crate::program::{Item, Program, Setup, Tcp};
@@ -39,7 +52,12 @@ use crate::program::{Item, Program, Setup, Tcp};
 use super::Control;
 use lex::{Block, Lexer};
 use place::SourceText;
+use points::Points;
 use reader::Reader;
+use run::Run;
+
+pub use called::called;
+pub use settings::{NumberInput, ReadSettings};
 
 /// A program read from a text.
 #[derive(Clone, Debug)]
@@ -54,6 +72,10 @@ pub struct Reading {
     pub radius_difference: f64,
     /// Largest distance between the involutes of a written base radius through start and end [mm].
     pub involute_difference: f64,
+    /// Blocks that are wrong or not understood, where reading goes on behind them.
+    pub errors: Vec<Finding>,
+    /// Radius registers that the program itself sets: number and radius [mm].
+    pub radii: Vec<(u32, f64)>,
 }
 
 /// Reads a program. The text is added to `sources` under `name`; `setups` are the clampings it runs on: a work
@@ -87,14 +109,20 @@ pub fn read(
     setups: &[Setup],
 ) -> Result<Reading> {
     let file = sources.add(name, text);
-    read_source(sources, file, control, setups)
+    read_source(sources, file, control, setups, &ReadSettings::default())
 }
 
-/// As [`read`], of a text that is among the sources.
+/// As [`read`], of a text that is among the sources, with settings.
 ///
 /// # Errors
 /// Those of [`read`].
-pub fn read_source(sources: &Sources, file: FileId, control: Control, setups: &[Setup]) -> Result<Reading> {
+pub fn read_source(
+    sources: &Sources,
+    file: FileId,
+    control: Control,
+    setups: &[Setup],
+    settings: &ReadSettings,
+) -> Result<Reading> {
     let place = SourceText { sources, file };
     let text = place.text();
     if text.len() >= u32::MAX as usize {
@@ -107,34 +135,9 @@ pub fn read_source(sources: &Sources, file: FileId, control: Control, setups: &[
     if control == Control::Heidenhain {
         return super::heidenhain::read(place, setups);
     }
-    let lexer = Lexer { place, dialect };
     let mut reader = Reader::new(place, dialect, setups);
-    let mut block = Block::default();
-    let mut started = false;
-    let mut at = 0;
-    while at < text.len() && !reader.ended {
-        let end = text[at..].find('\n').map_or(text.len(), |n| at + n);
-        lexer.line(at, end, &mut block)?;
-        at = end + 1;
-        if block.tape {
-            if started && dialect.tape.is_some() {
-                break;
-            }
-            continue;
-        }
-        if !started && matches!(&block.words[..], [word] if word.is("O")) {
-            reader.header.extend(block.comments.drain(..).map(|c| c.0.to_owned()));
-            reader.block(&mut block)?;
-            continue;
-        }
-        if !started && block.is_empty() && !reader.has_message(&block) {
-            reader.header.extend(block.comments.iter().map(|c| c.0.to_owned()));
-            continue;
-        }
-        started = true;
-        reader.block(&mut block)?;
-    }
-    reader.finish(at.min(text.len()))
+    reader.points = Points::of(text, dialect, settings.input);
+    Run::new(reader, settings).run()
 }
 
 /// State in which blocks leave a control that read nothing before them.
@@ -161,12 +164,12 @@ pub(super) fn left_by(sources: &mut Sources, name: &str, text: &str, control: Co
     let dialect = control.dialect();
     let file = sources.add(name, text);
     let place = SourceText { sources, file };
-    let lexer = Lexer { place, dialect };
     let mut reader = Reader::new(place, dialect, &[]);
     let mut block = Block::default();
     let mut at = 0;
     let mut tape = false;
     for line in place.text().split('\n') {
+        let lexer = Lexer { place, dialect, names: &reader };
         lexer.line(at, at + line.len(), &mut block)?;
         at += line.len() + 1;
         tape |= block.tape;

@@ -77,6 +77,8 @@ pub(super) struct Modal {
     pub(super) length_hidden: bool,
     /// Cycles return to the height where they began, otherwise to R.
     pub(super) return_to_start: bool,
+    /// The program has said which.
+    pub(super) return_said: bool,
     pub(super) sticky: Sticky,
     /// Cycle that is called after each block that moves.
     pub(super) modal_call: Option<Read>,
@@ -121,7 +123,8 @@ impl Modal {
             called: None,
             tool_item: None,
             length_hidden: false,
-            return_to_start: true,
+            return_to_start: !dialect.starts_at_r,
+            return_said: false,
             sticky: Sticky::default(),
             modal_call: None,
             cubic_end: None,

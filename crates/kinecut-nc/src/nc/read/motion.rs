@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use crate::base::{Code as FindingCode, Result};
 use crate::nc::dialect::{AXES, Code, OFFSETS, TurnWord};
-use crate::program::{Move, Path, Speed, Target, Tcp};
+use crate::program::{Comp, Move, Path, Speed, Target, Tcp};
 
 use super::lex::{Word, WordMode};
 use super::modal::FeedMode;
@@ -18,7 +18,7 @@ impl<'s> Reader<'s> {
             return self.reference_move(words, &bytes);
         }
         let code = self.motion_code();
-        if let Some((code, _)) = &code {
+        if let Some((code, code_at)) = &code {
             self.modal.motion = (*code != Code::NoMotion).then_some(*code);
             if !matches!(code, Code::Cycle(_)) {
                 self.modal.sticky.end();
@@ -26,6 +26,19 @@ impl<'s> Reader<'s> {
             if *code != Code::Cubic {
                 self.modal.cubic_end = None;
             }
+            if *code == Code::RunSpline {
+                let bytes = code_at.clone();
+                self.modal.motion = None;
+                return self.run_spline(&bytes);
+            }
+            if self.nurbs.is_some() && *code != Code::ControlPoint {
+                let bytes = code_at.clone();
+                let finding = self.lacks(&bytes, "another motion before the spline is run");
+                return Err(finding.help("program G5.3").into());
+            }
+        }
+        if self.gives_points() && (code.is_some() || words.iter().any(|w| !w.used)) {
+            return self.control_point(words);
         }
         let axis = self.has_axis(words);
         let curve = matches!(self.modal.motion, Some(Code::Arc { .. } | Code::Involute { .. }));
@@ -70,6 +83,7 @@ impl<'s> Reader<'s> {
             Some(Code::Arc { ccw }) => self.arc(words, ccw),
             Some(Code::Involute { ccw }) => self.involute(words, ccw),
             Some(Code::Cubic) => self.cubic(words),
+            Some(Code::Quadratic) => self.quadratic(words),
             Some(Code::Cycle(kind)) => self.cycle(words, kind),
             Some(Code::SynchronisedTap) => self.synchronised_tap(words),
             _ => {
@@ -163,8 +177,12 @@ impl<'s> Reader<'s> {
 
     fn straight(&mut self, words: &mut [Word<'s>], speed: Speed) -> Result<()> {
         let end = self.end(words)?;
-        if !matches!(speed, Speed::Rapid { .. }) {
-            self.start()?;
+        if !matches!(speed, Speed::Rapid { .. }) && self.modal.position.iter().any(Option::is_none) {
+            // Compensation leads into a contour, and out of it.
+            if self.modal.comp != Comp::Off {
+                self.start()?;
+            }
+            self.from_nowhere.push(self.here.clone());
         }
         self.push_tip(end, Path::Line, speed);
         Ok(())

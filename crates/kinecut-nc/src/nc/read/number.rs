@@ -7,20 +7,20 @@ const POWERS: [f64; EXACT_DIGITS + 1] =
 
 /// A number as it is written.
 #[derive(Debug)]
-pub(super) struct Number {
+pub(in crate::nc) struct Number {
     /// The double nearest to it; `None` where there is no digit.
-    pub(super) value: Option<f64>,
+    pub(in crate::nc) value: Option<f64>,
     /// One past its last byte.
-    pub(super) end: usize,
+    pub(in crate::nc) end: usize,
     /// Whether there are blanks within.
-    pub(super) torn: bool,
+    pub(in crate::nc) torn: bool,
     /// Whether it has a decimal point.
-    pub(super) point: bool,
+    pub(in crate::nc) point: bool,
 }
 
 impl Number {
     /// The number from `from` on, as far as one goes; `blanks`: they count for nothing.
-    pub(super) fn written(text: &str, from: usize, blanks: bool) -> Number {
+    pub(in crate::nc) fn written(text: &str, from: usize, blanks: bool) -> Number {
         let bytes = text.as_bytes();
         let (mut digits, mut decimals) = (0, 0);
         // The digits as a whole number, as long as they are few.

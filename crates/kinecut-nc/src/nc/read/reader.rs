@@ -1,14 +1,21 @@
 //! The reader: its state, the words of a block as codes, and the items it makes of them.
 
+use std::cell::Cell;
+
 use crate::base::{Code as FindingCode, Finding, Result, Sum};
-use crate::nc::dialect::{AXES, COMMON_G, COMMON_M, Code, Dialect, TurnWord};
+use crate::nc::dialect::{AXES, COMMON_G, COMMON_M, Code, Dialect, FlowWords, TurnWord};
 use crate::nc::multi_axis::ROTARY;
-use crate::program::{Comp, Frame, Origin, Program, Setup, Speed, State, WorkOffset};
+use crate::nc::run::Variables;
+use crate::program::{Comp, Frame, Origin, OriginId, Program, Setup, Speed, State, WorkOffset};
 
 use super::Reading;
+use super::jump::Jump;
 use super::lex::{Block, Word, WordMode};
-use super::modal::{FeedMode, Modal};
+use super::modal::Modal;
+use super::nurbs::Nurbs;
 use super::place::{Bytes, SourceText};
+use super::points::Points;
+use super::polar::Polar;
 
 /// A value of a word and its place.
 #[derive(Clone, Debug)]
@@ -31,14 +38,37 @@ pub(super) struct Reader<'s> {
     pub(super) repeated: Sum,
     /// The program has said its number.
     numbered: bool,
-    /// Whether a coordinate had a decimal point, the first that had none, and whether that was said.
-    points: (bool, Option<Finding>, bool),
+    /// Coordinates without a decimal point.
+    pub(super) points: Points,
     /// The words of the present block.
     pub(super) origin: Origin,
     pub(super) here: Bytes,
     /// The block that last changed tool or length.
     pub(super) tool_origin: Origin,
     pub(super) codes: Vec<(Code, Bytes)>,
+    pub(super) variables: Variables,
+    /// A variable that was read before the program has set it, and whether that was said.
+    pub(super) unset: Cell<Option<u32>>,
+    pub(super) unset_said: bool,
+    /// The value that the last subprogram returned, and whether it did.
+    pub(super) value_returned: (f64, bool),
+    /// Calls in force, and the block of the last.
+    pub(super) depth: usize,
+    pub(super) parent: Option<OriginId>,
+    /// Spline whose control points are being given.
+    pub(super) nurbs: Option<Nurbs>,
+    /// R of the last cycle [mm].
+    pub(super) last_reference: Option<f64>,
+    /// Polar coordinates (`G16`).
+    pub(super) polar: Option<Polar>,
+    /// The last shift of `G52` or `G92`, which `G92.3` takes again [mm].
+    pub(super) stored_shift: glam::DVec3,
+    /// Radius registers that the program sets [mm].
+    pub(super) radii: Vec<(u32, f64)>,
+    /// Feed moves that start at a place that the program has not set.
+    pub(super) from_nowhere: Vec<Bytes>,
+    /// The jump that the present block asks for.
+    pub(super) jump: Option<Jump>,
 }
 
 /// The kinds of item that decide whether a switched-off length becomes an item.
@@ -65,17 +95,31 @@ impl<'s> Reader<'s> {
             ended: false,
             repeated: Sum::default(),
             numbered: false,
-            points: (false, None, false),
+            points: Points::default(),
             origin: Origin::default(),
             here: 0..0,
             tool_origin: Origin::default(),
             codes: Vec::new(),
+            variables: Variables::new(dialect.flow.level()),
+            unset: Cell::new(None),
+            unset_said: false,
+            value_returned: (0.0, false),
+            depth: 0,
+            parent: None,
+            nurbs: None,
+            last_reference: None,
+            polar: None,
+            stored_shift: glam::DVec3::ZERO,
+            radii: Vec::new(),
+            from_nowhere: Vec::new(),
+            jump: None,
         }
     }
 
     /// Ends the reading; `at` is the first byte not read.
     pub(super) fn finish(mut self, at: usize) -> Result<Reading> {
         self.flush(Kind::Other);
+        self.say_from_nowhere();
         let text = self.place.text();
         let rest = text[at..].trim_matches(|c: char| c.is_whitespace() || c == '%');
         if self.modal.comp != Comp::Off {
@@ -87,10 +131,12 @@ impl<'s> Reader<'s> {
             let message = "the rotation or shift of a work offset (G10 L2 R, G52) stays beyond the program";
             self.warn(&(end..end), message);
         }
+        // What is called from here may be behind the end.
+        let other_programs = self.dialect.flow.has_variables() && rest.starts_with(['O', 'o', ':']);
         if !self.ended {
             let end = text.len() as u32;
             self.warn(&(end..end), "the program has no end (M30)");
-        } else if !rest.is_empty() {
+        } else if !rest.is_empty() && !other_programs {
             let start = (rest.as_ptr() as usize - text.as_ptr() as usize) as u32;
             self.warn(&(start..start + 1), "text after the end of the program is not run");
         }
@@ -101,7 +147,29 @@ impl<'s> Reader<'s> {
             header: self.header,
             radius_difference: self.radius_difference,
             involute_difference: self.involute_difference,
+            errors: Vec::new(),
+            radii: self.radii,
         })
+    }
+
+    /// Whether the program has said its number.
+    pub(super) fn numbered(&self) -> bool {
+        self.numbered
+    }
+
+    /// Says which feed moves start at a place that the program has not set.
+    fn say_from_nowhere(&mut self) {
+        let Some(first) = self.from_nowhere.first() else { return };
+        let mut lines: Vec<u32> =
+            self.from_nowhere.iter().map(|b| self.place.sources.line(self.place.span(b))).collect();
+        lines.dedup();
+        let message = format!(
+            "the program has not set the position where a feed move starts, which is not followed: line{} {}",
+            if lines.len() == 1 { "" } else { "s" },
+            listed(&lines)
+        );
+        let finding = self.place.warning(FindingCode::UNKNOWN_START, first, message);
+        self.findings.push(finding.help("move all axes to a position by G0 first"));
     }
 
     pub(super) fn warn(&mut self, bytes: &Bytes, message: &str) {
@@ -128,10 +196,22 @@ impl<'s> Reader<'s> {
         self.place.error(FindingCode::NC_STATE, bytes, message)
     }
 
+    /// Leaves a block that is wrong: from here on no position is known.
+    pub(super) fn skip_block(&mut self) {
+        self.codes.clear();
+        (self.jump, self.nurbs, self.polar) = (None, None, None);
+        self.modal.position = [None; 3];
+        self.modal.comp = Comp::Off;
+        self.modal.comp_turned = None;
+        self.modal.sticky.end();
+        self.modal.cubic_end = None;
+    }
+
     /// Executes a block.
     pub(super) fn block(&mut self, block: &mut Block<'s>) -> Result<()> {
         self.here = block.bytes();
-        self.origin = Origin { span: Some(self.place.span(&self.here)), ..Origin::default() };
+        self.origin =
+            Origin { span: Some(self.place.span(&self.here)), parent: self.parent, ..Origin::default() };
         if let Some(skip) = &block.skip {
             self.warn(skip, "a block with `/` is read as if the skip switch were off");
         }
@@ -139,14 +219,29 @@ impl<'s> Reader<'s> {
             self.warn(torn, "a number has blanks within: the control ignores them");
         }
         self.remarks(block);
+        let here = self.here.clone();
+        self.note_unset(&here);
+        if let Some(assignment) = block.assignments.first()
+            && self.dialect.flow == FlowWords::MacroB
+            && block.words.iter().any(|w| !w.is("N"))
+        {
+            let why = "a macro statement is in a block of its own";
+            return Err(self.place.malformed(&assignment.bytes, why).into());
+        }
+        for assignment in block.assignments.drain(..) {
+            self.assign(assignment, &block.comments)?;
+        }
         if block.words.is_empty() && block.call.is_none() {
+            return Ok(());
+        }
+        if self.dialect.flow == FlowWords::MacroB && self.calls_macro(&mut block.words)? {
             return Ok(());
         }
         self.collect(&mut block.words)?;
         if self.dialect.point {
-            let without = self.least_increments(&mut block.words)?;
-            self.mixed_points(&block.words, without);
+            self.numbers_without_point(&mut block.words)?;
         }
+        self.polar_words(&mut block.words)?;
         let before = self.program.items.len();
         let modal = self.code(|c| c == Code::ModalCall).is_some();
         if modal || block.call.is_some() {
@@ -180,7 +275,12 @@ impl<'s> Reader<'s> {
             let is = |name: &str| word.is(name);
             let code = match word.value {
                 Some(value) if is("G") => Some(self.g_code(value).ok_or_else(|| self.unknown(word))?),
-                Some(value) if is("M") => Some(self.m_code(value).ok_or_else(|| self.unknown(word))?),
+                Some(value) if is("M") => {
+                    // Whole numbers of macro B are rounded where they are computed.
+                    let rounds = word.computed && self.dialect.flow == FlowWords::MacroB;
+                    let value = if rounds { value.round() } else { value };
+                    Some(self.m_code(value).ok_or_else(|| self.unknown(word))?)
+                }
                 Some(value) if is("N") && i == 0 => {
                     if value < 0.0 {
                         return Err(self
@@ -231,7 +331,8 @@ impl<'s> Reader<'s> {
 
     /// Refuses a second code that uses axis words, of a control that takes one.
     pub(super) fn one_use_of_axes(&self) -> Result<()> {
-        let covets = |c: Code| matches!(c, Code::Reference | Code::SetData | Code::LocalShift);
+        let covets =
+            |c: Code| matches!(c, Code::Reference | Code::SetData | Code::LocalShift | Code::PresetShift);
         let (Some((_, bytes)), Some((motion, of_motion))) = (self.code(covets), self.motion_code()) else {
             return Ok(());
         };
@@ -250,90 +351,8 @@ impl<'s> Reader<'s> {
             .into())
     }
 
-    /// Numbers without a decimal point count least increments.
-    fn least_increments(&self, words: &mut [Word<'_>]) -> Result<Option<Finding>> {
-        let mut without = None;
-        let inch = match self.code(|c| matches!(c, Code::Units { .. })) {
-            Some((Code::Units { inch, .. }, _)) => inch,
-            _ => self.modal.length_unit != 1.0,
-        };
-        let step = if inch { 0.0001 } else { 0.001 };
-        let has = |code: Code| self.codes.iter().any(|(c, _)| *c == code);
-        let per_revolution = match self.modal.feed_mode {
-            FeedMode::PerRevolution => !has(Code::FeedPerMinute) && !has(Code::InverseTime),
-            _ => has(Code::FeedPerRevolution),
-        };
-        let is = |word: &Word<'_>, names: &[&str]| names.iter().any(|n| word.is(n));
-        for word in words.iter_mut() {
-            let feature = has(Code::Tilt);
-            let axis = self.centre_is_axis() || has(Code::TipControl { vector: true });
-            let length_k = is(word, &["K"]) && (self.curved() || feature || axis);
-            let count = is(word, &["P", "T", "H", "D", "O", "N"])
-                || is(word, &["K"]) && !length_k
-                || is(word, &["Q"]) && feature;
-            if word.point && count {
-                let finding =
-                    self.place.malformed(&word.bytes, "it is a count here, write it without a decimal point");
-                return Err(finding.into());
-            }
-            let unit = if word.point || count {
-                1.0
-            } else if is(word, &["X"]) && has(Code::Dwell)
-                || is(word, &["R"]) && has(Code::Rotation { on: true })
-                || is(word, &["A", "B", "C"])
-                || is(word, &["I", "J", "K"]) && feature
-            {
-                0.001
-            } else if is(word, &["X", "Y", "Z", "I", "J", "R", "Q"]) || length_k {
-                step
-            } else if is(word, &["F"]) && per_revolution {
-                if inch { 0.0001 } else { 0.01 }
-            } else {
-                1.0
-            };
-            // A nought is one either way.
-            let counts = unit == step && !word.point && without.is_none();
-            if let Some(value) = word.value.filter(|v| counts && *v != 0.0) {
-                without = Some(self.without_point(word, value, unit));
-            }
-            if let Some(value) = &mut word.value {
-                *value *= unit;
-            }
-        }
-        Ok(without)
-    }
-
-    /// Finding for a coordinate without a decimal point, if others of the program have one.
-    fn without_point(&self, word: &Word<'_>, value: f64, unit: f64) -> Finding {
-        let said = format!(
-            "`{}{value}` has no decimal point, other coordinates of the program have one: read as {} {}, in least increments (parameter 3401)",
-            word.name,
-            (value * unit * 1e4).round() / 1e4,
-            if unit < 0.001 { "inch" } else { "mm" }
-        );
-        let finding = self.place.warning(FindingCode::NC_ASSUMED, &word.bytes, &said);
-        finding.help(format!("write {}{value}. if that is meant", word.name))
-    }
-
-    /// Says of the first coordinate without a decimal point that it has none, in a program in which others have one.
-    fn mixed_points(&mut self, words: &[Word<'_>], without: Option<Finding>) {
-        let lengths = ["X", "Y", "Z", "I", "J", "R"];
-        let dwells = self.code(|c| c == Code::Dwell).is_some();
-        let is_length = |word: &&Word<'_>| lengths.iter().any(|n| word.is(n));
-        self.points.0 |= !dwells && words.iter().filter(is_length).any(|w| w.point);
-        if self.points.1.is_none() {
-            self.points.1 = without;
-        }
-        if self.points.0
-            && let Some(finding) = self.points.1.take_if(|_| !self.points.2)
-        {
-            self.points.2 = true;
-            self.findings.push(finding);
-        }
-    }
-
     /// Whether the block is an arc, where K is a length and not a count.
-    fn curved(&self) -> bool {
+    pub(super) fn curved(&self) -> bool {
         let said = self.motion_code().map(|c| c.0);
         matches!(said.or(self.modal.motion), Some(Code::Arc { .. } | Code::Involute { .. }))
     }
@@ -421,6 +440,16 @@ impl<'s> Reader<'s> {
     pub(super) fn has_axis(&self, words: &[Word<'s>]) -> bool {
         self.has_rotary(words) || words.iter().any(|w| !w.used && AXES.iter().any(|a| w.is(a)))
     }
+}
+
+/// The first lines of a list.
+fn listed(lines: &[u32]) -> String {
+    const MOST: usize = 10;
+    let mut shown: Vec<String> = lines.iter().take(MOST).map(u32::to_string).collect();
+    if lines.len() > MOST {
+        shown.push(format!("and {} more", lines.len() - MOST));
+    }
+    shown.join(", ")
 }
 
 /// The value of a word that nothing has used yet.

@@ -155,7 +155,8 @@ impl<'s> Reader<'s> {
     }
 
     fn local_shift(&mut self, words: &mut [Word<'s>], bytes: &Bytes) -> Result<()> {
-        if !self.modal.absolute {
+        // LinuxCNC sets it in G91 too.
+        if !self.modal.absolute && self.dialect.turn != TurnWord::Offset {
             let finding = self.lacks(bytes, "a local shift (G52) as increments (G91)");
             return Err(finding.help("program G90").into());
         }
@@ -167,6 +168,7 @@ impl<'s> Reader<'s> {
         for (axis, value) in named.into_iter().enumerate() {
             shift[axis] = value.unwrap_or(shift[axis]);
         }
+        self.stored_shift = self.modal.turned.shift;
         Ok(())
     }
 

@@ -24,7 +24,7 @@ pub(super) mod swivel;
 
 use crate::program::WorkOffset;
 
-use super::dialect::{Code, CompWord, Dialect, Mismatch, SeriesRule, StateWord, TurnWord};
+use super::dialect::{Code, CompWord, Dialect, FlowWords, Mismatch, SeriesRule, StateWord, TurnWord};
 use super::multi_axis::{MultiAxis, TcpWord, TiltWord};
 use super::native::{Native, TapWord};
 
@@ -118,6 +118,9 @@ pub(super) const DIALECT: Dialect = Dialect {
         ("FFWON", Code::Harmless("feed forward on")),
         ("FFWOF", Code::Harmless("feed forward off")),
     ],
+    starts_at_r: false,
+    haas: false,
+    flow: FlowWords::None,
     has_offset,
     radius: "CR",
     dwell_words: &[("F", 1.0)],

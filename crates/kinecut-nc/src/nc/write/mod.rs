@@ -34,7 +34,7 @@ use crate::tool::Tool;
 use super::dialect::Dialect;
 use super::grid::Grid;
 use super::multi_axis::TcpWord;
-use super::{PostNotes, PostSettings, Posted};
+use super::{Control, PostNotes, PostSettings, Posted};
 use page::Page;
 use state::Modal;
 
@@ -71,6 +71,13 @@ use state::Modal;
 /// `KC0204` when the program lacks something (a feed, a known start).
 pub fn write(program: &Program, tools: &[Tool], settings: &PostSettings) -> Result<Posted> {
     let dialect = settings.control.dialect();
+    if !Control::WRITTEN.contains(&settings.control) {
+        let message = format!("programs for {} are read, not written", settings.control.title());
+        let known: Vec<&str> = Control::WRITTEN.iter().map(|c| c.name()).collect();
+        return Err(Finding::error(Code::POST_CONTROL, message)
+            .help(format!("write for {}", known.join(", ")))
+            .into());
+    }
     if settings.cubic && !dialect.has_cubic() {
         return Err(unsupported(format!("{} has no cubics (G5)", settings.control.title()))
             .help("leave `cubic` out")

@@ -52,9 +52,9 @@ impl Writer<'_> {
             // At the end of a line it would join the next one.
             Control::Heidenhain => &[('~', '-')],
             // Sent line by line it would end the program on some controls.
-            Control::Fanuc => &[('%', '-')],
+            Control::Fanuc | Control::Haas => &[('%', '-')],
             // Hold, go on and report, taken out of the stream of characters before any line is read (Grbl 1.1 interface).
-            Control::Grbl => &[('!', '.'), ('~', '-'), ('?', '.')],
+            Control::Grbl | Control::GrblHal => &[('!', '.'), ('~', '-'), ('?', '.')],
             Control::LinuxCnc | Control::Sinumerik840d => &[],
         };
         let other = |c: char| changed.iter().find(|(from, _)| *from == c).map_or(c, |(_, to)| *to);

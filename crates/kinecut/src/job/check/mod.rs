@@ -12,7 +12,7 @@ mod program;
 mod setup;
 pub(in crate::job) mod step;
 
-pub use program::JobProgram;
+pub use program::{JobProgram, Subprogram, subprograms};
 
 use std::ops::Deref;
 

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use super::super::file::ProgramTable;
 use crate::base::bounded::{MAX_LENGTH, length};
 use crate::base::{Code, FileKind, Finding, Loader, Result};
-use crate::nc::Control;
+use crate::nc::{self, Control, NumberInput};
 use crate::operations::tool_of;
 use crate::tool::{Tool, ToolNumber};
 
@@ -26,6 +26,12 @@ pub struct JobProgram {
     pub lengths: Vec<(u32, f64)>,
     /// Radii that registers hold, where they are given [mm].
     pub radii: Vec<(u32, f64)>,
+    /// Meaning of coordinates without a decimal point (FANUC).
+    pub input: NumberInput,
+    /// Words of its text that told the control, where nobody said it.
+    pub detected: Option<String>,
+    /// Files beside it with programs that it calls.
+    pub beside: Vec<Subprogram>,
 }
 
 impl JobProgram {
@@ -40,9 +46,61 @@ impl JobProgram {
             in_spindle: None,
             lengths: Vec::new(),
             radii: Vec::new(),
+            input: NumberInput::Auto,
+            detected: None,
+            beside: Vec::new(),
         }
     }
 }
+
+/// A file with a program that another calls.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Subprogram {
+    /// The name by which it is called.
+    pub name: String,
+    /// Its file, as seen from where the job is.
+    pub file: String,
+    /// Its text.
+    pub text: Arc<str>,
+}
+
+/// Files beside a program that hold what it calls, and what those call; one that is not there is missed where it is called.
+pub fn subprograms(file: &str, text: &str, control: Control, loader: &dyn Loader) -> Vec<Subprogram> {
+    let (folder, own) = match file.rfind(['/', '\\']) {
+        Some(at) => file.split_at(at + 1),
+        None => ("", file),
+    };
+    let own = own.rsplit_once('.').map(|(_, ending)| ending);
+    let endings = [own.unwrap_or_default(), control.extension(), ""];
+    let mut found: Vec<Subprogram> = Vec::new();
+    let mut asked = nc::called(text, control);
+    let mut next = 0;
+    while next < asked.len() && next < MOST_CALLED {
+        let names = asked[next].clone();
+        next += 1;
+        let candidates = names.iter().flat_map(|name| endings.iter().map(move |ending| (name, ending)));
+        let there = candidates.filter(|(name, _)| !name.contains(['/', '\\'])).find_map(|(name, ending)| {
+            let file = if ending.is_empty() {
+                format!("{folder}{name}")
+            } else {
+                format!("{folder}{name}.{ending}")
+            };
+            let bytes = loader.read_as(&file, FileKind::Program).ok()?;
+            Some(Subprogram { name: name.clone(), file, text: text_of(&bytes).0 })
+        });
+        let Some(there) = there else { continue };
+        for further in nc::called(&there.text, control) {
+            if !asked.contains(&further) {
+                asked.push(further);
+            }
+        }
+        found.push(there);
+    }
+    found
+}
+
+/// Most programs that one program and what it calls may call in files of their own.
+const MOST_CALLED: usize = 1000;
 
 /// The text of a program: UTF-8, and otherwise Latin-1, which older controls and post-processors write.
 fn text_of(bytes: &[u8]) -> (Arc<str>, bool) {
@@ -64,6 +122,8 @@ pub(super) fn program(
     };
     let bytes = loader.read_as(&t.file, FileKind::Program).map_err(|e| e.under("file"))?;
     let mut program = JobProgram::new(t.file.clone(), &bytes, control);
+    program.input = t.input;
+    program.beside = subprograms(&program.file, &program.text, control, loader);
     if let Some(number) = t.tool {
         program.in_spindle = Some(tool_of(number, tools)?.number);
     }

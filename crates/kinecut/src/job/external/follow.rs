@@ -5,17 +5,20 @@ use std::sync::Arc;
 use super::super::check::{Job, JobProgram};
 use super::super::following::{CHORD, line_place};
 use super::Unfollowed;
+use super::grouped::grouped;
 use super::magazine::{Magazine, Missing};
 use super::registers::Registers;
-use crate::base::{Code, Error, Finding, Result, Severity, Sources};
+use crate::base::{Code, Error, FileId, Finding, Result, Severity, Sources, Span};
 use crate::geom::Rigid;
-use crate::nc::{self, Control, Reading};
-use crate::program::{Blend, Frame, Setup};
+use crate::nc::{self, Control, ReadSettings, Reading};
+use crate::program::{Blend, Frame, Program, Setup};
 use crate::trace::{RegisterState, Trace, TraceOptions, trace};
 
 /// A program of others, read and followed.
 #[derive(Debug)]
 pub(crate) struct Followed {
+    /// Blocks that are wrong or not understood, those of one kind as one.
+    pub(crate) errors: Vec<Finding>,
     /// The program as read.
     pub(crate) reading: Reading,
     /// Its motion.
@@ -34,6 +37,15 @@ pub(crate) struct Followed {
     pub(crate) sources: Sources,
 }
 
+/// What a block that is wrong or not understood ends.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Errors {
+    /// The reading.
+    Stop,
+    /// That block: reading goes on behind it.
+    GoOn,
+}
+
 /// An error or finding about an item, at the place of its block.
 pub(crate) fn at_block(mut error: Error, program: &JobProgram, lines: &[Option<u32>]) -> Error {
     if let Some(item) = error.0.item.take() {
@@ -47,12 +59,24 @@ pub(crate) fn at_block(mut error: Error, program: &JobProgram, lines: &[Option<u
 ///
 /// # Errors
 /// Those of the reader and of the trace, each at its place in the program.
-pub(crate) fn follow(job: &Job, setup: usize, program: &JobProgram, missing: Missing) -> Result<Followed> {
+pub(crate) fn follow(
+    job: &Job,
+    setup: usize,
+    program: &JobProgram,
+    missing: Missing,
+    errors: Errors,
+) -> Result<Followed> {
     let mut sources = Sources::default();
     let clamped = &job.setups[setup];
     let mut clamping = vec![clamped.setup.clone()];
     let file = sources.add(&program.file, Arc::clone(&program.text));
-    let mut reading = nc::read_source(&sources, file, program.control, &clamping)?;
+    let mut files = Vec::new();
+    for called in &program.beside {
+        files.push((called.name.clone(), sources.add(&called.file, Arc::clone(&called.text))));
+    }
+    let reads_on = errors == Errors::GoOn;
+    let settings = ReadSettings { files, input: program.input, reads_on, ..ReadSettings::default() };
+    let mut reading = nc::read_source(&sources, file, program.control, &clamping, &settings)?;
     let mut assumed = Vec::new();
     if missing == Missing::StoodFor {
         let placed = place_offsets(&mut clamping[0], clamped.offset, &reading.program.frames);
@@ -61,12 +85,18 @@ pub(crate) fn follow(job: &Job, setup: usize, program: &JobProgram, missing: Mis
         }
         reading.program.setups = clamping;
     }
+    let read_radii = reading.radii.clone();
     let read = &reading.program;
-    let mut lines = sources.lines((0..read.items.len()).map(|i| read.origin(i).span));
+    let mut lines = sources.lines((0..read.items.len()).map(|i| in_file(read, i, file)));
     lines.iter_mut().flatten().for_each(|line| *line -= 1);
     let registers = Registers::of(job, clamped, program, read, |item| {
         read.origin(item as usize).span.map(|s| sources.locate(s))
     });
+    let mut radii = registers.radii.clone();
+    for (number, radius) in &read_radii {
+        radii.retain(|r| r.0 != *number);
+        radii.push((*number, *radius));
+    }
     let magazine = Magazine::of(&job.tools, read, program.in_spindle, missing);
     let options = TraceOptions {
         chord: CHORD,
@@ -79,13 +109,22 @@ pub(crate) fn follow(job: &Job, setup: usize, program: &JobProgram, missing: Mis
             lengths: if missing == Missing::Refused { &registers.lengths } else { &[] },
             own_radius: true,
         },
-        radii: &registers.radii,
+        radii: &radii,
         comp_start: program.control.comp_start(),
     };
-    let mut trace = trace(read, &options).map_err(|e| at_block(e, program, &lines))?;
-    if let Some(segment) = trace.segments.iter().find(|s| s.tool.is_none()) {
+    let mut trace = match trace(read, &options) {
+        Ok(trace) => trace,
+        // A part of a program need not make sense alone: what is wrong with the whole is said.
+        Err(_) if !reading.errors.is_empty() => return Err(reading.errors.swap_remove(0).into()),
+        Err(error) => return Err(at_block(error, program, &lines)),
+    };
+    let errors = grouped(std::mem::take(&mut reading.errors));
+    if let Some(segment) = trace.segments.iter().find(|s| s.tool.is_none()).filter(|_| errors.is_empty()) {
         let error = without_tool().item(segment.item).into();
         return Err(at_block(error, program, &lines));
+    }
+    if let Some(why) = &program.detected {
+        trace.assumed.push(format!("the text is read as one for {}: {why}", program.control.title()));
     }
     trace.assumed.extend(assumed);
     let rounds = |s: &&crate::trace::Segment| {
@@ -130,7 +169,18 @@ pub(crate) fn follow(job: &Job, setup: usize, program: &JobProgram, missing: Mis
         .into_iter()
         .map(|note| Unfollowed { line: note.place.map(|p| p.line).filter(|l| *l > 0), what: note.message })
         .collect();
-    Ok(Followed { trace, lines, findings, unfollowed, magazine, radii: registers.radii, reading, sources })
+    Ok(Followed { errors, trace, lines, findings, unfollowed, magazine, radii, reading, sources })
+}
+
+/// The place of an item in a file: of one that another file says, the call that led there.
+fn in_file(program: &Program, item: usize, file: FileId) -> Option<Span> {
+    let mut origin = program.origin(item);
+    while let (Some(span), Some(call)) = (origin.span, origin.parent)
+        && span.file != file
+    {
+        origin = program.call(call);
+    }
+    origin.span
 }
 
 /// Gives a clamping every work offset that a program uses, at the place of the one it has; those that were added.

@@ -12,7 +12,7 @@ use super::super::wants::StockWants;
 use super::super::{JobText, Subject, json_text, parts, sha256};
 use crate::base::{Code, Error, FileId, FileKind, Finding, Loader, MemoryLoader, Result, Sources};
 use crate::machine::Machine;
-use crate::nc::Control;
+use crate::nc::{Control, Detected, NumberInput, detect};
 use crate::tool::Holder;
 
 /// A file by its name and bytes.
@@ -48,6 +48,10 @@ pub struct ProgramWants {
     pub position: Option<[f64; 3]>,
     /// Distance of the lines of the stock model [mm].
     pub step: Option<f64>,
+    /// Meaning of coordinates without a decimal point (FANUC); default: that of the job, otherwise as the program suggests.
+    pub input: Option<NumberInput>,
+    /// Files beside the program with programs that it calls: names and bytes, in its folder.
+    pub beside: Vec<(String, Vec<u8>)>,
     /// Number of the tool in the spindle before the program calls one.
     pub tool: Option<u32>,
     /// Which clamping of the job it runs in, counted from 1; default: the first.
@@ -145,19 +149,34 @@ pub fn control_of_name(name: &str) -> Option<Control> {
     }
 }
 
-/// The control of a program: as said, else of the job, else of the name.
+/// The control of a program, and why where its text told it: as said, else of the job, else of the name, else of the text.
 ///
 /// # Errors
-/// `KC0301` when it is not known or nothing tells it.
-pub fn control_of(said: Option<&str>, of_job: Option<&str>, name: &str) -> Result<Control> {
-    match said.or(of_job) {
-        Some(said) => Control::parse(said),
-        None => control_of_name(name).ok_or_else(|| {
+/// `KC0301` when it is not known or nothing tells it, and for a control that kinecut does not read.
+pub fn control_of(
+    said: Option<&str>,
+    of_job: Option<&str>,
+    name: &str,
+    bytes: &[u8],
+) -> Result<(Control, Option<String>)> {
+    if let Some(said) = said.or(of_job) {
+        return Ok((Control::parse(said)?, None));
+    }
+    if let Some(control) = control_of_name(name) {
+        return Ok((control, None));
+    }
+    match detect(&String::from_utf8_lossy(bytes)) {
+        Detected::Control(control, why) => Ok((control, Some(why))),
+        Detected::Other(other, why) => {
+            let message = format!("`{name}` is a program for {other}, which kinecut does not read");
+            Err(Finding::error(Code::POST_CONTROL, message).help(format!("seen in it: {why}")).into())
+        }
+        Detected::Nothing => {
             let known: Vec<&str> = Control::ALL.iter().map(|c| c.name()).collect();
-            Finding::error(Code::POST_CONTROL, format!("the name of `{name}` does not tell its control"))
-                .help(format!("say it: --control {}", known.join(", ")))
-                .into()
-        }),
+            let message = format!("neither the name nor the text of `{name}` tells its control");
+            let help = format!("say it: --control {}", known.join(", "));
+            Err(Finding::error(Code::POST_CONTROL, message).help(help).into())
+        }
     }
 }
 
@@ -184,20 +203,22 @@ pub fn given_with_job(
     };
     let own = setup.program.take();
     let of_job = own.as_ref().and_then(|p| p.control.as_deref()).unwrap_or(&file.post.control);
-    let control = control_of(wants.control.as_deref(), Some(of_job), program.name)?;
+    let (control, _) = control_of(wants.control.as_deref(), Some(of_job), program.name, program.bytes)?;
     setup.operations.clear();
     setup.program = Some(ProgramTable {
         file: program.name.to_owned(),
         control: Some(control.name().to_owned()),
+        input: wants.input.or(own.as_ref().map(|p| p.input)).unwrap_or_default(),
         tool: wants.tool.or(own.as_ref().and_then(|p| p.tool)),
         registers: own.map(|p| p.registers).unwrap_or_default(),
     });
     file.setups = vec![setup];
     file.title = Some(title(program.name));
-    let all = With { files: vec![program], others: loader };
+    let all = With { files: with_beside(program, wants), others: loader };
     let job = check(&file, "program", &all).map_err(|e| job_text.locate(&sources, e))?;
     let mut subjects =
         vec![of_file("given program", program.name, program.bytes), of_file("job", name, text.as_bytes())];
+    subjects.extend(called(&job));
     subjects.extend(parts(&job_text.file, loader)?);
     let place = JobPlace { sources, text: Some(job_text) };
     Ok(GivenJob { name: program.name.to_owned(), job, subjects, place })
@@ -208,9 +229,9 @@ pub fn given_with_job(
 /// # Errors
 /// `KC0104` when there is no stock although it is to be cut; those of the tools, and of a mesh as stock.
 pub fn given_alone(program: GivenFile<'_>, wants: &ProgramWants, needs_stock: bool) -> Result<GivenJob> {
-    let control = control_of(wants.control.as_deref(), None, program.name)?;
+    let (control, why) = control_of(wants.control.as_deref(), None, program.name, program.bytes)?;
     let block = |[a, b, c, d, e, f]: [f64; 6]| StockTable::Box(BoxTable { min: [a, b, c], max: [d, e, f] });
-    let mut files = vec![program];
+    let mut files = with_beside(program, wants);
     let stock = match &wants.stock {
         Some(GivenStock::Block(corners)) => block(*corners),
         Some(GivenStock::Mesh(name, bytes)) => {
@@ -258,12 +279,17 @@ pub fn given_alone(program: GivenFile<'_>, wants: &ProgramWants, needs_stock: bo
             ..SetupTable::of_program(ProgramTable {
                 file: program.name.to_owned(),
                 tool: wants.tool,
+                input: wants.input.unwrap_or_default(),
                 ..ProgramTable::default()
             })
         }],
     };
     let all = With { files, others: &MemoryLoader::default() };
     let mut job = check(&file, "program", &all)?;
+    if let Some(program) = job.setups.first_mut().and_then(|setup| setup.program.as_mut()) {
+        program.detected = why;
+    }
+    subjects.extend(called(&job));
     if let Some(machine) = &wants.machine {
         super::super::check::machine::three_translations(machine)?;
         let text = super::super::machine::machine_toml(machine);
@@ -271,6 +297,20 @@ pub fn given_alone(program: GivenFile<'_>, wants: &ProgramWants, needs_stock: bo
         job.machine = Some(machine.clone());
     }
     Ok(GivenJob { name: program.name.to_owned(), job, subjects, place: JobPlace::default() })
+}
+
+/// A program with the files that it calls.
+fn with_beside<'a>(program: GivenFile<'a>, wants: &'a ProgramWants) -> Vec<GivenFile<'a>> {
+    let beside = wants.beside.iter().map(|(name, bytes)| GivenFile { name, bytes });
+    std::iter::once(program).chain(beside).collect()
+}
+
+/// Files that the program of a job calls.
+fn called(job: &Job) -> impl Iterator<Item = Subject> {
+    let programs = job.setups.iter().filter_map(|setup| setup.program.as_ref());
+    programs
+        .flat_map(|p| &p.beside)
+        .map(|called| of_file("called program", &called.file, called.text.as_bytes()))
 }
 
 fn of_file(role: &str, name: &str, bytes: &[u8]) -> Subject {

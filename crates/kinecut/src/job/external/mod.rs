@@ -5,12 +5,13 @@
 
 pub(crate) mod follow;
 pub(crate) mod given;
+mod grouped;
 mod magazine;
 pub(crate) mod registers;
 mod setup;
 mod shown;
 
-pub(crate) use follow::{Followed, at_block, follow};
+pub(crate) use follow::{Errors, Followed, at_block, follow};
 pub use given::{
     GivenFile, GivenJob, GivenStock, ProgramWants, control_of, control_of_name, given_alone, given_with_job,
 };

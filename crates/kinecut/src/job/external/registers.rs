@@ -116,7 +116,7 @@ fn held(job: &Job, setup: &JobSetup, given: &JobProgram, tool: &Tool, length: Op
         // No length is called if the zero was set with the tool itself; length zero counts if the work is located.
         return setup.setup.located.then_some(0.0);
     };
-    if register == 0 && given.control == Control::Fanuc {
+    if register == 0 && matches!(given.control, Control::Fanuc | Control::Haas) {
         // H0 cannot be set: it is length zero by definition. It counts if the work is located.
         return setup.setup.located.then_some(0.0);
     }
@@ -144,7 +144,7 @@ fn length_finding(control: Control, tool: &Tool, length: Option<u32>, held: Opti
                 "measure the tool again".to_owned(),
             )
         }
-        Some(0) if control == Control::Fanuc => (
+        Some(0) if matches!(control, Control::Fanuc | Control::Haas) => (
             format!("{number} is called with H0, which is length zero"),
             format!("call the register of the tool: G43 H{own}"),
         ),

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::{ExternalProgram, Followed, Missing, follow};
+use super::{Errors, ExternalProgram, Followed, Missing, follow};
 use crate::base::{Result, at_most};
 use crate::job::check::{Job, JobProgram};
 use crate::job::plan::SetupPlan;
@@ -35,7 +35,7 @@ pub(crate) fn external_setup(
     planned: SetupPlan,
 ) -> Result<SetupOutcome> {
     let Followed { reading, trace, lines, findings, unfollowed, .. } =
-        follow(job, setup, program, Missing::Refused)?;
+        follow(job, setup, program, Missing::Refused, Errors::Stop)?;
     let posted = Posted { text: Arc::clone(&program.text), lines: Vec::new(), notes: PostNotes::default() };
     Ok(SetupOutcome {
         file: program.file.clone(),

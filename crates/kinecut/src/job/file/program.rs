@@ -5,6 +5,8 @@ use std::collections::BTreeMap;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use crate::nc::NumberInput;
+
 /// A program in a file: it is read, simulated and judged as it is.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -14,6 +16,10 @@ pub struct ProgramTable {
     /// The control that runs it; default: that of `post`.
     #[serde(default)]
     pub control: Option<String>,
+    /// Coordinates without a decimal point on FANUC (parameter 3401): "calculator" (whole mm, inches, degrees),
+    /// "least-increment" (0.001 mm or degrees, 0.0001 in); default "auto": whole units where no coordinate has a point.
+    #[serde(default)]
+    pub input: NumberInput,
     /// Number of the tool that is in the spindle before the program calls one; default: none, or the only tool of the job
     /// if the program calls no tool at all.
     #[serde(default)]

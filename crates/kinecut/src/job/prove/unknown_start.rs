@@ -1,5 +1,5 @@
-//! Rapids whose start the program does not say: right programs begin with one, above the part or beside it. One that ends down
-//! in the stock may have met anything on its way.
+//! Moves whose start the program does not say: right programs begin with a rapid, above the part or beside it. One that ends
+//! down in the stock may have met anything on its way, and so may a move at feed that is not all above the stock.
 
 use glam::DVec3;
 
@@ -17,12 +17,17 @@ const MARGIN: f64 = 1.0;
 pub(super) fn unknown_start(simulated: &Simulated<'_>) -> Vec<Finding> {
     let one = |(setup, done): (usize, &SetupOutcome)| -> Vec<Finding> {
         let bounds = stock_on_table(simulated, done, setup);
-        let near = done.trace.untraced.iter().filter(|u| ends_in(simulated, u, bounds));
+        let near = done.trace.untraced.iter().filter(|u| match u.feed {
+            true => !is_above(u, bounds),
+            false => ends_in(simulated, u, bounds),
+        });
         near.map(|untraced| {
-            let finding = Finding::doubt(
-                Code::UNKNOWN_START,
-                "a rapid starts where the position is not known, and ends below the top of the stock",
-            );
+            let what = if untraced.feed {
+                "a feed move starts where the position is not known: it was not cut, and may have cut anything"
+            } else {
+                "a rapid starts where the position is not known, and ends below the top of the stock"
+            };
+            let finding = Finding::doubt(Code::UNKNOWN_START, what);
             let finding = finding.help("position all axes above the part first, then come down");
             Finding { place: simulated.place(setup, untraced.item), ..finding }
         })
@@ -44,6 +49,12 @@ fn stock_on_table(simulated: &Simulated<'_>, done: &SetupOutcome, setup: usize) 
         DVec3::new(side(1, b.min.x, b.max.x), side(2, b.min.y, b.max.y), side(4, b.min.z, b.max.z))
     };
     Aabb::of_points((0..8).map(|i| placed.point(corner(i))))
+}
+
+/// Whether a move of an upright tool is above the box from its start to its end.
+fn is_above(untraced: &Untraced, bounds: Aabb) -> bool {
+    let above = |end: [Option<f64>; 3]| end[2].is_some_and(|z| z > bounds.max.z + MARGIN);
+    untraced.axis == DVec3::Z && above(untraced.start) && above(untraced.end)
 }
 
 /// Whether a move may end in the box: of an upright tool by what is known of its end, of a leaning one where all is known.

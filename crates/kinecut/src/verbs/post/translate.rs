@@ -12,7 +12,7 @@ use super::reorient::{Reoriented, Saying, reorient};
 use super::rework::{blend_on, rework};
 use crate::base::{Code, Error, Finding, Result, Severity, Sources, at_most};
 use crate::job::external::given::GivenJob;
-use crate::job::external::{Missing, follow};
+use crate::job::external::{Errors, Missing, follow};
 use crate::nc::{self, Control, PostSettings};
 use crate::page::{Block, Fact, Section};
 use crate::program::{Blend, Item, Origin, Program};
@@ -90,7 +90,7 @@ pub fn translate(
 ) -> Result<Translation> {
     let (job, program) = (given.job(), given.program()?);
     let (from, to) = (program.control, post.control);
-    let source = follow(job, 0, program, Missing::StoodFor)?;
+    let source = follow(job, 0, program, Missing::StoodFor, Errors::Stop)?;
     let read = &source.reading.program;
     let reworked = rework(read, &source.radii, from, to)?;
     let place = |origin: &Origin| origin.span.map(|s| source.sources.locate(s));

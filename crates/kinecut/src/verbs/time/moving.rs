@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use crate::base::{Finding, Result};
 use crate::job::external::given::GivenJob;
-use crate::job::external::{Followed, Missing, at_block, follow};
+use crate::job::external::{Errors, Followed, Missing, at_block, follow};
 use crate::job::following::line_place;
 use crate::job::{Job, SetupOutcome};
 use crate::nc::Control;
@@ -34,7 +34,7 @@ impl MovingProgram {
     pub(super) fn of_given(given: &GivenJob) -> Result<MovingProgram> {
         let program = given.program()?;
         let Followed { reading, trace, lines, findings, unfollowed, .. } =
-            follow(given.job(), 0, program, Missing::StoodFor)?;
+            follow(given.job(), 0, program, Missing::StoodFor, Errors::Stop)?;
         let remarks = unfollowed.iter().map(ToString::to_string);
         Ok(MovingProgram {
             file: program.file.clone(),

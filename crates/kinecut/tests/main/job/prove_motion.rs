@@ -281,10 +281,12 @@ fn a_coordinate_without_a_point_among_others_with_one_is_told_with_what_was_read
     assert_eq!(lost[0].place.as_ref().unwrap().line, 6);
     assert!(lost[0].message.contains("X50") && lost[0].message.contains("0.05 mm"), "{}", lost[0]);
     assert!(found(&text).is_empty());
-    // A nought is one either way, and a program without any point counts increments throughout.
+    // A nought is one either way; a program without any point counts whole units, and that is said.
     assert!(found(&text.replace("G0 Z50.", "G0 X0 Y0 Z50.")).is_empty());
-    let increments = "G17 G21 G90 G94\nT1 M6\nG54 G0 X10000 Y10000 S3000 M3\nG43 H1 Z5000\nG1 Z-4000 F200\nG0 Z50000\nM5\nM30\n";
-    assert!(found(increments).is_empty());
+    let units = "G17 G21 G90 G94\nT1 M6\nG54 G0 X10 Y10 S3000 M3\nG43 H1 Z5\nG1 Z-4 F200\nG0 Z50\nM5\nM30\n";
+    let said = found(units);
+    assert!(said.len() == 1 && said[0].message.contains("`X10` has no decimal point"), "{said:?}");
+    assert!(said[0].message.contains("read as 10 mm"), "{said:?}");
 }
 
 #[test]

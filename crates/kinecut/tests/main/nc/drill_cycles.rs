@@ -353,7 +353,7 @@ fn the_cycle_nearest_to_the_wanted_one_is_native() {
 
 #[test]
 fn zones_of_a_hole_keep_their_feeds_per_revolution() {
-    for control in Control::ALL.iter().copied().filter(|c| c.has_feed_per_revolution()) {
+    for control in Control::WRITTEN.iter().copied().filter(|c| c.has_feed_per_revolution()) {
         let (mut program, mut state) = start(control);
         rapid(&mut program, &state, [10.0, 0.0, 50.0]);
         rapid(&mut program, &state, [10.0, 0.0, 2.0]);
@@ -459,7 +459,7 @@ proptest! {
         feed in prop_oneof![(1..200i32).prop_map(|f| Speed::PerMinute(f64::from(f) * 0.1)), (1..50i32).prop_map(|f| Speed::PerRevolution(f64::from(f) * 0.01))],
         own in any::<bool>(),
     ) {
-        for control in Control::ALL.iter().copied() {
+        for control in Control::WRITTEN.iter().copied() {
             let speed = match feed {
                 Speed::PerRevolution(f) if !control.has_feed_per_revolution() => Speed::PerMinute(f * 10.0),
                 other => other,

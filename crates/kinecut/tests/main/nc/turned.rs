@@ -406,7 +406,7 @@ proptest! {
     fn the_path_of_the_text_is_that_of_the_program(
         steps in steps(), motions in [turn(), turn(), turn(), turn()], decimals in 3u8..=5,
     ) {
-        for &control in Control::ALL {
+        for &control in Control::WRITTEN {
             let program = build(control, &steps, motions);
             for rotation in [true, false] {
                 let settings = PostSettings { rotation, decimals, ..PostSettings::new(control) };

@@ -200,6 +200,8 @@ impl<'s> Reader<'s> {
             header: self.header,
             radius_difference: self.radius_difference,
             involute_difference: 0.0,
+            errors: Vec::new(),
+            radii: Vec::new(),
         })
     }
 

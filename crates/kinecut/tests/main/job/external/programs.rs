@@ -209,6 +209,16 @@ fn a_sheet_tells_what_a_program_does_without_tools_or_stock() {
     let nothing = GivenFile { name: "P.nc", bytes: b"(NOTHING)\nM30\n" };
     let sheet = program_sheet(&given_alone(nothing, &wants, false).unwrap()).unwrap();
     assert_eq!(sheet.findings[0].severity, Severity::Warning);
-    let unknown = given_alone(program, &ProgramWants::default(), false).unwrap_err();
-    assert!(unknown.to_string().contains("does not tell its control"), "{unknown}");
+    let unknown = given_alone(nothing, &ProgramWants::default(), false).unwrap_err();
+    assert!(unknown.to_string().contains("tells its control"), "{unknown}");
+    // The text of the other shows it.
+    let sheet = program_sheet(&given_alone(program, &ProgramWants::default(), false).unwrap()).unwrap();
+    assert!(
+        sheet.remarks.iter().any(|r| r.starts_with("the text is read as one for FANUC")),
+        "{:?}",
+        sheet.remarks
+    );
+    let okuma = GivenFile { name: "P.nc", bytes: b"$P.MIN%\nG15 H1\n" };
+    let other = given_alone(okuma, &ProgramWants::default(), false).unwrap_err();
+    assert!(other.to_string().contains("a program for Okuma, which kinecut does not read"), "{other}");
 }

@@ -239,7 +239,6 @@ fn what_is_not_read_is_refused_by_name() {
         (Control::Fanuc, fanuc, "G68.2 J30.\nG53.1\nG55", "not in a tilted plane"),
         (Control::Fanuc, fanuc, "G68.2 J30.\nG53.1\nT2 M6", "not in a tilted plane"),
         (Control::Fanuc, fanuc, "G68.2 J30.\nG53.1\nG0 A30.", "rotary axis moves in a tilted plane"),
-        (Control::Fanuc, fanuc, "G68.2 J30.\nG53.1\nG1 X1. F100.", "has not set X, Y, Z"),
         (Control::Fanuc, fanuc, "G43.4 H1\nG68.2 J30.", "under control of the tool centre point"),
         (Control::Fanuc, fanuc, "G43.4 H1\nT2 M6", "tool change under control"),
         (Control::Fanuc, fanuc, "G43.4", "without a register"),

@@ -214,7 +214,6 @@ fn linuxcnc_turns_its_work_offset() {
         ("G10 L2 R30", Code::NC_STATE, "P"),
         ("G10 L2 P1", Code::NC_STATE, "rotation"),
         ("G10 L2 P10 R1", Code::NC_SYNTAX, "P9"),
-        ("G92 X0", Code::NC_WORD, "G92"),
     ] {
         refused(&format!("{head}{block}\n"), Control::LinuxCnc, code, words);
     }

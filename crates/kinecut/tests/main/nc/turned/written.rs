@@ -57,7 +57,7 @@ fn post(program: &Program, control: Control) -> Posted {
 
 #[test]
 fn the_text_is_that_of_the_fixture() {
-    for &control in Control::ALL {
+    for &control in Control::WRITTEN {
         let program = part(control);
         let posted = post(&program, control);
         assert_is_fixture(&posted.text, "turned", control);
@@ -123,7 +123,7 @@ fn a_control_without_rotation_gets_the_coordinates_themselves() {
         "{text}"
     );
     // And on request on all others.
-    for &control in Control::ALL {
+    for &control in Control::WRITTEN {
         let settings = PostSettings { rotation: false, ..PostSettings::new(control) };
         let text = nc::write(&build(control), &[], &settings).unwrap().text;
         let [x, y] = [if control == Control::Fanuc { "X17.321" } else { "17.3205" }, "14.66"];
@@ -134,7 +134,7 @@ fn a_control_without_rotation_gets_the_coordinates_themselves() {
 /// An angle between two steps of FANUC's thousandth: the points are given in the turn that can be said.
 #[test]
 fn an_angle_that_a_control_cannot_say_moves_no_point() {
-    for &control in Control::ALL {
+    for &control in Control::WRITTEN {
         let mut b = Builder::new(control);
         let g54 = b.work("G54");
         let turned = b.shifted(g54, motion(12.345_678_9, 0.0, 0.0, 0.0));
@@ -159,7 +159,7 @@ fn an_angle_that_a_control_cannot_say_moves_no_point() {
 
 #[test]
 fn a_face_of_one_thousandth_of_a_degree_stays_along_the_text() {
-    for &control in Control::ALL {
+    for &control in Control::WRITTEN {
         let Some(step) = control.rotation_step() else { continue };
         let degrees = (12_346.0f64 * 0.001f64.to_radians() / step).round() * step.to_degrees();
         let mut b = Builder::new(control);
@@ -178,7 +178,7 @@ fn a_face_of_one_thousandth_of_a_degree_stays_along_the_text() {
 
 #[test]
 fn a_curve_or_a_hole_right_after_a_change_of_frame_begins_where_the_tool_is() {
-    for &control in Control::ALL {
+    for &control in Control::WRITTEN {
         let mut b = Builder::new(control);
         let g54 = b.work("G54");
         let turned = b.shifted(g54, motion(25.0, 3.0, 4.0, 0.0));
@@ -206,7 +206,7 @@ fn a_curve_or_a_hole_right_after_a_change_of_frame_begins_where_the_tool_is() {
 
 #[test]
 fn compensation_within_turned_coordinates_is_the_same_path() {
-    for control in Control::ALL.iter().copied().filter(|c| c.has_compensation()) {
+    for control in Control::WRITTEN.iter().copied().filter(|c| c.has_compensation()) {
         let mut b = Builder::new(control);
         let g54 = b.work("G54");
         let turned = b.shifted(g54, motion(-63.0, 30.0, 4.0, 0.0));
@@ -276,7 +276,7 @@ fn frames_that_are_no_turn_about_z_are_refused() {
         ),
         (motion(0.1, 0.0, 0.0, 0.0), true),
     ];
-    for &control in Control::ALL {
+    for &control in Control::WRITTEN {
         for (inner, fits) in cases {
             let mut b = Builder::new(control);
             let g54 = b.work("G54");

@@ -1,0 +1,67 @@
+//! Haas milling controls (Classic and NGC), read.
+//!
+//! Words and macros are those of FANUC, with these differences:
+//! * `L` is the word of repetitions. A cycle without R takes that of the cycle before, also behind `G80` (seen in a program
+//!   that ran; not in a manual): said where it happens.
+//! * `M97 P` calls the block of a number in the same program. The number of a program has five digits: none of them counts
+//!   calls.
+//! * `G4 P` with a point is in seconds, without one in milliseconds.
+//! * A feed without a point may count ten-thousandths of an inch by setting 77: it is read in whole units, and said.
+//!
+//! `G12`, `G13`, `G47`, `G70` to `G72` and `G150` move axes and are refused by name.
+//!
+//! Source: pages of the operator's manual 96-8000 as quoted publicly, and programs of others.
+
+use super::dialect::{Code, CycleKind, Dialect, FlowWords};
+use super::fanuc;
+use super::multi_axis::MultiAxis;
+use crate::program::WorkOffset;
+
+/// G54 to G59.
+fn has_offset(offset: WorkOffset) -> bool {
+    matches!(offset.tenths(), 540 | 550 | 560 | 570 | 580 | 590)
+}
+
+pub(super) const DIALECT: Dialect = Dialect {
+    involute: None,
+    axes: MultiAxis { rotary: Some((["A", "B", "C"], 3)), ..MultiAxis::NONE },
+    g_codes: &[
+        (520, Code::LocalShift),
+        (680, Code::Rotation { on: true }),
+        (690, Code::Rotation { on: false }),
+        (200, Code::Units { inch: true, feeds: true }),
+        (280, Code::Reference),
+        (210, Code::Units { inch: false, feeds: true }),
+        (430, Code::LengthOn),
+        (490, Code::LengthOff),
+        (610, Code::ExactStop),
+        (640, Code::Continuous),
+        (730, Code::Cycle(CycleKind::ChipBreak)),
+        (800, Code::NoMotion),
+        (810, Code::Cycle(CycleKind::Drill)),
+        (820, Code::Cycle(CycleKind::DrillDwell)),
+        (830, Code::Cycle(CycleKind::Peck)),
+        (850, Code::Cycle(CycleKind::Bore)),
+        (860, Code::Cycle(CycleKind::BoreStop)),
+        (890, Code::Cycle(CycleKind::BoreDwell)),
+        (980, Code::ReturnToStart(true)),
+        (990, Code::ReturnToStart(false)),
+        (1030, Code::Harmless("look-ahead")),
+        (1870, Code::Harmless("accuracy of corners")),
+    ],
+    m_codes: &[
+        (19, Code::Harmless("orients the spindle")),
+        (31, Code::Harmless("chip conveyor")),
+        (33, Code::Harmless("chip conveyor")),
+        (88, Code::Harmless("coolant through the spindle")),
+        (89, Code::Harmless("coolant through the spindle off")),
+        (97, Code::CallBlock),
+        (98, Code::CallProgram),
+        (99, Code::Return),
+    ],
+    repeats: "L",
+    flow: FlowWords::MacroB,
+    haas: true,
+    has_offset,
+    ..fanuc::DIALECT
+};

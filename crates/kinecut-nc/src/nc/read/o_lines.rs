@@ -1,0 +1,302 @@
+//! Lines with an o word, run.
+
+use std::rc::Rc;
+
+use crate::base::{Finding, Result};
+use crate::nc::linuxcnc::o_word::{self, OLine, OLines, OWord};
+use crate::nc::run::{Expression, Level};
+
+use super::lex::{Block, range};
+use super::place::Bytes;
+use super::run::{Run, Turns, nothing_else};
+
+/// Arguments of a call.
+const ARGUMENTS: usize = 30;
+
+impl<'s> Run<'s> {
+    /// Runs the line with its `o` at a byte.
+    pub(super) fn o_line(
+        &mut self,
+        start: usize,
+        at: usize,
+        end: usize,
+        block: &mut Block<'s>,
+    ) -> Result<()> {
+        let place = self.reader.place;
+        let lexer = self.lexer();
+        let mut expression = lexer.expression(at + 1, end);
+        let label = label(&mut expression)?;
+        let line = &place.text().as_bytes()[start..end];
+        let (word, stop) = o_word::parsed(line, expression.at - start);
+        let behind = start + stop;
+        let bytes = range(at, behind);
+        let lines = self.o_lines(place);
+        let own = lines.at(start);
+        if word == OWord::Call {
+            return self.o_call(&label, &bytes, end, block);
+        }
+        let Some(own) = own else {
+            let why = "only a call has a label that is computed";
+            return Err(place.malformed(&bytes, why).into());
+        };
+        let o_line = lines.line(own).clone();
+        if o_line.begin.is_none() && !matches!(word, OWord::Program | OWord::Return) && o_line.end.is_none() {
+            return Err(self.unpaired(&o_line, &bytes).into());
+        }
+        match word {
+            OWord::Program => self.ends_here(behind, end, block),
+            OWord::Sub => {
+                let end_sub = self.partner(&lines, o_line.end, &bytes)?;
+                self.at = lines.line(end_sub).after;
+                Ok(())
+            }
+            OWord::If => self.o_if(&lines, own, bytes.end as usize, end, block),
+            // Reached from above: the branch that was taken ends here.
+            OWord::ElseIf | OWord::Else => {
+                let last = o_line.begin.and_then(|begin| lines.line(begin).end);
+                let last = self.partner(&lines, last, &bytes)?;
+                self.at = lines.line(last).after;
+                Ok(())
+            }
+            OWord::EndIf => self.ends_here(behind, end, block),
+            OWord::Do => self.ends_here(behind, end, block),
+            OWord::While => self.o_while(&lines, own, &bytes, end, block),
+            OWord::EndWhile => {
+                self.ends_here(behind, end, block)?;
+                self.o_back(lines.line(o_line.begin.unwrap_or(own)).start, &bytes)
+            }
+            OWord::Repeat => self.o_repeat(&lines, own, &bytes, end, block),
+            OWord::EndRepeat => {
+                self.ends_here(behind, end, block)?;
+                self.o_end_repeat(&lines, o_line.begin.unwrap_or(own), &bytes)
+            }
+            OWord::Break | OWord::Continue => {
+                self.ends_here(behind, end, block)?;
+                self.o_leave(&lines, &o_line, &bytes)
+            }
+            OWord::Return | OWord::EndSub => self.o_return(word, &bytes, end, block),
+            OWord::Call => Ok(()),
+        }
+    }
+
+    fn unpaired(&self, line: &OLine, bytes: &Bytes) -> Finding {
+        let message = match line.word.end_word() {
+            "" => {
+                format!("`{}` has no beginning of its label before it", self.reader.place.shown(bytes).trim())
+            }
+            word => {
+                format!("`{}` has no `{word}` of its label behind it", self.reader.place.shown(bytes).trim())
+            }
+        };
+        self.reader.lacks(bytes, &message)
+    }
+
+    fn partner(&self, _: &Rc<OLines>, line: Option<usize>, bytes: &Bytes) -> Result<usize> {
+        line.ok_or_else(|| {
+            let shown = self.reader.place.shown(bytes);
+            self.reader.lacks(bytes, &format!("`{}` has no end of its label", shown.trim())).into()
+        })
+    }
+
+    /// Nothing but a comment follows from a byte on.
+    fn ends_here(&mut self, from: usize, end: usize, block: &mut Block<'s>) -> Result<()> {
+        self.lexer().line(from, end, block)?;
+        nothing_else(&self.reader, block)?;
+        self.block(block).map(|_| ())
+    }
+
+    /// The value in brackets from a byte on, and nothing behind it.
+    fn condition(&mut self, from: usize, end: usize, block: &mut Block<'s>) -> Result<f64> {
+        let lexer = self.lexer();
+        let mut expression = lexer.expression(from, end);
+        let value = expression.bracketed()?.number();
+        let stop = expression.at;
+        let bytes = range(from, stop);
+        self.ends_here(stop, end, block)?;
+        self.reader.note_unset(&bytes);
+        Ok(value)
+    }
+
+    fn o_if(
+        &mut self,
+        lines: &Rc<OLines>,
+        own: usize,
+        from: usize,
+        end: usize,
+        block: &mut Block<'s>,
+    ) -> Result<()> {
+        if self.condition(from, end, block)? != 0.0 {
+            return Ok(());
+        }
+        let text = self.reader.place.text();
+        let mut at = own;
+        while let Some(next) = lines.line(at).next {
+            let line = lines.line(next);
+            if matches!(line.word, OWord::Else | OWord::EndIf) {
+                self.at = line.after;
+                return Ok(());
+            }
+            // `elseif`: its condition is behind its label.
+            let end = line.start + text[line.start..line.after].trim_end_matches(['\r', '\n']).len();
+            let from = self.behind_label(line.start, end)?;
+            if self.condition(from, end, block)? != 0.0 {
+                self.at = line.after;
+                return Ok(());
+            }
+            at = next;
+        }
+        let bytes = range(lines.line(own).start, from);
+        Err(self.unpaired(lines.line(own), &bytes).into())
+    }
+
+    /// The byte behind the word of an o word's line.
+    fn behind_label(&self, start: usize, end: usize) -> Result<usize> {
+        let line = &self.reader.place.text().as_bytes()[start..end];
+        let at = start + o_word::label_at(line).unwrap_or_default();
+        let lexer = self.lexer();
+        let mut expression = lexer.expression(at + 1, end);
+        label(&mut expression)?;
+        Ok(start + o_word::parsed(line, expression.at - start).1)
+    }
+
+    fn o_while(
+        &mut self,
+        lines: &Rc<OLines>,
+        own: usize,
+        bytes: &Bytes,
+        end: usize,
+        block: &mut Block<'s>,
+    ) -> Result<()> {
+        let goes_on = self.condition(bytes.end as usize, end, block)? != 0.0;
+        let line = lines.line(own);
+        match line.begin {
+            // It ends a `do`.
+            Some(begin) if goes_on => self.o_back(lines.line(begin).after, bytes),
+            Some(_) => Ok(()),
+            None if goes_on => Ok(()),
+            None => {
+                let last = self.partner(lines, line.end, bytes)?;
+                self.at = lines.line(last).after;
+                Ok(())
+            }
+        }
+    }
+
+    fn o_back(&mut self, at: usize, bytes: &Bytes) -> Result<()> {
+        self.at = at;
+        self.came_back(bytes)
+    }
+
+    fn o_repeat(
+        &mut self,
+        lines: &Rc<OLines>,
+        own: usize,
+        bytes: &Bytes,
+        end: usize,
+        block: &mut Block<'s>,
+    ) -> Result<()> {
+        let turns = self.condition(bytes.end as usize, end, block)?.round();
+        if turns >= 1.0 {
+            self.loops.push(Turns { line: own, left: turns as u64 });
+            return Ok(());
+        }
+        let last = self.partner(lines, lines.line(own).end, bytes)?;
+        self.at = lines.line(last).after;
+        Ok(())
+    }
+
+    fn o_end_repeat(&mut self, lines: &Rc<OLines>, begin: usize, bytes: &Bytes) -> Result<()> {
+        let Some(at) = self.loops.iter().rposition(|turns| turns.line == begin) else {
+            return Err(self.reader.lacks(bytes, "the loop ends here, and was not begun").into());
+        };
+        self.loops.truncate(at + 1);
+        let turns = &mut self.loops[at];
+        turns.left -= 1;
+        if turns.left > 0 {
+            return self.o_back(lines.line(begin).after, bytes);
+        }
+        self.loops.pop();
+        Ok(())
+    }
+
+    /// `break` and `continue`.
+    fn o_leave(&mut self, lines: &Rc<OLines>, line: &OLine, bytes: &Bytes) -> Result<()> {
+        let begin = lines.line(self.partner(lines, line.begin, bytes)?);
+        if begin.word == OWord::Repeat {
+            let why = "LinuxCNC has no break or continue of a repeat";
+            return Err(self.reader.place.not_understood(bytes, why).into());
+        }
+        let last = lines.line(self.partner(lines, begin.end, bytes)?);
+        // A repeat within the loop is left with it.
+        let inside = |turns: &Turns| (begin.start..last.start).contains(&lines.line(turns.line).start);
+        self.loops.retain(|turns| !inside(turns));
+        match (line.word, begin.word) {
+            (OWord::Break, _) => self.at = last.after,
+            (_, OWord::Do) => self.at = last.start,
+            _ => return self.o_back(begin.start, bytes),
+        }
+        Ok(())
+    }
+
+    fn o_return(&mut self, word: OWord, bytes: &Bytes, end: usize, block: &mut Block<'s>) -> Result<()> {
+        let lexer = self.lexer();
+        let mut expression = lexer.expression(bytes.end as usize, end);
+        let value = if expression.pass("[") {
+            expression.at -= 1;
+            Some(expression.bracketed()?.number())
+        } else {
+            None
+        };
+        let stop = expression.at;
+        self.ends_here(stop, end, block)?;
+        if self.frames.is_empty() {
+            let what = if word == OWord::Return { "return" } else { "endsub" };
+            return Err(self.reader.lacks(bytes, &format!("`{what}` outside of a subprogram")).into());
+        }
+        self.reader.value_returned = (value.unwrap_or(0.0), value.is_some());
+        self.back(None, bytes).map(|_| ())
+    }
+
+    fn o_call(&mut self, name: &str, bytes: &Bytes, end: usize, block: &mut Block<'s>) -> Result<()> {
+        let lexer = self.lexer();
+        let mut expression = lexer.expression(bytes.end as usize, end);
+        let mut level = Level::new(ARGUMENTS, false);
+        let mut count = 0;
+        while expression.pass("[") {
+            expression.at -= 1;
+            let value = expression.bracketed()?.number();
+            let Some(place) = level.locals.get_mut(count) else {
+                let finding = self.reader.place.malformed(bytes, "a call has thirty arguments at most");
+                return Err(finding.into());
+            };
+            *place = value;
+            count += 1;
+        }
+        let stop = expression.at;
+        self.ends_here(stop, end, block)?;
+        let here = self.reader.place;
+        let own = self.o_lines(here).sub(name);
+        let found = own.map(|line| (here, line));
+        let found = found.or_else(|| {
+            let beside = self.beside(name)?;
+            self.o_lines(beside).sub(name).map(|line| (beside, line))
+        });
+        let Some((place, line)) = found else {
+            let message =
+                format!("the subprogram `{name}` that is called is not in this file, nor beside it");
+            let help = format!("write `o<{name}> sub` before the call, or put {name}.ngc beside the program");
+            return Err(self.reader.lacks(bytes, &message).help(help).into());
+        };
+        let after = self.o_lines(place).line(line).after;
+        self.call((place, after), 1, Some(level), bytes.clone()).map(|_| ())
+    }
+}
+
+/// The label behind an `o`, as it is compared.
+fn label(expression: &mut Expression<'_, '_>) -> Result<String> {
+    if expression.pass("<") {
+        expression.at -= 1;
+        return expression.name();
+    }
+    expression.index().map(|number| number.to_string())
+}

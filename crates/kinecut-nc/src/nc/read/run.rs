@@ -1,0 +1,440 @@
+//! A program run line by line, as its control runs it: in the order of its branches, loops and calls.
+
+use std::collections::HashMap;
+use std::rc::Rc;
+
+use crate::base::{Error, FileId, Finding, Result};
+use crate::nc::dialect::FlowWords;
+use crate::nc::fanuc::statement::{self, Places};
+use crate::nc::linuxcnc::o_word::{self, OLines};
+use crate::nc::run::{Budget, Level, Recurrence, mixed};
+use crate::program::{Origin, OriginId};
+
+use super::called::names_of;
+use super::jump::Jump;
+use super::lex::{Block, Lexer};
+use super::place::{Bytes, SourceText};
+use super::reader::Reader;
+use super::{ReadSettings, Reading};
+
+/// A call that has not returned.
+#[derive(Debug)]
+pub(super) struct Frame<'s> {
+    /// Where to go on behind it: file, and first byte of a line.
+    pub(super) back: (SourceText<'s>, usize),
+    /// Local variables of the caller, where the call has its own.
+    pub(super) level: Option<Level>,
+    /// Loops of the caller.
+    pub(super) loops: Vec<Turns>,
+    /// Calls of the same that are left, and where it begins.
+    pub(super) again: u32,
+    pub(super) begin: (SourceText<'s>, usize),
+    /// Local variables with which each call begins.
+    pub(super) arguments: Option<Level>,
+    /// The block that calls.
+    pub(super) called: Bytes,
+    pub(super) parent: Option<OriginId>,
+}
+
+/// Turns of a `repeat` that are left.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Turns {
+    pub(super) line: usize,
+    pub(super) left: u64,
+}
+
+/// The places of a file, found when they are first asked for.
+#[derive(Clone, Debug, Default)]
+struct Known {
+    o_lines: Option<Rc<OLines>>,
+    places: Option<Rc<Places>>,
+}
+
+/// A program on its way.
+pub(super) struct Run<'s> {
+    pub(super) reader: Reader<'s>,
+    /// The first byte of the next line.
+    pub(super) at: usize,
+    main: SourceText<'s>,
+    started: bool,
+    pub(super) frames: Vec<Frame<'s>>,
+    pub(super) loops: Vec<Turns>,
+    budget: Budget,
+    /// Whether lines are run that were run before.
+    again: bool,
+    recurrence: Recurrence,
+    known: HashMap<FileId, Known>,
+    /// Files beside the program: names as they are called, without ending.
+    files: Vec<(String, FileId)>,
+    /// Errors so far, where reading goes on behind them.
+    errors: Option<Vec<Finding>>,
+    /// Whether there was one.
+    lost: bool,
+    /// Whether the present line says which is next: behind an error in it that is not known.
+    in_flow: bool,
+}
+
+/// Most errors that are kept.
+const MOST_ERRORS: usize = 10_000;
+
+impl<'s> Run<'s> {
+    pub(super) fn new(reader: Reader<'s>, settings: &ReadSettings) -> Run<'s> {
+        let (main, depth) = (reader.place, reader.dialect.flow.depth());
+        Run {
+            reader,
+            at: 0,
+            main,
+            started: false,
+            frames: Vec::new(),
+            loops: Vec::new(),
+            budget: Budget::new(settings.blocks, depth),
+            again: false,
+            recurrence: Recurrence::default(),
+            known: HashMap::new(),
+            files: settings.files.clone(),
+            errors: settings.reads_on.then(Vec::new),
+            lost: false,
+            in_flow: false,
+        }
+    }
+
+    /// Runs it to its end.
+    pub(super) fn run(mut self) -> Result<Reading> {
+        let mut block = Block::default();
+        loop {
+            match self.step(&mut block) {
+                Ok(true) => {}
+                Ok(false) => break,
+                Err(error) if self.errors.is_some() => {
+                    if !self.goes_on_behind(error) {
+                        break;
+                    }
+                }
+                Err(error) => return Err(self.called_from(error)),
+            }
+            if self.reader.ended {
+                break;
+            }
+        }
+        let in_main = self.reader.place.file == self.main.file;
+        let at = if in_main { self.at } else { self.frames.first().map_or(self.at, |f| f.back.1) };
+        self.reader.place = self.main;
+        let end = self.main.text().len();
+        let errors = self.errors.unwrap_or_default();
+        // What is left of a program that was not read to its end is no text behind its end.
+        self.reader.ended |= self.lost;
+        let reading = self.reader.finish(if self.lost { end } else { at.min(end) })?;
+        Ok(Reading { errors, ..reading })
+    }
+
+    /// Keeps an error, and goes on behind its block where that can be told; `false` where not.
+    fn goes_on_behind(&mut self, error: Error) -> bool {
+        let follows = self.lost && error.0.message.contains("the program has not set");
+        let error = self.called_from(error);
+        // What only follows from a block before is no error of its own.
+        if !follows && let Some(errors) = self.errors.as_mut().filter(|errors| errors.len() < MOST_ERRORS) {
+            errors.push(*error.0);
+        }
+        self.lost = true;
+        self.reader.skip_block();
+        !self.in_flow
+    }
+
+    /// The line that a call was made from, in an error within it.
+    fn called_from(&self, mut error: Error) -> Error {
+        for frame in self.frames.iter().rev() {
+            let place = frame.back.0;
+            let line = place.sources.line(place.span(&frame.called));
+            let call = format!("called in line {line} of {}", place.sources.name(place.file));
+            let help = &mut error.0.help;
+            *help = if help.is_empty() { call } else { format!("{help}; {call}") };
+        }
+        error
+    }
+
+    /// Runs the next line; `false` at the end.
+    fn step(&mut self, block: &mut Block<'s>) -> Result<bool> {
+        let place = self.reader.place;
+        let text = place.text();
+        let start = self.at;
+        if start >= text.len() {
+            return self.end_of_text(start);
+        }
+        let end = text[start..].find('\n').map_or(text.len(), |n| start + n);
+        self.at = end + 1;
+        if self.again {
+            self.in_flow = true;
+            self.budget.block().map_err(|finding| located(finding, place, start, end))?;
+        }
+        let line = &text.as_bytes()[start..end];
+        self.in_flow = false;
+        match self.reader.dialect.flow {
+            FlowWords::None => {}
+            FlowWords::OWords => {
+                if let Some(at) = o_word::label_at(line) {
+                    (self.started, self.in_flow) = (true, true);
+                    self.o_line(start, start + at, end, block)?;
+                    return Ok(true);
+                }
+            }
+            FlowWords::MacroB => {
+                if let Some(at) = statement::begins(line) {
+                    (self.started, self.in_flow) = (true, true);
+                    self.statement(start, start + at, end, block)?;
+                    return Ok(true);
+                }
+                if self.reader.numbered() && statement::program_number(line).is_some() {
+                    return self.next_program(start, end);
+                }
+            }
+        }
+        self.lexer().line(start, end, block)?;
+        self.block(block)
+    }
+
+    pub(super) fn lexer(&self) -> Lexer<'_, 's> {
+        Lexer { place: self.reader.place, dialect: self.reader.dialect, names: &self.reader }
+    }
+
+    /// Runs a block; `false` at the end.
+    pub(super) fn block(&mut self, block: &mut Block<'s>) -> Result<bool> {
+        if block.tape {
+            return Ok(!(self.started && self.reader.dialect.tape.is_some()));
+        }
+        if !self.started {
+            let number = matches!(&block.words[..], [word] if word.is("O"));
+            if number {
+                self.reader.header.extend(block.comments.drain(..).map(|c| c.0.to_owned()));
+            } else if block.is_empty() && !self.reader.has_message(block) {
+                self.reader.header.extend(block.comments.iter().map(|c| c.0.to_owned()));
+                return Ok(true);
+            }
+            self.started = !number;
+        }
+        self.reader.block(block)?;
+        match self.reader.jump.take() {
+            None => Ok(true),
+            Some(jump) => {
+                self.in_flow = true;
+                self.jump(jump)
+            }
+        }
+    }
+
+    fn end_of_text(&mut self, at: usize) -> Result<bool> {
+        if self.frames.is_empty() {
+            return Ok(false);
+        }
+        let bytes = at.saturating_sub(1) as u32..at as u32;
+        let word = if self.reader.dialect.flow == FlowWords::MacroB { "M99" } else { "endsub or M99" };
+        let message = format!("the file ends within a subprogram, without {word}");
+        Err(self.reader.lacks(&bytes, &message).into())
+    }
+
+    /// The head of the next program of a file, which a control runs into: it returns, or ends.
+    fn next_program(&mut self, start: usize, end: usize) -> Result<bool> {
+        let bytes = start as u32..end as u32;
+        let message = "the program before this one has no end (M99, M30): the control would run on into it";
+        self.reader.warn(&bytes, message);
+        if self.frames.is_empty() {
+            self.at = start;
+            return Ok(false);
+        }
+        self.back(None, &bytes)
+    }
+
+    fn jump(&mut self, jump: Jump) -> Result<bool> {
+        match jump {
+            Jump::Return { to, bytes } => self.back(to, &bytes),
+            Jump::Program { number, times, bytes } => {
+                let begin = self.program(number, &bytes)?;
+                self.call(begin, times, None, bytes)
+            }
+            Jump::Block { number, times, bytes } => {
+                let place = self.reader.place;
+                let Some(line) = self.places().block(number, self.at) else {
+                    let message = format!("the block N{number} that is called is not in this program");
+                    return Err(self.reader.lacks(&bytes, &message).into());
+                };
+                self.call((place, line), times, None, bytes)
+            }
+            Jump::Macro { number, times, locals, bytes } => {
+                let begin = self.program(number, &bytes)?;
+                self.call(begin, times, Some(locals), bytes)
+            }
+        }
+    }
+
+    /// The places that `M98` and `GOTO` name in the present file.
+    pub(super) fn places(&mut self) -> Rc<Places> {
+        let place = self.reader.place;
+        let known = self.known.entry(place.file).or_default();
+        Rc::clone(known.places.get_or_insert_with(|| Rc::new(Places::of(place.text()))))
+    }
+
+    /// The o words of a file.
+    pub(super) fn o_lines(&mut self, place: SourceText<'s>) -> Rc<OLines> {
+        let known = self.known.entry(place.file).or_default();
+        Rc::clone(known.o_lines.get_or_insert_with(|| Rc::new(OLines::of(place.text()))))
+    }
+
+    /// The file beside the program that holds what is called.
+    pub(super) fn beside(&self, name: &str) -> Option<SourceText<'s>> {
+        let file = self.files.iter().find(|(called, _)| called == name)?.1;
+        Some(SourceText { file, ..self.main })
+    }
+
+    /// Where the program of a number begins.
+    fn program(&mut self, number: u32, bytes: &Bytes) -> Result<(SourceText<'s>, usize)> {
+        let place = self.reader.place;
+        let macro_b = self.reader.dialect.flow == FlowWords::MacroB;
+        let find = |run: &mut Run<'s>, place: SourceText<'s>| {
+            if macro_b {
+                let known = run.known.entry(place.file).or_default();
+                known.places.get_or_insert_with(|| Rc::new(Places::of(place.text()))).program(number)
+            } else {
+                let lines = run.o_lines(place);
+                lines.program(number).map(|line| lines.line(line).after)
+            }
+        };
+        let beside: Vec<SourceText<'s>> =
+            names_of(number).iter().filter_map(|name| self.beside(name)).collect();
+        for place in [place, self.main].into_iter().chain(beside) {
+            if let Some(at) = find(self, place) {
+                return Ok((place, at));
+            }
+        }
+        let message = format!("the program O{number} that is called is not in this file, nor beside it");
+        Err(self.reader.lacks(bytes, &message).help("put it behind the main program").into())
+    }
+
+    /// Calls what begins at a line.
+    pub(super) fn call(
+        &mut self,
+        begin: (SourceText<'s>, usize),
+        times: u32,
+        arguments: Option<Level>,
+        called: Bytes,
+    ) -> Result<bool> {
+        if times == 0 {
+            return Ok(true);
+        }
+        let place = self.reader.place;
+        let deep = self.budget.call(self.frames.len());
+        deep.map_err(|finding| located(finding, place, called.start as usize, called.end as usize))?;
+        let level = arguments.clone().map(|own| self.reader.variables.enter(own));
+        let span = Some(place.span(&called));
+        let origin = Origin { span, parent: self.reader.parent, ..Origin::default() };
+        let parent = self.reader.parent.replace(self.reader.program.add_origin(origin));
+        let loops = std::mem::take(&mut self.loops);
+        let back = (place, self.at);
+        self.frames.push(Frame { back, level, loops, again: times - 1, begin, arguments, called, parent });
+        self.go(begin);
+        Ok(true)
+    }
+
+    fn go(&mut self, (place, at): (SourceText<'s>, usize)) {
+        self.again = true;
+        self.reader.place = place;
+        self.reader.depth = self.frames.len();
+        self.at = at;
+    }
+
+    /// Returns from a call, to a block number of the caller where one is given.
+    pub(super) fn back(&mut self, to: Option<u32>, bytes: &Bytes) -> Result<bool> {
+        let Some(frame) = self.frames.last_mut() else { return self.main_returns(to, bytes) };
+        if frame.again > 0 {
+            frame.again -= 1;
+            let begin = frame.begin;
+            if let Some(own) = frame.arguments.clone() {
+                self.reader.variables.enter(own);
+            }
+            self.loops.clear();
+            self.go(begin);
+            return self.came_back(bytes).map(|()| true);
+        }
+        let Some(frame) = self.frames.pop() else { return Ok(false) };
+        if let Some(level) = frame.level {
+            self.reader.variables.enter(level);
+        }
+        self.loops = frame.loops;
+        self.reader.parent = frame.parent;
+        self.go(frame.back);
+        match to {
+            Some(number) => self.go_to(number, bytes).map(|()| true),
+            None => Ok(true),
+        }
+    }
+
+    /// `M99` in the main program: it begins anew, which is read once.
+    fn main_returns(&mut self, to: Option<u32>, bytes: &Bytes) -> Result<bool> {
+        if let Some(number) = to {
+            return self.go_to(number, bytes).map(|()| true);
+        }
+        self.reader.note("M99 begins the main program anew: it is read once");
+        self.reader.ended = true;
+        Ok(false)
+    }
+
+    /// Goes to the line of a block number.
+    pub(super) fn go_to(&mut self, number: u32, bytes: &Bytes) -> Result<()> {
+        let Some(line) = self.places().block(number, self.at) else {
+            let message = format!("the block N{number} that is gone to is not in this program");
+            return Err(self.reader.lacks(bytes, &message).into());
+        };
+        let backwards = line < self.at;
+        self.at = line;
+        if backwards { self.came_back(bytes) } else { Ok(()) }
+    }
+
+    /// After a jump backwards: refuses a program that is where it was before.
+    pub(super) fn came_back(&mut self, bytes: &Bytes) -> Result<()> {
+        self.again = true;
+        let frames = self.frames.iter().enumerate().map(|(i, f)| {
+            let place = u64::from(f.back.0.file.0) << 40 | f.back.1 as u64;
+            mixed(i as u64 + 1, place) ^ mixed(!(i as u64), u64::from(f.again))
+        });
+        let turns = self.loops.iter().chain(self.frames.iter().flat_map(|f| &f.loops));
+        let turns = turns.enumerate().map(|(i, t)| mixed(t.line as u64 + (i as u64 + 1) * (1 << 32), t.left));
+        let state = frames.chain(turns).fold(self.reader.state_number(), |a, b| a ^ b);
+        if !self.recurrence.is_back(state ^ mixed(0, self.at as u64)) {
+            return Ok(());
+        }
+        let message =
+            "the program comes back to this block with the same variables, position and calls: it never ends";
+        Err(self.reader.lacks(bytes, message).help("change a variable in the loop that ends it").into())
+    }
+}
+
+pub(super) fn located(finding: Finding, place: SourceText<'_>, start: usize, end: usize) -> Error {
+    let bytes = start as u32..end.max(start + 1) as u32;
+    finding.at(place.sources.locate(place.span(&bytes))).into()
+}
+
+impl Reader<'_> {
+    /// A number mixed from variables, position and what else is in force.
+    fn state_number(&self) -> u128 {
+        let modal = &self.modal;
+        let bits = |value: Option<f64>| value.map_or(u64::MAX, f64::to_bits);
+        let rotary = modal.rotary_axes.rotaries.at;
+        let numbers =
+            modal.position.iter().chain(&rotary).chain([&modal.feed, &modal.speed]).copied().map(bits);
+        let flags = u64::from(modal.absolute)
+            | u64::from(modal.length_unit == 1.0) << 1
+            | u64::from(modal.return_to_start) << 2
+            | u64::from(modal.motion.is_some()) << 3
+            | (modal.plane as u64) << 4
+            | u64::from(modal.offset.map_or(0, |o| o.tenths())) << 8
+            | u64::from(modal.tool.id.map_or(0, |t| t.0)) << 24;
+        let all = numbers.chain([flags, bits(modal.tool.length.map(f64::from))]).enumerate();
+        all.fold(self.variables.state(), |state, (i, value)| state ^ mixed(i as u64 | 1 << 63, value))
+    }
+}
+
+/// Refuses words behind a statement.
+pub(super) fn nothing_else(reader: &Reader<'_>, block: &Block<'_>) -> Result<()> {
+    if block.is_empty() {
+        return Ok(());
+    }
+    Err(reader.place.malformed(&block.bytes(), "nothing but a comment follows here").into())
+}

@@ -1,0 +1,219 @@
+//! LinuxCNC: parameters, expressions, O words, `M98`.
+//!
+//! Expected values are those of the interpreter's stand-alone version (2.9), or of its documentation.
+
+use crate::{moves, read, refused, run};
+use kinecut_nc::nc::Control::LinuxCnc;
+
+#[test]
+fn words_take_values() {
+    assert_eq!(
+        run("#1=2\n#<depth>=-[1.5*#1]\nX[#1+1] Y-#1 ZSIN[30]\nG0 Z#<Dep th>", LinuxCnc),
+        ["R 3 -2 0.5", "R 3 -2 -3"]
+    );
+    assert_eq!(run("X--5 Y-[2-5] Z- 1", LinuxCnc), ["R 5 3 -1"]);
+}
+
+#[test]
+fn a_block_sets_its_parameters_after_it_has_read_them() {
+    assert_eq!(run("#1=2\n#1=[#1+1] #2=#1 X#1\nX#1 Y#2", LinuxCnc), ["R 2 0 0", "R 3 2 0"]);
+    assert_eq!(run("#1=2 #1=3\nX#1", LinuxCnc), ["R 3 0 0"]);
+}
+
+#[test]
+fn positions_and_state_have_names() {
+    assert_eq!(run("X1 Y2 Z3\nX[#5420+#<_y>] Y#5422", LinuxCnc), ["R 1 2 3", "R 3 3 3"]);
+    assert_eq!(run("G20 X1\nX[#5420*2+#<_imperial>+#<_metric>]", LinuxCnc), ["R 25.4 0 0", "R 76.2 0 0"]);
+    assert_eq!(
+        run("G91 G18 F120 S1000 M3\nX[#<_incremental>+#<_plane>+#<_feed>+#<_rpm>]", LinuxCnc),
+        ["R 1301 0 0"]
+    );
+    assert!(refused("X#5221", LinuxCnc).contains("`#5221` has no value: the machine knows its offsets"));
+    assert!(refused("X#<width>", LinuxCnc).contains("`#<width>` has no value: nothing has set it"));
+    assert!(refused("#5420=1", LinuxCnc).contains("the control keeps its own state"));
+    assert!(refused("#<_feed>=1", LinuxCnc).contains("the control alone sets this parameter"));
+}
+
+#[test]
+fn a_parameter_that_is_not_set_is_said() {
+    let reading = read("G21 G54 G0 X#100 Y#101 Z1\nM2\n", LinuxCnc).unwrap();
+    assert_eq!(moves(&reading), ["R 0 0 1"]);
+    let found: Vec<&str> = reading.findings.iter().map(|f| f.message.as_str()).collect();
+    assert!(found.contains(&"#100 is read before the program sets it: 0 is assumed"), "{found:?}");
+}
+
+#[test]
+fn branches_go_one_way() {
+    let body = |value: i32| {
+        run(
+            &format!(
+                "#1={value}\no1 if [#1 EQ 1]\nX1\no1 elseif [#1 EQ 2] (two)\nX2\no1 else\nX3\no2 if [1]\nY1\no2 endif\no1 endif\nZ9"
+            ),
+            LinuxCnc,
+        )
+    };
+    assert_eq!(body(1), ["R 1 0 0", "R 1 0 9"]);
+    assert_eq!(body(2), ["R 2 0 0", "R 2 0 9"]);
+    assert_eq!(body(3), ["R 3 0 0", "R 3 1 0", "R 3 1 9"]);
+    // What is skipped is not read.
+    assert_eq!(run("o1 if [0]\nX[1/0] nonsense\no1 endif\nX1", LinuxCnc), ["R 1 0 0"]);
+}
+
+#[test]
+fn loops_turn_as_often_as_they_say() {
+    assert_eq!(
+        run(
+            "#1=0\no1 while [#1 LT 3]\n#1=[#1+1]\no2 if [#1 EQ 2]\no1 continue\no2 endif\nX#1\no1 endwhile",
+            LinuxCnc
+        ),
+        ["R 1 0 0", "R 3 0 0"]
+    );
+    assert_eq!(
+        run(
+            "#1=0\no1 do\n#1=[#1+1]\nX#1\no2 if [#1 EQ 2]\no1 break\no2 endif\no1 while [#1 LT 9]\nY1",
+            LinuxCnc
+        ),
+        ["R 1 0 0", "R 2 0 0", "R 2 1 0"]
+    );
+    assert_eq!(
+        run("G91\no1 repeat [2]\nX1\no2 repeat[2]\nY1\no2 endrepeat\no1 endrepeat", LinuxCnc).len(),
+        6
+    );
+    assert_eq!(
+        run("o1 repeat [0]\nX1\no1 endrepeat\no2 while [0]\nX1\no2 endwhile\nY1", LinuxCnc),
+        ["R 0 1 0"]
+    );
+}
+
+#[test]
+fn subprograms_have_their_own_parameters() {
+    let text = "o<go> sub ([x] [y])\nX#1 Y#2 Z#3\n#1=50 #<own>=1\no<GO> endsub [#2*2]\n#1=7 #<own>=3\no<go> call [1] [2]\nX#1 Y#<own> Z#<_value>\no9 call [5]\no9 sub\nX#1\no9 endsub";
+    assert_eq!(run(text, LinuxCnc), ["R 1 2 0", "R 7 3 4", "R 5 3 4"]);
+    let back = "o1 sub\no2 while [1]\n#1=[#1+1]\no3 if [#1 GT 4]\no1 return [#1]\no3 endif\no2 endwhile\no1 endsub\no1 call [1]\nX#<_value> Y#<_value_returned>";
+    assert_eq!(run(back, LinuxCnc), ["R 5 1 0"]);
+}
+
+#[test]
+fn programs_are_called_by_number() {
+    let text = "#1=5\nM98 P1 L3\nX#1\nM2\nO1\nG91 X1\n#1=[#1+1]\nG90 M99";
+    assert_eq!(run(text, LinuxCnc), ["R 1 0 0", "R 2 0 0", "R 3 0 0", "R 8 0 0"]);
+    assert_eq!(run("M98 P1 L0\nX1\nM2\nO1\nX9\nM99", LinuxCnc), ["R 1 0 0"]);
+}
+
+#[test]
+fn each_fault_is_said_where_it_is() {
+    let cases = [
+        ("o1 call", "the subprogram `1` that is called is not in this file"),
+        ("M98 P7", "the program O7 that is called is not in this file"),
+        ("o1 endif", "has no beginning of its label"),
+        ("o1 while [1]\nX1", "has no `endwhile` of its label behind it"),
+        ("o1 return", "`return` outside of a subprogram"),
+        ("o1 sub\nG0 X[1/0]\no1 endsub\no1 call", "division by zero; called in line 5 of a.nc"),
+        ("o1 sub\no1 call\no1 endsub\no1 call", "nested deeper than the control allows"),
+        ("o1 repeat [2]\no1 break\no1 endrepeat", "no break or continue of a repeat"),
+        ("o1 while 1\no1 endwhile", "`1` is where `[` belongs"),
+        ("o1 call [1] X5\no1 sub\no1 endsub", "nothing but a comment follows here"),
+        ("#1", "is given to a parameter with `=`"),
+    ];
+    for (body, expected) in cases {
+        let error = refused(body, LinuxCnc);
+        assert!(error.contains(expected), "{body}: {error}");
+        assert!(error.starts_with("a.nc:"), "{error}");
+    }
+}
+
+#[test]
+fn a_program_that_never_ends_is_refused() {
+    for body in [
+        "o1 while [1]\nX1\nX0\no1 endwhile",
+        "#1=1\no1 do\n#1=[0-#1]\no1 while [1]",
+        "o1 sub\n#31=[#31+1]\no1 endsub\no2 while [1]\no1 call\n#31=[#31 MOD 1000]\no2 endwhile",
+    ] {
+        assert!(refused(body, LinuxCnc).contains("it never ends"), "{body}");
+    }
+}
+
+#[test]
+fn a_feed_move_from_nowhere_is_said_and_its_end_is_known() {
+    let reading = read("G21 G54\nG1 X1 Y2 F100\nG1 Z-1\nX5\nM2\n", LinuxCnc).unwrap();
+    assert_eq!(moves(&reading), ["F 1 2 ?", "F 1 2 -1", "F 5 2 -1"]);
+    let found: Vec<&str> = reading.findings.iter().map(|f| f.message.as_str()).collect();
+    assert!(
+        found.contains(
+            &"the program has not set the position where a feed move starts, which is not followed: lines 2, 3"
+        ),
+        "{found:?}"
+    );
+}
+
+#[test]
+fn splines_are_curves() {
+    let body = "G1 X5 Y5 F100\nG5.2 X5 Y10 P1 L3\nX10 Y10 P2\nX10 Y5 P1\nG5.3\nG1 X0 Y0\nG5.1 X2 Y0 I1 J1";
+    let done = run(body, LinuxCnc);
+    assert_eq!((done[0].as_str(), done.last().unwrap().as_str()), ("F 5 5 0", "F 2 0 0"));
+    assert!(done.contains(&"F 10 5 0".to_owned()) && done.len() > 6, "{done:?}");
+    for (body, expected) in [
+        ("F100\nG5.3", "G5.3 without the control points"),
+        ("F100\nG5.2 X1 Y1\nG5.3", "a control point without its weight P"),
+        ("F100\nG5.2 X1 P1\nG5.3", "a control point needs both X and Y"),
+        ("F100\nG5.2 X1 Y1 P1\nG5.3", "fewer control points than its order"),
+        ("F100\nG5.2 X1 Y1 P1\nG0 X0", "another motion before the spline is run"),
+        ("F100\nG5.2 X1 Y1 P-1\nG5.3", "the weight of a control point is positive"),
+        ("F100 G5.2 X1 Y1 P1 L99999", "the order of a spline is out of range"),
+    ] {
+        let error = refused(body, LinuxCnc);
+        assert!(error.contains(expected), "{body}: {error}");
+    }
+}
+
+#[test]
+fn cycles_run_along_the_axis_that_is_square_to_the_plane() {
+    let body = "G0 X0 Y9 Z0\nG18 G98 G81 X1 Z2 Y-5 R2 F100\nX3\nG80";
+    assert_eq!(
+        run(body, LinuxCnc),
+        ["R 0 9 0", "R 1 9 2", "R 1 2 2", "F 1 -5 2", "R 1 9 2", "R 3 9 2", "R 3 2 2", "F 3 -5 2", "R 3 9 2"]
+    );
+    let body = "G0 X9 Y0 Z0\nG19 G99 G83 Y1 Z2 X-1 R2 Q2 F100\nG80";
+    assert_eq!(
+        run(body, LinuxCnc),
+        ["R 9 0 0", "R 9 1 2", "R 2 1 2", "F 0 1 2", "R 2 1 2", "R 0.254 1 2", "F -1 1 2", "R 2 1 2"]
+    );
+}
+
+#[test]
+fn bores_and_floating_taps_come_back_at_feed() {
+    assert_eq!(
+        run("G0 Z9\nG98 G85 X1 Z-5 R2 F100", LinuxCnc),
+        ["R 0 0 9", "R 1 0 9", "R 1 0 2", "F 1 0 -5", "F 1 0 2", "R 1 0 9"]
+    );
+    assert_eq!(
+        run("G0 Z9\nM3 S100\nG99 G84 X1 Z-5 R2 F100", LinuxCnc),
+        ["R 0 0 9", "R 1 0 9", "R 1 0 2", "F 1 0 -5", "F 1 0 2"]
+    );
+    assert_eq!(
+        run("G0 Z9\nM3 S100\nG99 G86 X1 Z-5 R2 P1 F100", LinuxCnc),
+        ["R 0 0 9", "R 1 0 9", "R 1 0 2", "F 1 0 -5", "R 1 0 2"]
+    );
+    assert!(
+        refused("G0 Z9\nG84 X1 Z-5 R2 F100", LinuxCnc)
+            .contains("the spindle does not turn as this cycle needs it")
+    );
+}
+
+#[test]
+fn taps_outside_of_g17_go_where_the_interpreter_goes() {
+    // The expectation of the interpreter's own test-suite, in its inches.
+    let body = "G20 M3 S1000 F10\nG18 G99 G90\nG0 X1 Z1 Y1\nG84 X1 Z2 Y0.5 R3\nG80";
+    let inch: Vec<String> = run(body, LinuxCnc)
+        .iter()
+        .map(|m| {
+            let (kind, rest) = m.split_at(2);
+            let ends: Vec<String> = rest
+                .split(' ')
+                .map(|v| ((v.parse::<f64>().unwrap() / 25.4 * 1e6).round() / 1e6).to_string())
+                .collect();
+            format!("{kind}{}", ends.join(" "))
+        })
+        .collect();
+    assert_eq!(inch, ["R 1 1 1", "R 1 3 1", "R 1 3 2", "F 0.5 2 1", "F 3 2 1"]);
+}
