@@ -162,6 +162,9 @@ pub(crate) struct ProgramOf {
     /// Number of the tool in the spindle before the program calls one
     #[arg(long, value_name = "N")]
     tool: Option<u32>,
+    /// Place of the tip before the program moves it, in coordinates of the work offset, mm
+    #[arg(long, value_name = "X,Y,Z", value_parser = triple, allow_hyphen_values = true)]
+    start: Option<[f64; 3]>,
     /// On FANUC, coordinates without a decimal point: whole units, or least increments; default: what the program suggests
     #[arg(long, value_name = "INPUT")]
     input: Option<Input>,
@@ -185,6 +188,7 @@ impl ProgramOf {
         let mut wants = ProgramWants {
             control: control.cloned(),
             input: self.input.map(Input::of),
+            start: self.start,
             beside: self.beside(control, &bytes),
             stock: stock.map(RawStock::given).transpose()?,
             position: self.position,

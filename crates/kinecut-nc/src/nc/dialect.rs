@@ -174,6 +174,8 @@ pub(super) struct Dialect {
     pub(super) keywords: &'static [(&'static str, Code)],
     /// Whether cycles return to R before the program says `G98` or `G99`, as the interpreter begins.
     pub(super) starts_at_r: bool,
+    /// What it answers to a word that it does not have, where that is known.
+    pub(super) answer: Option<&'static str>,
     /// Whether it is a Haas, where that differs from FANUC.
     pub(super) haas: bool,
     /// Its variables, branches and calls.
@@ -334,6 +336,8 @@ pub(super) enum Code {
     },
     ReturnToStart(bool),
     ToolChange,
+    /// `G96`: S is a surface speed, and the spindle turns as the radius asks.
+    SurfaceSpeed,
     SpindleClockwise,
     SpindleCounterClockwise,
     SpindleOff,
@@ -468,6 +472,7 @@ impl Code {
             Code::Interpolation { .. } => 18,
             Code::Stop(_) | Code::CallProgram | Code::CallBlock | Code::Return => 21,
             Code::ToolChange => 22,
+            Code::SurfaceSpeed => 26,
             Code::SpindleClockwise | Code::SpindleCounterClockwise | Code::SpindleOff => 23,
             Code::Mist | Code::Flood | Code::CoolantOff | Code::Rigid | Code::Harmless(_) => return None,
         })

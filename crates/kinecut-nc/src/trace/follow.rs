@@ -143,8 +143,12 @@ impl<'a> Follow<'a> {
                 return Err(self.at(index, finding.help("add the setup to the program: they count from 0")));
             }
             // Another clamping: nothing of the old position is valid.
+            let first = self.setup.is_none();
             self.setup = Some(state.setup);
             self.tip = [None; 3];
+            if let Some(start) = self.options.operator.start.filter(|_| first) {
+                self.tip = self.frame(FrameId(0), index, state)?.point(start).to_array().map(Some);
+            }
             (self.rotary, self.rotary_said, self.axis) = ([0.0; 3], [false; 3], DVec3::Z);
         }
         if let Some(point) = program.items.straight(index)

@@ -1,5 +1,7 @@
 //! Control state that the operator sets: register values and the tool in the spindle.
 
+use glam::DVec3;
+
 use crate::program::ToolNumber;
 use crate::tool::Tool;
 
@@ -14,6 +16,8 @@ pub struct RegisterState<'a> {
     /// Lengths that the control reckons with where they are not the tool's own: tool, register (`None`: the length is
     /// switched off), length [mm].
     pub lengths: &'a [(ToolNumber, Option<u32>, f64)],
+    /// Place of the tip before the first move, in coordinates of the program's first frame [mm].
+    pub start: Option<DVec3>,
     /// True if a radius register without a value holds the radius of the tool in the spindle.
     pub own_radius: bool,
 }

@@ -127,3 +127,28 @@ fn the_last_shift_is_taken_again() {
     assert_eq!(run("G91\nG52 X3\nG52 X5\nG90 X#5420", LinuxCnc), ["R -5 0 0"]);
     assert_eq!(run("G92 X3\nG92.1\nG92.3\nX#5420", LinuxCnc), ["R 0 0 0"]);
 }
+
+#[test]
+fn grbl_is_quoted_and_a_surface_speed_is_said() {
+    let error = refused("T1 M6", Grbl);
+    assert!(error.contains("GRBL answers error 20") && error.contains("--control grblhal"), "{error}");
+    let reading =
+        read("G21 G54 G0 X0 Y0 Z0\nG96 S200 D1000 M3\nG1 X1 F100\nG97 S500\nM2\n", LinuxCnc).unwrap();
+    assert!(
+        reading.findings.iter().any(|f| f.message.contains("by a surface speed (G96)")),
+        "{:?}",
+        reading.findings
+    );
+    assert!(refused("G96 M3", LinuxCnc).contains("without S"));
+}
+
+#[test]
+fn a_program_may_begin_at_a_place_that_is_given() {
+    let text = "G21 G54 G91\nG1 X1 F100\nG2 X2 I1 Z-1\nM2\n";
+    let mut sources = Sources::default();
+    let file = sources.add("a.ngc", text);
+    let settings = ReadSettings { start: Some([5.0, 6.0, 7.0]), ..ReadSettings::default() };
+    let reading = nc::read_source(&sources, file, LinuxCnc, &[], &settings).unwrap();
+    assert_eq!(moves(&reading), ["F 6 6 7", "F 8 6 6 arc"]);
+    assert!(read(text, LinuxCnc).unwrap_err().contains("an increment from a position"));
+}

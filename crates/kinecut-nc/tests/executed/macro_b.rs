@@ -144,3 +144,13 @@ fn each_fault_is_said_where_it_is() {
         assert!(error.contains(expected), "{body}: {error}");
     }
 }
+
+#[test]
+fn a_common_variable_that_nothing_sets_is_not_proven() {
+    let reading = read("G21 G54 G0 X0. Y0. Z0.\nG0 X#101 Y1.\nM30\n", Fanuc).unwrap();
+    let found = reading.findings.iter().find(|f| f.message.contains("#101 is read before")).unwrap();
+    assert_eq!(found.severity, kinecut_nc::base::Severity::Doubt);
+    // A local one is empty for certain.
+    let reading = read("G21 G54 G0 X0. Y0. Z0.\nG0 X#1 Y1.\nM30\n", Fanuc).unwrap();
+    assert!(reading.findings.is_empty(), "{:?}", reading.findings);
+}

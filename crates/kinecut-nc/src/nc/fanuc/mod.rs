@@ -150,6 +150,7 @@ pub(super) const DIALECT: Dialect = Dialect {
     m_codes: &[(29, Code::Rigid), (98, Code::CallProgram), (99, Code::Return)],
     keywords: &[],
     starts_at_r: false,
+    answer: None,
     haas: false,
     flow: FlowWords::MacroB,
     has_offset,

@@ -84,6 +84,9 @@ pub(super) const DIALECT: Dialect = Dialect {
     m_codes: &[],
     keywords: &[],
     starts_at_r: false,
+    answer: Some(
+        "GRBL answers error 20 here (unsupported); files of senders with more words are read with --control grblhal",
+    ),
     haas: false,
     flow: FlowWords::None,
     has_offset,

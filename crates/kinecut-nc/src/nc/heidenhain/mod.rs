@@ -126,6 +126,7 @@ pub(super) const DIALECT: Dialect = Dialect {
     m_codes: &[],
     keywords: &[],
     starts_at_r: false,
+    answer: None,
     haas: false,
     flow: FlowWords::None,
     has_offset,

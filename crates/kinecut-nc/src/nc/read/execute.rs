@@ -30,6 +30,7 @@ impl<'s> Reader<'s> {
         // In a dwell block of some controls F and S are the dwell's.
         if dwell.is_none() || !self.dialect.feed_is_dwell() {
             self.feed(words)?;
+            self.surface_speed(words)?;
             self.speed(words)?;
         }
         let mut chosen = false;
@@ -136,6 +137,23 @@ impl<'s> Reader<'s> {
                 FeedMode::InverseTime => feed.value,
             });
         }
+        Ok(())
+    }
+
+    /// `G96`: the speed of the spindle depends on the radius, which is not followed.
+    fn surface_speed(&mut self, words: &mut [Word<'s>]) -> Result<()> {
+        let Some((_, bytes)) = self.code(|c| c == Code::SurfaceSpeed) else { return Ok(()) };
+        let Some(speed) = take(words, "S") else {
+            return Err(self.lacks(&bytes, "a surface speed (G96) without S").help("program S").into());
+        };
+        take(words, "D");
+        if speed.value < 0.0 {
+            return Err(self.place.malformed(&speed.bytes, "a surface speed is not negative").into());
+        }
+        self.modal.speed = None;
+        let message =
+            "the spindle turns by a surface speed (G96), which is not followed: its speed is not known";
+        self.warn(&bytes, message);
         Ok(())
     }
 
@@ -315,10 +333,15 @@ impl<'s> Reader<'s> {
     }
 
     fn work_offset(&mut self, offset: WorkOffset) {
-        if self.modal.offset.replace(offset) == Some(offset) {
+        let before = self.modal.offset.replace(offset);
+        if before == Some(offset) {
             return;
         }
-        self.modal.position = [None; 3];
+        // These controls begin in G54.
+        let begins = before.is_none() && offset == WorkOffset::G54 && !self.dialect.long_addresses;
+        if !begins {
+            self.modal.position = [None; 3];
+        }
         self.set_frame();
         let has = |i: usize| self.program.setups.get(i).is_some_and(|s| s.work_offsets.contains_key(&offset));
         let now = self.modal.setup.0 as usize;

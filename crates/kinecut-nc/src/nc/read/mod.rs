@@ -137,6 +137,9 @@ pub fn read_source(
     }
     let mut reader = Reader::new(place, dialect, setups);
     reader.points = Points::of(text, dialect, settings.input);
+    if let Some(start) = settings.start {
+        reader.modal.position = start.map(Some);
+    }
     Run::new(reader, settings).run()
 }
 

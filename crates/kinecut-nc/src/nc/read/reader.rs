@@ -47,9 +47,9 @@ pub(super) struct Reader<'s> {
     pub(super) tool_origin: Origin,
     pub(super) codes: Vec<(Code, Bytes)>,
     pub(super) variables: Variables,
-    /// A variable that was read before the program has set it, and whether that was said.
+    /// A variable that was read before the program has set it, and those of which that was said.
     pub(super) unset: Cell<Option<u32>>,
-    pub(super) unset_said: bool,
+    pub(super) unset_said: Vec<u32>,
     /// The value that the last subprogram returned, and whether it did.
     pub(super) value_returned: (f64, bool),
     /// Calls in force, and the block of the last.
@@ -102,7 +102,7 @@ impl<'s> Reader<'s> {
             codes: Vec::new(),
             variables: Variables::new(dialect.flow.level()),
             unset: Cell::new(None),
-            unset_said: false,
+            unset_said: Vec::new(),
             value_returned: (0.0, false),
             depth: 0,
             parent: None,
@@ -358,7 +358,8 @@ impl<'s> Reader<'s> {
     }
 
     fn unknown(&self, word: &Word<'_>) -> Finding {
-        self.place.not_understood(&word.bytes, "kinecut does not know what the control does with it")
+        let answer = self.dialect.answer.unwrap_or("kinecut does not know what the control does with it");
+        self.place.not_understood(&word.bytes, answer)
     }
 
     pub(super) fn twice(&self, bytes: &Bytes) -> Finding {

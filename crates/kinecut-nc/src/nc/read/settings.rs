@@ -28,6 +28,8 @@ pub struct ReadSettings {
     pub files: Vec<(String, FileId)>,
     /// Meaning of coordinates without a decimal point (FANUC).
     pub input: NumberInput,
+    /// Place of the tip before the first move, in coordinates of the first work offset [mm], where it is known.
+    pub start: Option<[f64; 3]>,
     /// Whether reading goes on behind a block that is wrong or not understood: no axis is where the program says, until the
     /// program says it again. The errors are in [`Reading::errors`](super::Reading::errors).
     pub reads_on: bool,
@@ -35,6 +37,12 @@ pub struct ReadSettings {
 
 impl Default for ReadSettings {
     fn default() -> ReadSettings {
-        ReadSettings { blocks: 20_000_000, files: Vec::new(), input: NumberInput::Auto, reads_on: false }
+        ReadSettings {
+            blocks: 20_000_000,
+            files: Vec::new(),
+            input: NumberInput::Auto,
+            start: None,
+            reads_on: false,
+        }
     }
 }

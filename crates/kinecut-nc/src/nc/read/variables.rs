@@ -23,6 +23,9 @@ const SIGNAL: &str = "it is a signal of the machine";
 const CLOCK: &str = "it is a clock of the machine";
 const PLACE: &str = "the program has not set this position";
 
+/// Most variables of which it is said that they were not set.
+const MOST_UNSET: usize = 50;
+
 fn number(value: f64) -> Known {
     Known::Value(Value::Number(value))
 }
@@ -60,7 +63,8 @@ impl Names for Reader<'_> {
 impl Reader<'_> {
     /// A variable that the program has not set, with the value that it has then.
     fn unset(&self, index: u32, value: Value) -> Known {
-        if self.unset.get().is_none() {
+        let said = self.unset_said.contains(&index) || self.unset_said.len() >= MOST_UNSET;
+        if self.unset.get().is_none() && !said {
             self.unset.set(Some(index));
         }
         Known::Value(value)
@@ -215,13 +219,22 @@ impl Reader<'_> {
 
     /// Notes a variable that was read before the program has set it.
     pub(super) fn note_unset(&mut self, bytes: &Bytes) {
-        let Some(index) = self.unset.take().filter(|_| !self.unset_said) else { return };
-        self.unset_said = true;
-        let value = if self.dialect.flow == FlowWords::MacroB { "empty" } else { "0" };
-        let message = format!("#{index} is read before the program sets it: {value} is assumed");
-        let finding = self.place.warning(FindingCode::NC_ASSUMED, bytes, message);
-        self.findings
-            .push(finding.help("the control keeps variables from one program to the next: set it first"));
+        let Some(index) = self.unset.take() else { return };
+        self.unset_said.push(index);
+        let macro_b = self.dialect.flow == FlowWords::MacroB;
+        let place = self.place.sources.locate(self.place.span(bytes));
+        let read = format!("#{index} is read before the program sets it");
+        let (finding, help) = if macro_b {
+            // Common variables keep what another program left in them.
+            let message =
+                format!("{read}: it may hold what another program left in it, and is followed as empty");
+            let finding = Finding::doubt(FindingCode::NC_ASSUMED, message);
+            (finding, "the control keeps it from one program to the next: set it first")
+        } else {
+            let finding = Finding::warning(FindingCode::NC_ASSUMED, format!("{read}: 0 is assumed"));
+            (finding, "the control keeps it only where its parameter file lists it: set it first")
+        };
+        self.findings.push(finding.at(place).help(help));
     }
 
     /// Gives a variable its value.

@@ -12,6 +12,8 @@ use super::{Arithmetic, Known, Names, Value};
 
 /// Deepest brackets: what a stack holds with room to spare.
 const DEEPEST: usize = 64;
+/// Letters of the longest name of a function.
+const LONGEST_NAME: usize = 6;
 /// Farthest from a whole number that the number of a parameter may be.
 const WHOLE: f64 = 1e-4;
 
@@ -138,9 +140,10 @@ impl<'a, 's> Expression<'a, 's> {
 
     /// The operator that comes next; it is not passed.
     fn operator(&mut self) -> Option<(Operator, u8, &'static str)> {
-        self.peek().filter(|b| *b != b']')?;
+        let first = self.peek()?;
         let before = self.at;
-        let found = self.arithmetic.operators().iter().find(|(word, _, _)| self.pass(word));
+        let mut table = self.arithmetic.operators().iter().filter(|(word, _, _)| word.as_bytes()[0] == first);
+        let found = table.find(|(word, _, _)| self.pass(word));
         self.at = before;
         found.map(|(word, operator, rank)| (*operator, *rank, *word))
     }
@@ -230,12 +233,17 @@ impl<'a, 's> Expression<'a, 's> {
     }
 
     fn function(&mut self, from: usize) -> Result<Value> {
-        let mut name = String::new();
+        let mut name = [0; LONGEST_NAME];
+        let mut length = 0;
         while let Some(letter) = self.peek().filter(u8::is_ascii_uppercase) {
-            name.push(letter as char);
+            if let Some(place) = name.get_mut(length) {
+                *place = letter;
+            }
+            length += 1;
             self.at += 1;
         }
-        let Some(function) = self.arithmetic.function(&name) else {
+        let name = name.get(..length).and_then(|name| std::str::from_utf8(name).ok());
+        let Some(function) = name.and_then(|name| self.arithmetic.function(name)) else {
             let bytes = self.since(from);
             let why = "an expression has no function of this name";
             return Err(self.place.not_understood(&bytes, why).into());

@@ -119,6 +119,7 @@ pub(super) const DIALECT: Dialect = Dialect {
         ("FFWOF", Code::Harmless("feed forward off")),
     ],
     starts_at_r: false,
+    answer: None,
     haas: false,
     flow: FlowWords::None,
     has_offset,

@@ -28,6 +28,8 @@ pub struct JobProgram {
     pub radii: Vec<(u32, f64)>,
     /// Meaning of coordinates without a decimal point (FANUC).
     pub input: NumberInput,
+    /// Place of the tip before the program moves it, in coordinates of the work offset [mm].
+    pub start: Option<[f64; 3]>,
     /// Words of its text that told the control, where nobody said it.
     pub detected: Option<String>,
     /// Files beside it with programs that it calls.
@@ -47,6 +49,7 @@ impl JobProgram {
             lengths: Vec::new(),
             radii: Vec::new(),
             input: NumberInput::Auto,
+            start: None,
             detected: None,
             beside: Vec::new(),
         }
@@ -123,6 +126,12 @@ pub(super) fn program(
     let bytes = loader.read_as(&t.file, FileKind::Program).map_err(|e| e.under("file"))?;
     let mut program = JobProgram::new(t.file.clone(), &bytes, control);
     program.input = t.input;
+    if let Some(start) = t.start {
+        for value in start {
+            length("start", value, -MAX_LENGTH, MAX_LENGTH)?;
+        }
+        program.start = Some(start);
+    }
     program.beside = subprograms(&program.file, &program.text, control, loader);
     if let Some(number) = t.tool {
         program.in_spindle = Some(tool_of(number, tools)?.number);

@@ -2,6 +2,8 @@
 
 use std::sync::Arc;
 
+use glam::DVec3;
+
 use super::super::check::{Job, JobProgram};
 use super::super::following::{CHORD, line_place};
 use super::Unfollowed;
@@ -75,7 +77,13 @@ pub(crate) fn follow(
         files.push((called.name.clone(), sources.add(&called.file, Arc::clone(&called.text))));
     }
     let reads_on = errors == Errors::GoOn;
-    let settings = ReadSettings { files, input: program.input, reads_on, ..ReadSettings::default() };
+    let settings = ReadSettings {
+        files,
+        input: program.input,
+        start: program.start,
+        reads_on,
+        ..ReadSettings::default()
+    };
     let mut reading = nc::read_source(&sources, file, program.control, &clamping, &settings)?;
     let mut assumed = Vec::new();
     if missing == Missing::StoodFor {
@@ -105,6 +113,7 @@ pub(crate) fn follow(
         retract_height: clamped.retract_height(),
         operator: RegisterState {
             in_spindle: magazine.in_spindle,
+            start: program.start.map(DVec3::from_array),
             // Without cutting it is the path that counts, as the program means it.
             lengths: if missing == Missing::Refused { &registers.lengths } else { &[] },
             own_radius: true,

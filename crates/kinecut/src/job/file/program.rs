@@ -20,6 +20,9 @@ pub struct ProgramTable {
     /// "least-increment" (0.001 mm or degrees, 0.0001 in); default "auto": whole units where no coordinate has a point.
     #[serde(default)]
     pub input: NumberInput,
+    /// Place of the tip before the program moves it, in coordinates of the setup's work offset, mm; default: not known.
+    #[serde(default)]
+    pub start: Option<[f64; 3]>,
     /// Number of the tool that is in the spindle before the program calls one; default: none, or the only tool of the job
     /// if the program calls no tool at all.
     #[serde(default)]

@@ -4,6 +4,7 @@
 //! motions are compared. What the other control cannot say is an error at its block; what has no counterpart there and moves
 //! nothing is a finding.
 
+use glam::DVec3;
 use std::borrow::Cow;
 
 use serde::{Serialize, Serializer};
@@ -121,7 +122,12 @@ pub fn translate(
         machine: job.machine.as_ref(),
         tools: &source.magazine.tools,
         retract_height: job.setups[0].retract_height(),
-        operator: RegisterState { in_spindle: source.magazine.in_spindle, lengths: &[], own_radius: true },
+        operator: RegisterState {
+            in_spindle: source.magazine.in_spindle,
+            start: program.start.map(DVec3::from_array),
+            lengths: &[],
+            own_radius: true,
+        },
         radii: &reworked.radii,
         comp_start: to.comp_start(),
     };

@@ -222,3 +222,34 @@ fn a_sheet_tells_what_a_program_does_without_tools_or_stock() {
     let other = given_alone(okuma, &ProgramWants::default(), false).unwrap_err();
     assert!(other.to_string().contains("a program for Okuma, which kinecut does not read"), "{other}");
 }
+
+#[test]
+fn a_start_that_is_given_is_followed_from() {
+    let program = GivenFile { name: "a.ngc", bytes: b"G21 G54 G90\nG1 X10 Y0 Z5 F600\nG1 Y3\nM2\n" };
+    let sheet = |start| {
+        let wants = ProgramWants { start, ..ProgramWants::default() };
+        program_sheet(&given_alone(program, &wants, false).unwrap()).unwrap()
+    };
+    let given = sheet(Some([2.0, 0.0, 5.0]));
+    assert!((given.feed_length - 11.0).abs() < 1e-12 && given.findings.is_empty(), "{:?}", given.findings);
+    // Otherwise the first move is not followed, and the second is.
+    let open = sheet(None);
+    assert!((open.feed_length - 3.0).abs() < 1e-12, "{}", open.feed_length);
+    assert_eq!(open.findings[0].code, Code::UNKNOWN_START);
+}
+
+#[test]
+fn all_errors_of_a_program_are_found_in_one_run() {
+    let text = b"G21 G54 G90\nG0 X0 Y0 Z5\nM777\nG0 X0 Y0 Z5\nM777\nG0 X0 Y0 Z5\nG1 X5\nM2\n";
+    let program = GivenFile { name: "a.ngc", bytes: text };
+    let sheet = program_sheet(&given_alone(program, &ProgramWants::default(), false).unwrap()).unwrap();
+    assert_eq!(sheet.errors, 2);
+    let said: Vec<&str> = sheet.findings.iter().map(|f| f.message.as_str()).collect();
+    assert!(
+        said.iter()
+            .any(|m| m.starts_with("`M777` is not understood") && m.ends_with("(2 times: lines 3, 5)")),
+        "{said:?}"
+    );
+    assert!(said.iter().any(|m| m.contains("a feed move without a feed")), "{said:?}");
+    assert!(sheet.text().contains("from line 3 on nothing is"), "{}", sheet.text());
+}
