@@ -162,6 +162,9 @@ pub(crate) struct ProgramOf {
     /// Number of the tool in the spindle before the program calls one
     #[arg(long, value_name = "N")]
     tool: Option<u32>,
+    /// Most blocks that the program may run in loops and calls; default: 20 million
+    #[arg(long, value_name = "N")]
+    blocks: Option<u64>,
     /// Place of the tip before the program moves it, in coordinates of the work offset, mm
     #[arg(long, value_name = "X,Y,Z", value_parser = triple, allow_hyphen_values = true)]
     start: Option<[f64; 3]>,
@@ -188,6 +191,7 @@ impl ProgramOf {
         let mut wants = ProgramWants {
             control: control.cloned(),
             input: self.input.map(Input::of),
+            blocks: self.blocks,
             start: self.start,
             beside: self.beside(control, &bytes),
             stock: stock.map(RawStock::given).transpose()?,

@@ -2,7 +2,7 @@
 
 use super::Control;
 
-/// What a text suggests.
+/// The control that a text shows.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Detected {
     /// A control that kinecut reads, and why.

@@ -113,7 +113,7 @@ pub(super) struct Dialect {
     pub(super) exact_path: Option<&'static str>,
     pub(super) continuous: &'static str,
     pub(super) rounded: Option<[&'static str; 2]>,
-    /// Whether the distance within which lines are merged comes after that, and a tolerance of zero is none at all.
+    /// LinuxCNC's meaning of a tolerance: the distance within which lines are merged comes after it, and zero is no tolerance.
     pub(super) merges: bool,
     /// Words before G0, after it and after the axes of a move in machine coordinates.
     pub(super) machine_frame: [&'static str; 3],
@@ -174,7 +174,7 @@ pub(super) struct Dialect {
     pub(super) keywords: &'static [(&'static str, Code)],
     /// Whether cycles return to R before the program says `G98` or `G99`, as the interpreter begins.
     pub(super) starts_at_r: bool,
-    /// What it answers to a word that it does not have, where that is known.
+    /// Answer of the control to a word that it does not have, where it is known.
     pub(super) answer: Option<&'static str>,
     /// Whether it is a Haas, where that differs from FANUC.
     pub(super) haas: bool,

@@ -152,3 +152,27 @@ fn a_program_may_begin_at_a_place_that_is_given() {
     assert_eq!(moves(&reading), ["F 6 6 7", "F 8 6 6 arc"]);
     assert!(read(text, LinuxCnc).unwrap_err().contains("an increment from a position"));
 }
+
+#[test]
+fn haas_calls_again_with_what_the_call_before_has_left() {
+    let body = "G65 P9 L2 A1.\nM30\nO9\nG0 X#1\n#1=#1+5.\nM99";
+    assert_eq!(run(body, Haas), ["R 1 0 0", "R 6 0 0"]);
+    assert_eq!(run(body, Fanuc), ["R 1 0 0", "R 1 0 0"]);
+}
+
+#[test]
+fn a_shift_that_stays_beyond_the_program_is_said() {
+    for control in [LinuxCnc, Grbl, GrblHal] {
+        let reading = read("G21 G54 G0 X5 Y0 Z0\nG92 X0\nM2\n", control).unwrap();
+        assert!(reading.findings.iter().any(|f| f.message.contains("stays beyond the program")), "{control}");
+    }
+}
+
+#[test]
+fn an_alarm_of_the_program_ends_it() {
+    let settings = ReadSettings { reads_on: true, ..ReadSettings::default() };
+    let mut sources = Sources::default();
+    let file = sources.add("a.nc", "G21 G54 G0 X0. Y0. Z0.\n#3000=1(ONE)\n#3000=2(TWO)\nM30\n");
+    let reading = nc::read_source(&sources, file, Fanuc, &[], &settings).unwrap();
+    assert_eq!(reading.errors.len(), 1, "{:?}", reading.errors);
+}

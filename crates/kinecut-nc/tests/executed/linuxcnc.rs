@@ -3,7 +3,9 @@
 //! Expected values are those of the interpreter's stand-alone version (2.9), or of its documentation.
 
 use crate::{moves, read, refused, run};
+use kinecut_nc::base::Sources;
 use kinecut_nc::nc::Control::LinuxCnc;
+use kinecut_nc::nc::{self, ReadSettings};
 
 #[test]
 fn words_take_values() {
@@ -216,4 +218,60 @@ fn taps_outside_of_g17_go_where_the_interpreter_goes() {
         })
         .collect();
     assert_eq!(inch, ["R 1 1 1", "R 1 3 1", "R 1 3 2", "F 0.5 2 1", "F 3 2 1"]);
+}
+
+#[test]
+fn another_cycle_wants_its_words_again() {
+    // As the interpreter's stand-alone version: the same code keeps R and Z, another one does not.
+    assert_eq!(run("G0 Z9\nF100\nG99 G81 X1 Z-1 R2\nG81 X2", LinuxCnc).len(), 5);
+    assert!(refused("G0 Z9\nF100\nG81 X1 Z-1 R2\nG82 X2 P1", LinuxCnc).contains("a cycle needs R and Z"));
+    assert!(refused("G0 Z9\nF100\nG83 X1 Z-1 R2 Q1\nG73 X2 Z-1 R2", LinuxCnc).contains("needs a step Q"));
+}
+
+#[test]
+fn a_tap_waits_as_long_as_the_last_cycle_said() {
+    let waits = |body: &str| {
+        let reading = read(&format!("G21 G54 G0 X0 Y0 Z9\nF100 M3 S1\n{body}\nM2\n"), LinuxCnc).unwrap();
+        let items = &reading.program.items;
+        (0..items.len())
+            .filter_map(
+                |i| if let kinecut_nc::program::Item::Dwell(s) = items.get(i) { Some(s) } else { None },
+            )
+            .collect::<Vec<f64>>()
+    };
+    assert_eq!(waits("G89 X1 Z-1 R2 P0.5\nG80\nG84 X2 Z-1 R2"), [0.5, 0.5]);
+    assert_eq!(waits("G84 X2 Z-1 R2"), [0.0]);
+}
+
+#[test]
+fn a_parameter_is_said_at_the_line_that_reads_it() {
+    let reading = read("G21 G54 G0 X0 Y0 Z0\no1 if [#100 EQ 1]\nX1\no1 endif\nM2\n", LinuxCnc).unwrap();
+    let found = reading.findings.iter().find(|f| f.message.contains("#100 is read")).unwrap();
+    assert_eq!(found.place.as_ref().unwrap().line, 2);
+}
+
+#[test]
+fn a_loop_that_waits_for_the_state_of_the_control_is_not_endless() {
+    // Variables and position stay, the coolant does not.
+    let body = "M8\no1 while [#<_flood>]\nM9\no1 endwhile\nX1";
+    assert_eq!(run(body, LinuxCnc), ["R 1 0 0"]);
+    let body = "M8\n#1=1\no1 do\no2 if [#<_flood>]\nM9\no2 elseif [#<_mist>]\n#1=0\no2 else\nM7\no2 endif\no1 while [#1]\nX2";
+    assert_eq!(run(body, LinuxCnc), ["R 2 0 0"]);
+}
+
+#[test]
+fn a_file_beside_calls_what_the_program_holds() {
+    let mut sources = Sources::default();
+    let main =
+        sources.add("a.ngc", "G21 G54 G0 X0 Y0 Z0\no<row> call [2]\nM2\no<hole> sub\nX#1\no<hole> endsub\n");
+    let row = sources.add("row.ngc", "o<row> sub\nG1 Z[0-#1] F100\no<hole> call [7]\no<row> endsub\n");
+    let settings = ReadSettings { files: vec![("row".to_owned(), row)], ..ReadSettings::default() };
+    let reading = nc::read_source(&sources, main, LinuxCnc, &[], &settings).unwrap();
+    assert_eq!(moves(&reading), ["R 0 0 0", "F 0 0 -2", "F 7 0 -2"]);
+    // A feed move from nowhere is at its line of its file.
+    let main = sources.add("b.ngc", "G21 G54\no<row> call [2]\nM2\no<hole> sub\n(none)\no<hole> endsub\n");
+    let reading = nc::read_source(&sources, main, LinuxCnc, &[], &settings).unwrap();
+    let found = reading.findings.iter().find(|f| f.message.contains("has not set the position")).unwrap();
+    assert!(found.message.ends_with("line 2 of row.ngc"), "{found}");
+    assert_eq!(found.place.as_ref().unwrap().file, "row.ngc");
 }

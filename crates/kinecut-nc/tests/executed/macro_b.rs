@@ -154,3 +154,44 @@ fn a_common_variable_that_nothing_sets_is_not_proven() {
     let reading = read("G21 G54 G0 X0. Y0. Z0.\nG0 X#1 Y1.\nM30\n", Fanuc).unwrap();
     assert!(reading.findings.is_empty(), "{:?}", reading.findings);
 }
+
+#[test]
+fn the_count_of_calls_is_read_from_written_digits_only() {
+    let body = |call: &str| format!("{call}\nM30\nO10\nG91 G0 X1.\nG90 M99\nO1002\nG91 G0 X2.\nG90 M99");
+    assert_eq!(run(&body("M98 P[1000+2]"), Fanuc), ["R 2 0 0"]);
+    assert_eq!(run(&body("M98 P00010"), Fanuc), ["R 1 0 0"]);
+    assert_eq!(run(&body("M98 P20010"), Fanuc), ["R 1 0 0", "R 2 0 0"]);
+}
+
+#[test]
+fn arguments_without_a_point_count_as_the_control_is_set() {
+    let of = |input| {
+        let mut sources = Sources::default();
+        let file = sources.add("a.nc", "G21 G54 G0 X0 Y0 Z0\nG65 P9 X5\nM30\nO9\nG0 X#24\nM99\n");
+        let settings = ReadSettings { input, ..ReadSettings::default() };
+        crate::moves(&nc::read_source(&sources, file, Fanuc, &[], &settings).unwrap()).pop().unwrap()
+    };
+    assert_eq!(
+        (of(NumberInput::Calculator), of(NumberInput::LeastIncrement)),
+        ("R 5 0 0".into(), "R 0.005 0 0".into())
+    );
+}
+
+#[test]
+fn a_variable_is_said_at_the_statement_that_reads_it() {
+    let line = |text: &str| {
+        let reading = read(text, Fanuc).unwrap();
+        reading
+            .findings
+            .iter()
+            .find(|f| f.message.contains("#101 is read"))
+            .unwrap()
+            .place
+            .as_ref()
+            .unwrap()
+            .line
+    };
+    assert_eq!(line("G21 G54 G0 X0. Y0. Z0.\nIF[#101EQ1]GOTO5\nG0 X1.\nN5 M30\n"), 2);
+    assert_eq!(line("G21 G54 G0 X0. Y0. Z0.\nWHILE[#101EQ1]DO1\nEND1\nM30\n"), 2);
+    assert_eq!(line("G21 G54 G0 X0. Y0. Z0.\nIF[#101EQ1]THEN #1=2\nM30\n"), 2);
+}

@@ -53,6 +53,8 @@ pub struct ProgramSheet {
     pub feed_held: Option<String>,
     /// Kinds of blocks that are wrong or not understood: behind the first of them no move is proven.
     pub errors: usize,
+    /// Whether the moves that were read could be followed; without, their counts, way and time are nought.
+    pub followed: bool,
     /// Findings.
     pub findings: Vec<Finding>,
     /// Parts that were read and are not followed, and assumptions.
@@ -132,6 +134,7 @@ pub fn program_sheet(given: &GivenJob) -> Result<ProgramSheet> {
         }),
         time_terms: terms(&[(&done.trace, law.as_ref())], job.machine.as_ref()),
         errors: done.errors.len(),
+        followed: done.followed,
         findings,
         remarks: remarks.collect(),
     })
@@ -204,7 +207,9 @@ impl Answer for ProgramSheet {
             );
             facts.push(Fact::new("Read", read));
         }
-        facts.push(Fact::new("Moves", moves));
+        if self.followed {
+            facts.push(Fact::new("Moves", moves));
+        }
         let lists = [("Tools", &self.tools), ("Offsets", &self.offsets)];
         let lists = lists.into_iter().filter(|(_, list)| !list.is_empty());
         facts.extend(lists.map(|(label, list)| Fact::new(label, list.join(", "))));
@@ -214,7 +219,10 @@ impl Answer for ProgramSheet {
         }
         let time =
             format!("{}, {}; {:.0} mm at feed", page::duration(self.time), self.time_terms, self.feed_length);
-        facts.push(Fact::new("Time", time));
+        if self.followed {
+            let of = if self.errors > 0 { ", of what was followed" } else { "" };
+            facts.push(Fact::new("Time", format!("{time}{of}")));
+        }
         facts.extend(self.feed_held.as_ref().map(|held| Fact::new("Feed", held.as_str())));
         facts.extend(self.remarks.iter().map(|remark| Fact::new("Remark", remark.as_str())));
         vec![Section::default().with(Block::Facts(facts))]

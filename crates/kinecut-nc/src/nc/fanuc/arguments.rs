@@ -47,7 +47,7 @@ impl Arguments {
         Arguments { level: Level::new(LOCALS, true), seen: [false; 3], set: 0 }
     }
 
-    /// Takes an argument; `false`: the letter is none.
+    /// Takes an argument; `false` for a letter that fills no variable.
     pub(in crate::nc) fn take(&mut self, letter: u8, value: f64) -> bool {
         let letter = letter.to_ascii_uppercase();
         let Some((_, mut variable)) = LETTERS.iter().find(|(l, _)| *l == letter).copied() else {

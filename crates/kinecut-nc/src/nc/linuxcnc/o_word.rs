@@ -69,7 +69,7 @@ pub(in crate::nc) struct OLines {
     programs: HashMap<String, usize>,
 }
 
-/// Where the label of an o word begins in a line: behind blanks, `/` and a block number.
+/// First byte of the label of an o word in a line: behind blanks, `/` and a block number.
 #[inline]
 pub(in crate::nc) fn label_at(line: &[u8]) -> Option<usize> {
     let mut at = 0;

@@ -102,7 +102,7 @@ impl<'s> Reader<'s> {
         if at[n].is_some() || !flat || words.iter().any(|w| !w.used && w.is(AXES[n])) {
             return self.start();
         }
-        self.from_nowhere.push(self.here.clone());
+        self.from_nowhere.push(self.place.span(&self.here));
         Ok(DVec3::from_array(at.map(|v| v.unwrap_or(f64::NAN))))
     }
 

@@ -32,7 +32,8 @@ impl<'s> Reader<'s> {
     }
 
     fn program_call(&mut self, words: &mut [Word<'s>], code: Code, bytes: &Bytes) -> Result<()> {
-        let digits = words.iter().find(|w| w.is("P")).map_or(0, |w| {
+        // Digits of a number that is written, not computed.
+        let digits = words.iter().find(|w| w.is("P") && !w.computed).map_or(0, |w| {
             let text = self.place.text().get(w.bytes.start as usize..w.bytes.end as usize).unwrap_or("");
             text.bytes().filter(u8::is_ascii_digit).count()
         });
@@ -48,7 +49,7 @@ impl<'s> Reader<'s> {
             Some(count) => times = self.count(&count, "a number of calls")?,
             // Up to four digits before the four of the program say how often (FANUC).
             None if self.dialect.flow == FlowWords::MacroB && !self.dialect.haas && digits > 4 => {
-                (times, number) = (number / 10_000, number % 10_000);
+                (times, number) = ((number / 10_000).max(1), number % 10_000);
             }
             None => {}
         }
@@ -89,7 +90,7 @@ impl<'s> Reader<'s> {
                 return Err(finding.help("write G65 first").into());
             }
             let value = word.value.unwrap_or_default();
-            let counts = !word.point && LENGTHS.iter().any(|l| word.is(l));
+            let counts = !word.point && !self.points.in_units && LENGTHS.iter().any(|l| word.is(l));
             let value =
                 if counts { value * if word.is("A") || word.is("C") { 0.001 } else { step } } else { value };
             let letter = word.name.as_bytes().first().copied().unwrap_or_default();

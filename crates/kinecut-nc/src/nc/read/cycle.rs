@@ -76,6 +76,9 @@ impl<'s> Reader<'s> {
         let unit = self.modal.length_unit;
         let lengths = |words: &mut [Word<'s>], name| take(words, name).map(|v: Value| v.value * unit);
         let (reference, bottom) = (lengths(words, "R"), lengths(words, AXES[n]));
+        let p = self.dialect.dwell_words.iter().find(|w| w.0 == "P").map_or(1.0, |w| w.1);
+        let said = take(words, "P").map(|v| v.value * p);
+        self.last_dwell = said.or(self.last_dwell);
         let sticky = &mut self.modal.sticky;
         if self.dialect.series == SeriesRule::EachBlock {
             sticky.begun = Some(z);
@@ -93,8 +96,7 @@ impl<'s> Reader<'s> {
             }
         }
         sticky.step = lengths(words, "Q").or(sticky.step);
-        let p = self.dialect.dwell_words.iter().find(|w| w.0 == "P").map_or(1.0, |w| w.1);
-        sticky.dwell = take(words, "P").map(|v| v.value * p).or(sticky.dwell);
+        sticky.dwell = said.or(sticky.dwell);
         let mut sticky = *sticky;
         if let CycleKind::Tap(_) = kind {
             self.plain_thread(sticky.step, sticky.dwell)?;
@@ -130,6 +132,8 @@ impl<'s> Reader<'s> {
                 | CycleKind::Tap(_),
                 _,
             ) => 0.0,
+            // LinuxCNC keeps P beyond the series for taps.
+            (CycleKind::Floating(_), p) => p.or(self.last_dwell).unwrap_or(0.0),
             (_, p) => p.unwrap_or(0.0),
         };
         let step = match (kind, sticky.step) {

@@ -33,8 +33,9 @@ impl Reader<'_> {
 
     /// Refuses a cycle whose spindle does not turn as it must.
     pub(super) fn turns_as_it_must(&self, kind: CycleKind) -> Result<()> {
+        let interpreter = self.dialect.series != SeriesRule::Fanuc;
         let turns = match (kind, self.modal.spindle) {
-            (CycleKind::BoreStop, Spindle::Off) => false,
+            (CycleKind::BoreStop, Spindle::Off) => !interpreter,
             (CycleKind::Floating(Hand::Right), spindle) => matches!(spindle, Spindle::Clockwise(_)),
             (CycleKind::Floating(Hand::Left), spindle) => matches!(spindle, Spindle::CounterClockwise(_)),
             _ => true,

@@ -7,8 +7,8 @@
 //! Positions that the program has not set are unknown: at the beginning, after a tool change, in Z after a change
 //! of length offset, in the axes of a move in machine coordinates, and after a change of work offset. A shift or rotation
 //! of the coordinates gives the known position in the new ones; a tilted plane or control of the tool centre point gives none.
-//! Rapid moves
-//! may leave coordinates unknown (not a number); feed moves may not.
+//! Moves may leave coordinates unknown (not a number); a feed move that starts at such a place is said, and its arc must
+//! stay at the height that is not known.
 
 mod arc;
 mod call;

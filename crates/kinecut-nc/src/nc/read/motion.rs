@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use crate::base::{Code as FindingCode, Result};
-use crate::nc::dialect::{AXES, Code, OFFSETS, TurnWord};
+use crate::nc::dialect::{AXES, Code, OFFSETS, SeriesRule, TurnWord};
 use crate::program::{Comp, Move, Path, Speed, Target, Tcp};
 
 use super::lex::{Word, WordMode};
@@ -19,6 +19,10 @@ impl<'s> Reader<'s> {
         }
         let code = self.motion_code();
         if let Some((code, code_at)) = &code {
+            let interpreter = self.dialect.series == SeriesRule::Interpreter;
+            if interpreter && matches!(code, Code::Cycle(_)) && self.modal.motion != Some(*code) {
+                self.modal.sticky.another();
+            }
             self.modal.motion = (*code != Code::NoMotion).then_some(*code);
             if !matches!(code, Code::Cycle(_)) {
                 self.modal.sticky.end();
@@ -182,7 +186,7 @@ impl<'s> Reader<'s> {
             if self.modal.comp != Comp::Off {
                 self.start()?;
             }
-            self.from_nowhere.push(self.here.clone());
+            self.from_nowhere.push(self.place.span(&self.here));
         }
         self.push_tip(end, Path::Line, speed);
         Ok(())

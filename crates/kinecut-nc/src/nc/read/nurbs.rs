@@ -25,6 +25,8 @@ const LARGEST_ORDER: u32 = 32;
 const WITHIN: f64 = 1e-5;
 /// Halvings of a span until then at most.
 const HALVINGS: u32 = 16;
+/// Most cubics of a spline.
+const MOST_CUBICS: usize = 100_000;
 
 /// A spline whose control points are being given: place [mm] and weight.
 #[derive(Clone, Debug)]
@@ -60,7 +62,7 @@ impl Nurbs {
         (p / w, (slope.truncate() - p / w * slope.z) / w)
     }
 
-    /// The curve as cubics.
+    /// The curve as cubics, [`MOST_CUBICS`] and a few at most.
     fn cubics(&self) -> Vec<[DVec2; 4]> {
         let mut cubics = Vec::new();
         for span in self.order - 1..self.points.len() {
@@ -73,6 +75,9 @@ impl Nurbs {
     }
 
     fn piece(&self, span: usize, from: f64, to: f64, halvings: u32, cubics: &mut Vec<[DVec2; 4]>) {
+        if cubics.len() > MOST_CUBICS {
+            return;
+        }
         let ((a, at_a), (b, at_b)) = (self.at(span, from), self.at(span, to));
         let third = (to - from) / 3.0;
         let cubic = [a, a + at_a * third, b - at_b * third, b];
@@ -176,7 +181,13 @@ impl<'s> Reader<'s> {
         }
         let speed = self.feed_speed()?;
         self.note("LinuxCNC runs a spline as arcs of its own choice: the spline itself is followed");
-        for cubic in nurbs.cubics() {
+        let cubics = nurbs.cubics();
+        if cubics.len() > MOST_CUBICS {
+            let finding = self.lacks(bytes, "a spline needs more cubics than are followed");
+            let finding = finding.bound(MOST_CUBICS as f64, "cubics");
+            return Err(finding.help("divide it, or give weights that are nearer to one another").into());
+        }
+        for cubic in cubics {
             self.push_cubic(cubic, speed)?;
         }
         Ok(())

@@ -45,19 +45,10 @@ impl<'s> Run<'s> {
         }
         match word {
             OWord::Program => self.ends_here(behind, end, block),
-            OWord::Sub => {
-                let end_sub = self.partner(&lines, o_line.end, &bytes)?;
-                self.at = lines.line(end_sub).after;
-                Ok(())
-            }
+            OWord::Sub => self.pass_over(&lines, own, &bytes),
             OWord::If => self.o_if(&lines, own, bytes.end as usize, end, block),
             // Reached from above: the branch that was taken ends here.
-            OWord::ElseIf | OWord::Else => {
-                let last = o_line.begin.and_then(|begin| lines.line(begin).end);
-                let last = self.partner(&lines, last, &bytes)?;
-                self.at = lines.line(last).after;
-                Ok(())
-            }
+            OWord::ElseIf | OWord::Else => self.pass_over(&lines, o_line.begin.unwrap_or(own), &bytes),
             OWord::EndIf => self.ends_here(behind, end, block),
             OWord::Do => self.ends_here(behind, end, block),
             OWord::While => self.o_while(&lines, own, &bytes, end, block),
@@ -91,11 +82,17 @@ impl<'s> Run<'s> {
         self.reader.lacks(bytes, &message)
     }
 
-    fn partner(&self, _: &Rc<OLines>, line: Option<usize>, bytes: &Bytes) -> Result<usize> {
+    fn partner(&self, line: Option<usize>, bytes: &Bytes) -> Result<usize> {
         line.ok_or_else(|| {
             let shown = self.reader.place.shown(bytes);
             self.reader.lacks(bytes, &format!("`{}` has no end of its label", shown.trim())).into()
         })
+    }
+
+    /// Goes on behind the line that ends what another one opens.
+    fn pass_over(&mut self, lines: &OLines, opening: usize, bytes: &Bytes) -> Result<()> {
+        self.at = lines.line(self.partner(lines.line(opening).end, bytes)?).after;
+        Ok(())
     }
 
     /// Nothing but a comment follows from a byte on.
@@ -111,9 +108,8 @@ impl<'s> Run<'s> {
         let mut expression = lexer.expression(from, end);
         let value = expression.bracketed()?.number();
         let stop = expression.at;
-        let bytes = range(from, stop);
+        self.reader.note_unset(&range(from, stop));
         self.ends_here(stop, end, block)?;
-        self.reader.note_unset(&bytes);
         Ok(value)
     }
 
@@ -174,11 +170,7 @@ impl<'s> Run<'s> {
             Some(begin) if goes_on => self.o_back(lines.line(begin).after, bytes),
             Some(_) => Ok(()),
             None if goes_on => Ok(()),
-            None => {
-                let last = self.partner(lines, line.end, bytes)?;
-                self.at = lines.line(last).after;
-                Ok(())
-            }
+            None => self.pass_over(lines, own, bytes),
         }
     }
 
@@ -200,9 +192,7 @@ impl<'s> Run<'s> {
             self.loops.push(Turns { line: own, left: turns as u64 });
             return Ok(());
         }
-        let last = self.partner(lines, lines.line(own).end, bytes)?;
-        self.at = lines.line(last).after;
-        Ok(())
+        self.pass_over(lines, own, bytes)
     }
 
     fn o_end_repeat(&mut self, lines: &Rc<OLines>, begin: usize, bytes: &Bytes) -> Result<()> {
@@ -221,12 +211,12 @@ impl<'s> Run<'s> {
 
     /// `break` and `continue`.
     fn o_leave(&mut self, lines: &Rc<OLines>, line: &OLine, bytes: &Bytes) -> Result<()> {
-        let begin = lines.line(self.partner(lines, line.begin, bytes)?);
+        let begin = lines.line(self.partner(line.begin, bytes)?);
         if begin.word == OWord::Repeat {
             let why = "LinuxCNC has no break or continue of a repeat";
             return Err(self.reader.place.not_understood(bytes, why).into());
         }
-        let last = lines.line(self.partner(lines, begin.end, bytes)?);
+        let last = lines.line(self.partner(begin.end, bytes)?);
         // A repeat within the loop is left with it.
         let inside = |turns: &Turns| (begin.start..last.start).contains(&lines.line(turns.line).start);
         self.loops.retain(|turns| !inside(turns));
@@ -248,6 +238,7 @@ impl<'s> Run<'s> {
             None
         };
         let stop = expression.at;
+        self.reader.note_unset(bytes);
         self.ends_here(stop, end, block)?;
         if self.frames.is_empty() {
             let what = if word == OWord::Return { "return" } else { "endsub" };
@@ -273,14 +264,13 @@ impl<'s> Run<'s> {
             count += 1;
         }
         let stop = expression.at;
+        self.reader.note_unset(bytes);
         self.ends_here(stop, end, block)?;
-        let here = self.reader.place;
-        let own = self.o_lines(here).sub(name);
-        let found = own.map(|line| (here, line));
-        let found = found.or_else(|| {
-            let beside = self.beside(name)?;
-            self.o_lines(beside).sub(name).map(|line| (beside, line))
-        });
+        let places = [Some(self.reader.place), Some(self.main), self.beside(name)];
+        let found = places
+            .into_iter()
+            .flatten()
+            .find_map(|place| self.o_lines(place).sub(name).map(|line| (place, line)));
         let Some((place, line)) = found else {
             let message =
                 format!("the subprogram `{name}` that is called is not in this file, nor beside it");

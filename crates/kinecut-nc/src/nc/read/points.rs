@@ -16,7 +16,7 @@ const LENGTHS: [u8; 7] = [b'X', b'Y', b'Z', b'I', b'J', b'K', b'R'];
 pub(super) struct Points {
     input: NumberInput,
     /// They are whole units, not least increments.
-    in_units: bool,
+    pub(super) in_units: bool,
     /// Another coordinate of the text has a point.
     mixed: bool,
     /// The first was said.

@@ -2,7 +2,7 @@
 
 use std::cell::Cell;
 
-use crate::base::{Code as FindingCode, Finding, Result, Sum};
+use crate::base::{Code as FindingCode, Finding, Result, Span, Sum};
 use crate::nc::dialect::{AXES, COMMON_G, COMMON_M, Code, Dialect, FlowWords, TurnWord};
 use crate::nc::multi_axis::ROTARY;
 use crate::nc::run::Variables;
@@ -57,6 +57,8 @@ pub(super) struct Reader<'s> {
     pub(super) parent: Option<OriginId>,
     /// Spline whose control points are being given.
     pub(super) nurbs: Option<Nurbs>,
+    /// Wait of the last cycle that has said one [s].
+    pub(super) last_dwell: Option<f64>,
     /// R of the last cycle [mm].
     pub(super) last_reference: Option<f64>,
     /// Polar coordinates (`G16`).
@@ -66,7 +68,7 @@ pub(super) struct Reader<'s> {
     /// Radius registers that the program sets [mm].
     pub(super) radii: Vec<(u32, f64)>,
     /// Feed moves that start at a place that the program has not set.
-    pub(super) from_nowhere: Vec<Bytes>,
+    pub(super) from_nowhere: Vec<Span>,
     /// The jump that the present block asks for.
     pub(super) jump: Option<Jump>,
 }
@@ -107,6 +109,7 @@ impl<'s> Reader<'s> {
             depth: 0,
             parent: None,
             nurbs: None,
+            last_dwell: None,
             last_reference: None,
             polar: None,
             stored_shift: glam::DVec3::ZERO,
@@ -126,9 +129,11 @@ impl<'s> Reader<'s> {
             let end = at as u32;
             self.warn(&(end..end), "the cutter compensation is on at the end of the program");
         }
-        if self.dialect.turn == TurnWord::Offset && !self.modal.turned.is_none() {
+        let kept = matches!(self.dialect.turn, TurnWord::Offset | TurnWord::None);
+        if kept && !self.modal.turned.is_none() {
             let end = at as u32;
-            let message = "the rotation or shift of a work offset (G10 L2 R, G52) stays beyond the program";
+            let message =
+                "the rotation or shift of a work offset (G10 L2 R, G52, G92) stays beyond the program";
             self.warn(&(end..end), message);
         }
         // What is called from here may be behind the end.
@@ -160,15 +165,22 @@ impl<'s> Reader<'s> {
     /// Says which feed moves start at a place that the program has not set.
     fn say_from_nowhere(&mut self) {
         let Some(first) = self.from_nowhere.first() else { return };
-        let mut lines: Vec<u32> =
-            self.from_nowhere.iter().map(|b| self.place.sources.line(self.place.span(b))).collect();
+        let sources = self.place.sources;
+        let mut lines: Vec<String> = self
+            .from_nowhere
+            .iter()
+            .map(|span| match span.file == self.place.file {
+                true => sources.line(*span).to_string(),
+                false => format!("{} of {}", sources.line(*span), sources.name(span.file)),
+            })
+            .collect();
         lines.dedup();
         let message = format!(
             "the program has not set the position where a feed move starts, which is not followed: line{} {}",
             if lines.len() == 1 { "" } else { "s" },
             listed(&lines)
         );
-        let finding = self.place.warning(FindingCode::UNKNOWN_START, first, message);
+        let finding = Finding::warning(FindingCode::UNKNOWN_START, message).at(sources.locate(*first));
         self.findings.push(finding.help("move all axes to a position by G0 first"));
     }
 
@@ -444,9 +456,9 @@ impl<'s> Reader<'s> {
 }
 
 /// The first lines of a list.
-fn listed(lines: &[u32]) -> String {
+fn listed(lines: &[String]) -> String {
     const MOST: usize = 10;
-    let mut shown: Vec<String> = lines.iter().take(MOST).map(u32::to_string).collect();
+    let mut shown: Vec<String> = lines.iter().take(MOST).cloned().collect();
     if lines.len() > MOST {
         shown.push(format!("and {} more", lines.len() - MOST));
     }

@@ -4,11 +4,11 @@ use std::collections::HashMap;
 use std::rc::Rc;
 
 use crate::base::{Error, FileId, Finding, Result};
-use crate::nc::dialect::FlowWords;
+use crate::nc::dialect::{Code, FlowWords};
 use crate::nc::fanuc::statement::{self, Places};
 use crate::nc::linuxcnc::o_word::{self, OLines};
 use crate::nc::run::{Budget, Level, Recurrence, mixed};
-use crate::program::{Origin, OriginId};
+use crate::program::{Comp, Origin, OriginId, Spindle};
 
 use super::called::names_of;
 use super::jump::Jump;
@@ -20,16 +20,16 @@ use super::{ReadSettings, Reading};
 /// A call that has not returned.
 #[derive(Debug)]
 pub(super) struct Frame<'s> {
-    /// Where to go on behind it: file, and first byte of a line.
+    /// Place to go on at behind the call: file, and first byte of a line.
     pub(super) back: (SourceText<'s>, usize),
     /// Local variables of the caller, where the call has its own.
     pub(super) level: Option<Level>,
     /// Loops of the caller.
     pub(super) loops: Vec<Turns>,
-    /// Calls of the same that are left, and where it begins.
+    /// Calls of the same that are left, and its first line.
     pub(super) again: u32,
     pub(super) begin: (SourceText<'s>, usize),
-    /// Local variables with which each call begins.
+    /// Local variables with which each further call begins, where they are not those that the one before has left.
     pub(super) arguments: Option<Level>,
     /// The block that calls.
     pub(super) called: Bytes,
@@ -55,7 +55,7 @@ pub(super) struct Run<'s> {
     pub(super) reader: Reader<'s>,
     /// The first byte of the next line.
     pub(super) at: usize,
-    main: SourceText<'s>,
+    pub(super) main: SourceText<'s>,
     started: bool,
     pub(super) frames: Vec<Frame<'s>>,
     pub(super) loops: Vec<Turns>,
@@ -137,7 +137,7 @@ impl<'s> Run<'s> {
         }
         self.lost = true;
         self.reader.skip_block();
-        !self.in_flow
+        !(self.in_flow || self.reader.ended)
     }
 
     /// The line that a call was made from, in an error within it.
@@ -183,7 +183,8 @@ impl<'s> Run<'s> {
                     self.statement(start, start + at, end, block)?;
                     return Ok(true);
                 }
-                if self.reader.numbered() && statement::program_number(line).is_some() {
+                let begun = self.started || self.reader.numbered();
+                if begun && statement::program_number(line).is_some() {
                     return self.next_program(start, end);
                 }
             }
@@ -284,7 +285,7 @@ impl<'s> Run<'s> {
         Some(SourceText { file, ..self.main })
     }
 
-    /// Where the program of a number begins.
+    /// First line of the program of a number.
     fn program(&mut self, number: u32, bytes: &Bytes) -> Result<(SourceText<'s>, usize)> {
         let place = self.reader.place;
         let macro_b = self.reader.dialect.flow == FlowWords::MacroB;
@@ -328,6 +329,8 @@ impl<'s> Run<'s> {
         let parent = self.reader.parent.replace(self.reader.program.add_origin(origin));
         let loops = std::mem::take(&mut self.loops);
         let back = (place, self.at);
+        // A Haas begins each further call with what the one before has left.
+        let arguments = arguments.filter(|_| !self.reader.dialect.haas);
         self.frames.push(Frame { back, level, loops, again: times - 1, begin, arguments, called, parent });
         self.go(begin);
         Ok(true)
@@ -417,16 +420,45 @@ impl Reader<'_> {
         let modal = &self.modal;
         let bits = |value: Option<f64>| value.map_or(u64::MAX, f64::to_bits);
         let rotary = modal.rotary_axes.rotaries.at;
-        let numbers =
-            modal.position.iter().chain(&rotary).chain([&modal.feed, &modal.speed]).copied().map(bits);
+        let places = modal.position.iter().chain(&rotary).copied().map(bits);
+        let shift = modal.turned.shift.to_array().map(f64::to_bits);
+        let (returned, by_value) = self.value_returned;
+        let numbers = [modal.feed, modal.speed, Some(returned), modal.tool.length.map(f64::from)].map(bits);
+        let motion = match modal.motion {
+            None => 0,
+            Some(Code::Rapid) => 1,
+            Some(Code::Feed) => 2,
+            Some(Code::Arc { ccw }) => 3 + u64::from(ccw),
+            Some(_) => 5,
+        };
+        let spindle = match modal.spindle {
+            Spindle::Off => 0,
+            Spindle::Clockwise(_) => 1,
+            Spindle::CounterClockwise(_) => 2,
+        };
+        let comp = match modal.comp {
+            Comp::Off => 0,
+            Comp::Left(register) => 1 + 2 * u64::from(register),
+            Comp::Right(register) => 2 + 2 * u64::from(register),
+        };
         let flags = u64::from(modal.absolute)
             | u64::from(modal.length_unit == 1.0) << 1
             | u64::from(modal.return_to_start) << 2
-            | u64::from(modal.motion.is_some()) << 3
+            | u64::from(by_value) << 3
             | (modal.plane as u64) << 4
-            | u64::from(modal.offset.map_or(0, |o| o.tenths())) << 8
-            | u64::from(modal.tool.id.map_or(0, |t| t.0)) << 24;
-        let all = numbers.chain([flags, bits(modal.tool.length.map(f64::from))]).enumerate();
+            | (modal.feed_mode as u64) << 8
+            | (modal.coolant as u64) << 12;
+        let words = [flags, motion, spindle, comp]
+            .into_iter()
+            .chain(
+                [modal.offset.map_or(0, |o| u32::from(o.tenths())), modal.tool.id.map_or(0, |t| t.0)]
+                    .map(u64::from),
+            )
+            .chain([
+                u64::from(modal.chosen.unwrap_or(u32::MAX)),
+                u64::from(modal.radius.unwrap_or(u32::MAX)),
+            ]);
+        let all = places.chain(shift).chain(numbers).chain(words).enumerate();
         all.fold(self.variables.state(), |state, (i, value)| state ^ mixed(i as u64 | 1 << 63, value))
     }
 }

@@ -35,10 +35,15 @@ pub struct ReadSettings {
     pub reads_on: bool,
 }
 
+impl ReadSettings {
+    /// Usual number of blocks that a program may run in loops and calls.
+    pub const BLOCKS: u64 = 20_000_000;
+}
+
 impl Default for ReadSettings {
     fn default() -> ReadSettings {
         ReadSettings {
-            blocks: 20_000_000,
+            blocks: ReadSettings::BLOCKS,
             files: Vec::new(),
             input: NumberInput::Auto,
             start: None,

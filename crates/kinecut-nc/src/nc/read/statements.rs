@@ -24,6 +24,8 @@ impl<'s> Run<'s> {
             let condition = expression.bracketed()?.is_true();
             if expression.pass("THEN") {
                 let from = expression.at;
+                self.reader.note_unset(&range(at, from));
+                let lexer = self.lexer();
                 if condition {
                     lexer.line(from, end, block)?;
                     self.block(block)?;
@@ -38,6 +40,8 @@ impl<'s> Run<'s> {
             }
             if !condition {
                 // The number of the block may be computed, which needs no value then.
+                let stop = expression.at;
+                self.reader.note_unset(&range(at, stop));
                 return Ok(());
             }
             let value = expression.value()?.number().round();
@@ -71,6 +75,7 @@ impl<'s> Run<'s> {
     }
 
     fn goes_to(&mut self, bytes: Bytes, value: f64, end: usize, block: &mut Block<'s>) -> Result<()> {
+        self.reader.note_unset(&bytes);
         self.lexer().line(bytes.end as usize, end, block)?;
         nothing_else(&self.reader, block)?;
         if !(0.0..=f64::from(u32::MAX)).contains(&value) {
@@ -101,6 +106,7 @@ impl<'s> Run<'s> {
     }
 
     fn begin(&mut self, start: usize, bytes: &Bytes, condition: bool) -> Result<()> {
+        self.reader.note_unset(bytes);
         let Some(behind) = self.places().behind_end(start) else {
             return Err(self.reader.lacks(bytes, "a loop without its END").into());
         };

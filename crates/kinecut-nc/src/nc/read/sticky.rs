@@ -15,6 +15,11 @@ pub(super) struct Sticky {
 }
 
 impl Sticky {
+    /// Another cycle of the series: LinuxCNC wants its R, Z, Q and P again, the height of the return stays.
+    pub(super) fn another(&mut self) {
+        (self.reference, self.bottom, self.step, self.dwell) = (None, None, None, None);
+    }
+
     /// Another motion code ends the series.
     pub(super) fn end(&mut self) {
         *self = Sticky::default();

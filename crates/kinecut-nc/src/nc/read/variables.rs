@@ -155,7 +155,8 @@ impl Reader<'_> {
             "_value_returned" => truth(self.value_returned.1),
             "_call_level" => number(self.depth as f64),
             "_remap_level" => number(0.0),
-            "_task" => number(0.0),
+            // A run on the machine, not its preview.
+            "_task" => number(1.0),
             "_vmajor" => number(2.9),
             "_vminor" => number(0.0),
             _ if name.starts_with("_ini[") || name.starts_with("_hal[") => Known::Unknown(SIGNAL),
@@ -297,6 +298,7 @@ impl Reader<'_> {
             3000 => {
                 let message = format!("the program stops itself with alarm {}: {}", value.number(), text());
                 let finding = self.place.error(FindingCode::NC_STATE, bytes, message.trim_end_matches(": "));
+                self.ended = true;
                 Err(finding.help("what it checks before is not fulfilled").into())
             }
             3006 => {

@@ -29,7 +29,7 @@ impl Budget {
         Err(Finding::error(Code::NC_STATE, message)
             .value(self.run as f64, "blocks")
             .bound(self.blocks as f64, "blocks")
-            .help("end the loop, or allow more blocks"))
+            .help("end the loop, or allow more: --blocks, in a job `blocks`"))
     }
 
     /// Checks the depth of a further call.

@@ -1,8 +1,8 @@
-//! What an expression asks of the control: the values of its variables.
+//! Variables as an expression reads them.
 
 use super::Value;
 
-/// What is known of a variable.
+/// A variable, as far as its value is known.
 #[derive(Clone, Debug, PartialEq)]
 pub(in crate::nc) enum Known {
     Value(Value),

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use super::super::file::ProgramTable;
 use crate::base::bounded::{MAX_LENGTH, length};
 use crate::base::{Code, FileKind, Finding, Loader, Result};
-use crate::nc::{self, Control, NumberInput};
+use crate::nc::{self, Control, NumberInput, ReadSettings};
 use crate::operations::tool_of;
 use crate::tool::{Tool, ToolNumber};
 
@@ -28,6 +28,8 @@ pub struct JobProgram {
     pub radii: Vec<(u32, f64)>,
     /// Meaning of coordinates without a decimal point (FANUC).
     pub input: NumberInput,
+    /// Most blocks that it may run in loops and calls.
+    pub blocks: u64,
     /// Place of the tip before the program moves it, in coordinates of the work offset [mm].
     pub start: Option<[f64; 3]>,
     /// Words of its text that told the control, where nobody said it.
@@ -49,6 +51,7 @@ impl JobProgram {
             lengths: Vec::new(),
             radii: Vec::new(),
             input: NumberInput::Auto,
+            blocks: ReadSettings::BLOCKS,
             start: None,
             detected: None,
             beside: Vec::new(),
@@ -126,6 +129,7 @@ pub(super) fn program(
     let bytes = loader.read_as(&t.file, FileKind::Program).map_err(|e| e.under("file"))?;
     let mut program = JobProgram::new(t.file.clone(), &bytes, control);
     program.input = t.input;
+    program.blocks = t.blocks.unwrap_or(program.blocks);
     if let Some(start) = t.start {
         for value in start {
             length("start", value, -MAX_LENGTH, MAX_LENGTH)?;

@@ -21,6 +21,8 @@ use crate::trace::{RegisterState, Trace, TraceOptions, trace};
 pub(crate) struct Followed {
     /// Blocks that are wrong or not understood, those of one kind as one.
     pub(crate) errors: Vec<Finding>,
+    /// Whether the program, or the part of it that was read, could be followed.
+    pub(crate) followed: bool,
     /// The program as read.
     pub(crate) reading: Reading,
     /// Its motion.
@@ -77,13 +79,8 @@ pub(crate) fn follow(
         files.push((called.name.clone(), sources.add(&called.file, Arc::clone(&called.text))));
     }
     let reads_on = errors == Errors::GoOn;
-    let settings = ReadSettings {
-        files,
-        input: program.input,
-        start: program.start,
-        reads_on,
-        ..ReadSettings::default()
-    };
+    let settings =
+        ReadSettings { files, input: program.input, start: program.start, blocks: program.blocks, reads_on };
     let mut reading = nc::read_source(&sources, file, program.control, &clamping, &settings)?;
     let mut assumed = Vec::new();
     if missing == Missing::StoodFor {
@@ -121,10 +118,15 @@ pub(crate) fn follow(
         radii: &radii,
         comp_start: program.control.comp_start(),
     };
+    let mut followed = true;
     let mut trace = match trace(read, &options) {
         Ok(trace) => trace,
-        // A part of a program need not make sense alone: what is wrong with the whole is said.
-        Err(_) if !reading.errors.is_empty() => return Err(reading.errors.swap_remove(0).into()),
+        // A part of a program need not make sense alone: nothing of it is followed, and that is said beside the rest.
+        Err(error) if !reading.errors.is_empty() => {
+            followed = false;
+            reading.errors.push(*at_block(error, program, &lines).0);
+            Trace::default()
+        }
         Err(error) => return Err(at_block(error, program, &lines)),
     };
     let errors = grouped(std::mem::take(&mut reading.errors));
@@ -178,7 +180,7 @@ pub(crate) fn follow(
         .into_iter()
         .map(|note| Unfollowed { line: note.place.map(|p| p.line).filter(|l| *l > 0), what: note.message })
         .collect();
-    Ok(Followed { errors, trace, lines, findings, unfollowed, magazine, radii, reading, sources })
+    Ok(Followed { errors, followed, trace, lines, findings, unfollowed, magazine, radii, reading, sources })
 }
 
 /// The place of an item in a file: of one that another file says, the call that led there.

@@ -50,6 +50,8 @@ pub struct ProgramWants {
     pub step: Option<f64>,
     /// Meaning of coordinates without a decimal point (FANUC); default: that of the job, otherwise as the program suggests.
     pub input: Option<NumberInput>,
+    /// Most blocks that it may run in loops and calls; default: that of the job, otherwise 20 million.
+    pub blocks: Option<u64>,
     /// Place of the tip before the program moves it, in coordinates of the work offset [mm].
     pub start: Option<[f64; 3]>,
     /// Files beside the program with programs that it calls: names and bytes, in its folder.
@@ -211,6 +213,7 @@ pub fn given_with_job(
         file: program.name.to_owned(),
         control: Some(control.name().to_owned()),
         input: wants.input.or(own.as_ref().map(|p| p.input)).unwrap_or_default(),
+        blocks: wants.blocks.or(own.as_ref().and_then(|p| p.blocks)),
         start: wants.start.or(own.as_ref().and_then(|p| p.start)),
         tool: wants.tool.or(own.as_ref().and_then(|p| p.tool)),
         registers: own.map(|p| p.registers).unwrap_or_default(),
@@ -283,6 +286,7 @@ pub fn given_alone(program: GivenFile<'_>, wants: &ProgramWants, needs_stock: bo
                 file: program.name.to_owned(),
                 tool: wants.tool,
                 input: wants.input.unwrap_or_default(),
+                blocks: wants.blocks,
                 start: wants.start,
                 ..ProgramTable::default()
             })

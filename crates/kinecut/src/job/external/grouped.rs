@@ -17,6 +17,8 @@ pub(crate) fn grouped(errors: Vec<Finding>) -> Vec<Finding> {
         };
         let room = groups.len() < KINDS;
         match groups.iter_mut().find(same) {
+            // A block of a loop is wrong in each turn.
+            Some((_, lines)) if lines.contains(&line) => {}
             Some((_, lines)) => lines.push(line),
             None if room => groups.push((error, vec![line])),
             None => more += 1,
@@ -54,7 +56,7 @@ mod tests {
             let place = Location { line, ..Location::whole_file("a.nc") };
             Finding::error(Code::NC_WORD, message).at(place)
         };
-        let all = grouped(vec![at("a", 2), at("b", 3), at("a", 4), at("a", 9)]);
+        let all = grouped(vec![at("a", 2), at("b", 3), at("a", 4), at("a", 4), at("a", 9)]);
         let said: Vec<&str> = all.iter().map(|f| f.message.as_str()).collect();
         assert_eq!(said, ["a (3 times: lines 2, 4, 9)", "b"]);
         let many = grouped((0..100).map(|i| at(&i.to_string(), i)).collect());

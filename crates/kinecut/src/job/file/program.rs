@@ -20,6 +20,9 @@ pub struct ProgramTable {
     /// "least-increment" (0.001 mm or degrees, 0.0001 in); default "auto": whole units where no coordinate has a point.
     #[serde(default)]
     pub input: NumberInput,
+    /// Most blocks that the program may run in loops and calls; default: 20 million.
+    #[serde(default)]
+    pub blocks: Option<u64>,
     /// Place of the tip before the program moves it, in coordinates of the setup's work offset, mm; default: not known.
     #[serde(default)]
     pub start: Option<[f64; 3]>,
