@@ -165,6 +165,9 @@ pub(crate) struct ProgramOf {
     /// Most blocks that the program may run in loops and calls; default: 20 million
     #[arg(long, value_name = "N")]
     blocks: Option<u64>,
+    /// Folder with subprograms that it calls, as seen from the folder of the program; can be given several times
+    #[arg(long, value_name = "FOLDER")]
+    subprograms: Vec<String>,
     /// Place of the tip before the program moves it, in coordinates of the work offset, mm
     #[arg(long, value_name = "X,Y,Z", value_parser = triple, allow_hyphen_values = true)]
     start: Option<[f64; 3]>,
@@ -192,6 +195,7 @@ impl ProgramOf {
             control: control.cloned(),
             input: self.input.map(Input::of),
             blocks: self.blocks,
+            subprograms: self.subprograms.clone(),
             start: self.start,
             beside: self.beside(control, &bytes),
             stock: stock.map(RawStock::given).transpose()?,
@@ -223,7 +227,7 @@ impl ProgramOf {
             Some(folder) => format!("{folder}{}{file}", if folder.ends_with(['/', '\\']) { "" } else { "/" }),
             None => file,
         };
-        let called = subprograms(&name, &text, control, &loader);
+        let called = subprograms(&name, &text, control, &self.subprograms, &loader);
         called.into_iter().map(|called| (named(called.file), called.text.as_bytes().to_vec())).collect()
     }
 }

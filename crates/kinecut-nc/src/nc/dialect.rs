@@ -233,6 +233,28 @@ pub(super) enum Mismatch {
     Grbl,
 }
 
+impl Mismatch {
+    /// Largest difference of the radii at start and end of an arc that the control takes [mm].
+    pub(super) fn bound(self, start: f64, end: f64, inch: bool) -> f64 {
+        /// Differences that GRBL always takes, and never [mm].
+        const GRBL_LEAST: f64 = 0.005;
+        const GRBL_MOST: f64 = 0.5;
+        match self {
+            Mismatch::Constant(bound) => bound,
+            Mismatch::Ngc => {
+                let t = 2.0 * std::f64::consts::SQRT_2 * if inch { 0.0254 } else { 0.01 };
+                t.max((1e-3 * start.max(end)).min(100.0 * t))
+            }
+            Mismatch::Grbl => GRBL_LEAST.max((1e-3 * start).min(GRBL_MOST)),
+        }
+    }
+
+    /// Whether the control keeps the centre and lets the radius change evenly along the arc (LinuxCNC).
+    pub(super) fn keeps_centre(self) -> bool {
+        matches!(self, Mismatch::Ngc)
+    }
+}
+
 /// Effect of a G or M code, or of a word without a number.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Code {
@@ -345,6 +367,16 @@ pub(super) enum Code {
     Flood,
     CoolantOff,
     Stop(StopKind),
+    /// `G43.1`, and `G43.2` which adds: a length as a number (LinuxCNC).
+    LengthByNumber {
+        add: bool,
+    },
+    /// `G41.1` and `G42.1`: a compensation with its diameter as a number (LinuxCNC).
+    CompByNumber {
+        left: bool,
+    },
+    /// `M19`: the spindle stops at an angle.
+    Orientation,
     /// Moves no axis and changes no coordinate; the text says what it does.
     Harmless(&'static str),
 }
@@ -457,8 +489,8 @@ impl Code {
             Code::CentreAbsolute(_) => 4,
             Code::FeedPerMinute | Code::FeedPerRevolution | Code::InverseTime => 5,
             Code::Units { .. } => 6,
-            Code::CompOff | Code::Comp { .. } => 7,
-            Code::LengthOn | Code::LengthOff | Code::TipControl { .. } => 8,
+            Code::CompOff | Code::Comp { .. } | Code::CompByNumber { .. } => 7,
+            Code::LengthOn | Code::LengthOff | Code::LengthByNumber { .. } | Code::TipControl { .. } => 8,
             Code::ReturnToStart(_) => 10,
             Code::Work(_) => 12,
             Code::ExactStop | Code::ExactPath | Code::Continuous | Code::Rounded => 13,
@@ -473,7 +505,9 @@ impl Code {
             Code::Stop(_) | Code::CallProgram | Code::CallBlock | Code::Return => 21,
             Code::ToolChange => 22,
             Code::SurfaceSpeed => 26,
-            Code::SpindleClockwise | Code::SpindleCounterClockwise | Code::SpindleOff => 23,
+            Code::SpindleClockwise | Code::SpindleCounterClockwise | Code::SpindleOff | Code::Orientation => {
+                23
+            }
             Code::Mist | Code::Flood | Code::CoolantOff | Code::Rigid | Code::Harmless(_) => return None,
         })
     }

@@ -10,6 +10,7 @@
 //! block is rounded from the exact curve, increments are taken from the rounded start).
 
 mod arc_fit;
+mod arc_spiral;
 mod comment;
 mod control;
 mod detect;

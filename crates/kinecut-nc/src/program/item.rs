@@ -3,7 +3,9 @@
 use glam::DVec3;
 
 use super::frame_index::FrameIndex;
-use super::{Cycle, CycleStep, Frame, FrameId, Origin, OriginId, Setup, Speed, State, StateId, ToolNumber};
+use super::{
+    ControlData, Cycle, CycleStep, Frame, FrameId, Origin, OriginId, Setup, Speed, State, StateId, ToolNumber,
+};
 use crate::base::{Code, CountBound, Span, Sum};
 use crate::geom::{Arc, CubicSpan, Curve, CurveKind, InvoluteRecord, Line, Rise, Spiral};
 
@@ -163,6 +165,8 @@ pub enum Item<'a> {
     Text(&'a str),
     /// A message to the operator, which the control shows while it runs on; empty takes the one before away.
     Message(&'a str),
+    /// Data that the program sets at the control.
+    Data(ControlData),
 }
 
 /// Kind of an item, and where its values are.
@@ -177,6 +181,7 @@ enum Slot {
     Stop(StopKind),
     Text(u32),
     Message(u32),
+    Data(u32),
 }
 
 /// A tool with the registers of its length and radius.
@@ -207,6 +212,7 @@ pub struct Items {
     dwells: Vec<f64>,
     cycles: Vec<(Cycle, Vec<CycleStep>)>,
     texts: Vec<String>,
+    data: Vec<ControlData>,
 }
 
 impl Items {
@@ -237,6 +243,7 @@ impl Items {
             Slot::Stop(kind) => Item::Stop(kind),
             Slot::Text(i) => Item::Text(&self.texts[i as usize]),
             Slot::Message(i) => Item::Message(&self.texts[i as usize]),
+            Slot::Data(i) => Item::Data(self.data[i as usize]),
         }
     }
 
@@ -444,6 +451,13 @@ impl Program {
     pub fn push_message(&mut self, text: impl Into<String>, state: &State, origin: Origin) {
         self.items.texts.push(text.into());
         let slot = Slot::Message(self.items.texts.len() as u32 - 1);
+        self.push(slot, state, origin);
+    }
+
+    /// Appends data that the program sets at the control.
+    pub fn push_data(&mut self, data: ControlData, state: &State, origin: Origin) {
+        self.items.data.push(data);
+        let slot = Slot::Data(self.items.data.len() as u32 - 1);
         self.push(slot, state, origin);
     }
 

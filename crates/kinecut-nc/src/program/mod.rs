@@ -4,6 +4,7 @@
 //! under, the frame its points are in, and where it came from. Curves are exact.
 
 mod cycle;
+mod data;
 mod deep_hole;
 mod frame;
 mod frame_index;
@@ -16,6 +17,7 @@ mod tapping;
 
 pub use crate::tool::ToolNumber;
 pub use cycle::{Cycle, CycleStep};
+pub use data::{ControlData, OWN_REGISTERS};
 pub use deep_hole::{Between, DeepHole, Shortening};
 pub use frame::{Frame, FrameId, RotarySolution, WorkOffset};
 pub use item::{AxisPositions, Item, Items, Move, Path, Program, StopKind, Target, ToolAxis};

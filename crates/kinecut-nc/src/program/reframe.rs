@@ -7,7 +7,8 @@
 use glam::{DMat3, DVec2, DVec3};
 
 use super::{
-    Cycle, Frame, FrameId, Item, Move, Origin, Path, Program, RotarySolution, Target, ToolAxis, WorkOffset,
+    ControlData, Cycle, Frame, FrameId, Item, Move, Origin, Path, Program, RotarySolution, Target, ToolAxis,
+    WorkOffset,
 };
 use crate::base::{Code, Finding, Result};
 use crate::geom::Rigid;
@@ -179,6 +180,12 @@ impl Program {
                 Item::Stop(kind) => new.push_stop(kind, &state, origin),
                 Item::Text(text) => new.push_text(text, &state, origin),
                 Item::Message(text) => new.push_message(text, &state, origin),
+                Item::Data(data) => {
+                    if let ControlData::Here { .. } = data {
+                        place.at = DVec3::NAN;
+                    }
+                    new.push_data(data, &state, origin);
+                }
             }
         }
         Ok(new)

@@ -14,8 +14,8 @@ use crate::base::{Code, Finding, Result};
 use crate::geom::{Curve, Line, Rigid};
 use crate::machine::Machine;
 use crate::program::{
-    AxisPositions, Comp, CycleStep, Frame, FrameId, Item, Move, Program, Setup, SetupId, Speed, State,
-    Target, Tcp, ToolAxis, ToolNumber, moved,
+    AxisPositions, Comp, ControlData, CycleStep, Frame, FrameId, Item, Move, Program, Setup, SetupId, Speed,
+    State, Target, Tcp, ToolAxis, ToolNumber, moved,
 };
 use crate::tool::Tool;
 
@@ -174,8 +174,28 @@ impl<'a> Follow<'a> {
                 self.stands(index, StandKind::Stop(kind), state);
                 Ok(())
             }
+            Item::Data(ControlData::Here { place, .. }) => self.given(index, place, state),
+            Item::Data(ControlData::Lift { .. }) => {
+                self.tip[2] = None;
+                Ok(())
+            }
             _ => Ok(()),
         }
+    }
+
+    /// The place of the tip gets coordinates.
+    fn given(&mut self, index: usize, place: [Option<f64>; 3], state: &State) -> Result<()> {
+        let frame = self.frame(state.frame, index, state)?;
+        if frame.rotation == glam::DMat3::IDENTITY {
+            for axis in 0..3 {
+                if let Some(value) = place[axis] {
+                    self.tip[axis] = Some(value + frame.translation[axis]);
+                }
+            }
+        } else if let [Some(x), Some(y), Some(z)] = place {
+            self.tip = frame.point(DVec3::new(x, y, z)).to_array().map(Some);
+        }
+        Ok(())
     }
 
     /// Notes that the tool rests here, if its place is known.

@@ -46,7 +46,7 @@ class Kinecut:
         done = self.run(["--json", "check", path, "--control", control])
         return answer(done)
 
-    def post(self, path, to="linuxcnc", control="linuxcnc", decimals=6):
+    def post(self, path, to="linuxcnc", control="linuxcnc", decimals=6, folders=(), machine=None):
         """The text that it writes again, and what it found."""
         path = pathlib.Path(path)
         if self.binary in ("same", "altered"):
@@ -55,7 +55,10 @@ class Kinecut:
         with tempfile.TemporaryDirectory() as folder:
             out = pathlib.Path(folder) / "post.ngc"
             arguments = ["--json", "post", path, "--from", control, "--to", to, "--decimals", decimals, "-o", out]
-            found = answer(self.run(arguments + (["--tools", self.tools] if self.tools else [])))
+            arguments += ["--tools", self.tools] if self.tools else []
+            arguments += [word for folder in folders for word in ("--subprograms", folder)]
+            arguments += ["--machine", machine, "--position", "0,0,0"] if machine else []
+            found = answer(self.run(arguments))
             if not out.exists():
                 raise Refused("no text came out")
             return out.read_text(errors="replace"), found

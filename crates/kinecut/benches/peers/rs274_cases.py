@@ -23,6 +23,10 @@ import kinecut_reads  # noqa: E402
 import rs274_oracle  # noqa: E402
 
 
+# Machine of a program that turns an axis.
+ROTARY = "mill4_xyza"
+
+
 def motions(printed):
     """Moves of a canonical output as text, however zero is written."""
     zero = re.compile(r"-(0[.]0+)(?=[^0-9]|$)")
@@ -50,7 +54,14 @@ def canonical(case, folder, oracle, kinecut):
     if error or moves and motions(oracle.printed) != motions(expected):
         return "no oracle", f"{error[0]} | {error[1]}" if error else "this interpreter moves otherwise than the suite expects", moves
     try:
-        posted, found = kinecut.post(program)
+        path = re.search(r"(?m)^\s*SUBROUTINE_PATH\s*=\s*(.+?)\s*$", ini or "")
+        folders = path[1].split(":") if path else ()
+        try:
+            posted, found = kinecut.post(program, folders=folders)
+        except kinecut_reads.Refused as why:
+            if "no machine with rotary axes" not in str(why):
+                raise
+            posted, found = kinecut.post(program, folders=folders, machine=ROTARY)
     except kinecut_reads.Refused as why:
         return "refused", str(why), moves
     again = oracle.run(posted, table=table, ini=ini, beside=folder)

@@ -250,6 +250,11 @@ class Frame:
         c, s = math.cos(self.angle), math.sin(self.angle)
         return tuple(a + b + t for a, b, t in zip((c * x - s * y, s * x + c * y, z), self.g5x, self.tool))
 
+    def program(self, q):
+        x, y, z = (a - b - t for a, b, t in zip(q, self.g5x, self.tool))
+        c, s = math.cos(self.angle), math.sin(self.angle)
+        return tuple(a - b for a, b in zip((c * x + s * y, c * y - s * x, z), self.g92))
+
 
 class Line:
     def __init__(self, a, b):
@@ -303,7 +308,7 @@ def merged(printed, exact):
     if not any(name == "NURBS_FEED" for name, _ in calls) and len(moves) != coarse:
         return [{"kind": "split", "text": f"rs274 has {coarse} moves, gcode {len(moves)}"}]
     events, frame, point, next_fine, axes = [], Frame(), (0.0, 0.0, 0.0), 0, PLANES["XY"]
-    before = point
+    before, there = point, point
     state = {"tool": 0, "turn": 0, "rpm": 0.0, "surface": 0.0, "flood": 0, "mist": 0, "per_turn": False, "rate": 0.0, "path": "", "line": 0}
 
     def event(kind, **more):
@@ -354,7 +359,8 @@ def merged(printed, exact):
                         break
                     group.append(take(name))
                 for index, w in group:
-                    start = frame.machine(point)
+                    # A change of offsets moves no axis: the place in the program changes.
+                    start, point = there, frame.program(there)
                     speed = state["rate"] * (state["rpm"] if state["per_turn"] else 1)
                     if name == "ARC_FEED":
                         i, j, k = axes
@@ -369,7 +375,8 @@ def merged(printed, exact):
                     kind = {"STRAIGHT_TRAVERSE": "rapid", "RIGID_TAP": "tap", "STRAIGHT_PROBE": "probe"}.get(name, "feed")
                     event(kind, piece=piece, speed=speed, spline=name == "NURBS_FEED", rotary=tuple(w[3:6]) if len(w) == 9 else ())
                     if name == "RIGID_TAP":
-                        point = before
+                        point = frame.program(start)
+                    there = frame.machine(point)
                 before = point
             elif name == "DWELL":
                 event("dwell", seconds=v[0])

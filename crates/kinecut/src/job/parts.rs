@@ -43,7 +43,7 @@ pub fn parts(file: &JobFile, loader: &dyn Loader) -> Result<Vec<Subject>> {
         let control = Control::parse(program.control.as_deref().unwrap_or(&file.post.control))?;
         let text =
             JobProgram::new(&*program.file, &loader.read_as(&program.file, FileKind::Program)?, control).text;
-        for called in subprograms(&program.file, &text, control, loader) {
+        for called in subprograms(&program.file, &text, control, &program.subprograms, loader) {
             let subject = bytes("external program", &called.file)?;
             if !parts.contains(&subject) {
                 parts.push(subject);

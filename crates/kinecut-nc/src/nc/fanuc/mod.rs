@@ -117,6 +117,7 @@ pub(super) const DIALECT: Dialect = Dialect {
         (90, Code::Harmless("exact stop in the block")),
         (150, Code::Polar { on: false }),
         (160, Code::Polar { on: true }),
+        (100, Code::SetData),
         (520, Code::LocalShift),
         (680, Code::Rotation { on: true }),
         (690, Code::Rotation { on: false }),

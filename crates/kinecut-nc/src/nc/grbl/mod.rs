@@ -71,6 +71,7 @@ pub(super) const DIALECT: Dialect = Dialect {
     long_addresses: false,
     round_comments: true,
     g_codes: &[
+        (100, Code::SetData),
         (200, Code::Units { inch: true, feeds: true }),
         (280, Code::Reference),
         (210, Code::Units { inch: false, feeds: true }),

@@ -27,6 +27,7 @@ pub(super) const DIALECT: Dialect = Dialect {
     turn: TurnWord::None,
     axes: MultiAxis { rotary: Some((["A", "B", "C"], 6)), ..MultiAxis::NONE },
     g_codes: &[
+        (100, Code::SetData),
         (50, Code::Cubic),
         (51, Code::Quadratic),
         (200, Code::Units { inch: true, feeds: true }),

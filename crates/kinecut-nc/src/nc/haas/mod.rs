@@ -26,6 +26,7 @@ pub(super) const DIALECT: Dialect = Dialect {
     involute: None,
     axes: MultiAxis { rotary: Some((["A", "B", "C"], 3)), ..MultiAxis::NONE },
     g_codes: &[
+        (100, Code::SetData),
         (520, Code::LocalShift),
         (680, Code::Rotation { on: true }),
         (690, Code::Rotation { on: false }),

@@ -96,6 +96,10 @@ pub(super) const DIALECT: Dialect = Dialect {
         (280, Code::Reference),
         (210, Code::Units { inch: false, feeds: true }),
         (430, Code::LengthOn),
+        (431, Code::LengthByNumber { add: false }),
+        (432, Code::LengthByNumber { add: true }),
+        (411, Code::CompByNumber { left: true }),
+        (421, Code::CompByNumber { left: false }),
         (490, Code::LengthOff),
         (610, Code::ExactPath),
         (640, Code::Continuous),
@@ -123,6 +127,7 @@ pub(super) const DIALECT: Dialect = Dialect {
         (990, Code::ReturnToStart(false)),
     ],
     m_codes: &[
+        (19, Code::Orientation),
         (48, Code::Harmless("overrides on")),
         (49, Code::Harmless("overrides off")),
         (98, Code::CallProgram),

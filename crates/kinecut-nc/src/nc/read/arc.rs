@@ -1,14 +1,13 @@
 //! Arcs, helices and involutes: exact curves through both end points of a block.
 
-use std::f64::consts::SQRT_2;
-
 use glam::{DVec2, DVec3};
 
 use crate::base::{Code as FindingCode, Finding, Result};
-use crate::geom::InvoluteRecord;
+use crate::geom::{InvoluteRecord, Rise, Spiral};
 use crate::nc::arc_fit::pieces;
+use crate::nc::arc_spiral::{APPARENT, spiral};
 use crate::nc::dialect::{AXES, Mismatch, OFFSETS, Plane};
-use crate::program::Path;
+use crate::program::{Comp, Path};
 
 use super::lex::Word;
 use super::place::Bytes;
@@ -22,10 +21,6 @@ const FULL_CIRCLE: f64 = 1e-6;
 const SHORT_RADIUS: f64 = 0.00127;
 /// Radius that LinuxCNC takes for zero [mm]: 0.00005 in.
 const ZERO_RADIUS: f64 = 0.00127;
-/// Differences of radius that GRBL always takes, and never [mm].
-const GRBL_LEAST: f64 = 0.005;
-/// See [`GRBL_LEAST`].
-const GRBL_MOST: f64 = 0.5;
 /// Largest distance between the involutes through start and end of a block [mm]: MD21015 at its default.
 const INVOLUTE_DIFFERENCE: f64 = 0.01;
 
@@ -63,6 +58,11 @@ impl<'s> Reader<'s> {
                 (centre, if apart <= FULL_CIRCLE * (from - centre).length() { from } else { to })
             }
         };
+        if let Some(spiral) = self.spiral_of(from, to, centre, ccw, turns) {
+            let rise = if said[n].is_some() { end[n] - start[n] } else { 0.0 };
+            self.push_tip(said, Path::Spiral { spiral, rise: Rise::even(rise) }, speed);
+            return Ok(());
+        }
         let parts = pieces(from, to, centre, ccw, turns);
         if parts.len() > 1 && self.modal.rotary_axes.turns_next() {
             return Err(self.lacks(&self.here, "rotary axes turn on an arc of whole turns").into());
@@ -92,6 +92,18 @@ impl<'s> Reader<'s> {
             self.push_tip(stop, Path::Arc { centre: middle, axis, sweep: part.sweep, rise }, speed);
         }
         Ok(())
+    }
+
+    /// The spiral that a control runs which keeps the centre of an arc that is not round.
+    fn spiral_of(&self, from: DVec2, to: DVec2, centre: DVec2, ccw: bool, turns: u32) -> Option<Spiral> {
+        let difference = ((from - centre).length() - (to - centre).length()).abs();
+        let plain = self.modal.plane == Plane::Xy
+            && self.modal.comp == Comp::Off
+            && !self.modal.rotary_axes.turns_next();
+        if !(self.dialect.mismatch.keeps_centre() && plain && difference > APPARENT && from != to) {
+            return None;
+        }
+        spiral(from, to, centre, ccw, turns).ok()
     }
 
     /// The start of an arc: in its plane it is known, and off it unless the arc stays there.
@@ -161,14 +173,7 @@ impl<'s> Reader<'s> {
     fn check(&mut self, from: DVec2, to: DVec2, centre: DVec2) -> Result<()> {
         let (r1, r2) = ((from - centre).length(), (to - centre).length());
         let difference = (r1 - r2).abs();
-        let bound = match self.dialect.mismatch {
-            Mismatch::Constant(bound) => bound,
-            Mismatch::Ngc => {
-                let t = 2.0 * SQRT_2 * if self.modal.length_unit == 1.0 { 0.01 } else { 0.0254 };
-                t.max((1e-3 * r1.max(r2)).min(100.0 * t))
-            }
-            Mismatch::Grbl => GRBL_LEAST.max((1e-3 * r1).min(GRBL_MOST)),
-        };
+        let bound = self.dialect.mismatch.bound(r1, r2, self.modal.length_unit != 1.0);
         if difference > bound {
             let message = format!(
                 "the start of an arc is {r1:.5} mm from its centre, the end {r2:.5} mm: the difference is too large"

@@ -30,7 +30,8 @@ impl<'s> Reader<'s> {
             Code::Units { .. } | Code::ToolChange => true,
             Code::Plane(plane) => plane != Plane::Xy,
             Code::MachineFrame | Code::Reference | Code::Work(_) | Code::LengthOn | Code::LengthOff => !off,
-            Code::TipControl { .. } | Code::Transformation { on: true } => !off,
+            Code::LengthByNumber { .. } | Code::TipControl { .. } => !off,
+            Code::Transformation { on: true } => !off,
             Code::Tilt | Code::TiltByTool | Code::Orient => true,
             Code::Rotation { .. }
             | Code::LocalShift
@@ -58,11 +59,16 @@ impl<'s> Reader<'s> {
 
     /// Executes G40, G41, G42 and D.
     pub(super) fn compensation(&mut self, words: &mut [Word<'s>], before: &Before) -> Result<()> {
-        let code = self.code(|c| matches!(c, Code::CompOff | Code::Comp { .. }));
+        let code = self.code(|c| matches!(c, Code::CompOff | Code::Comp { .. } | Code::CompByNumber { .. }));
         let stays = !matches!(code, Some((Code::CompOff, _)));
         if stays && before.comp != Comp::Off && before.length != self.modal.tool.length {
             return Err(self.while_on(&self.here).into());
         }
+        let own = match &code {
+            Some((Code::CompByNumber { left }, bytes)) => Some(self.own_radius(words, *left, bytes)?),
+            _ => None,
+        };
+        let code = code.map(|(code, bytes)| (own.map_or(code, |(_, left)| Code::Comp { left }), bytes));
         let on = matches!(code, Some((Code::Comp { .. }, _)));
         let takes = match self.dialect.comp {
             CompWord::Register => on,
@@ -76,7 +82,7 @@ impl<'s> Reader<'s> {
             }
             self.modal.radius = Some(register);
         } else if on && self.dialect.comp == CompWord::Register {
-            self.modal.radius = None;
+            self.modal.radius = own.map(|(register, _)| register);
         }
         let Some((code, bytes)) = code else { return Ok(()) };
         let Code::Comp { left } = code else {
@@ -144,7 +150,11 @@ impl<'s> Reader<'s> {
         let Some(turned) = self.modal.comp_turned.take() else { return Ok(()) };
         match self.switch(&first, parts, before, is_on) {
             None => Ok(()),
-            Some((what, help)) => Err(self.no_compensation(&turned, &what).help(help).into()),
+            Some((what, help)) => {
+                let line = self.place.sources.line(self.place.span(&turned));
+                let help = format!("{help}; it is switched in line {line}");
+                Err(self.no_compensation(&self.here, &what).help(help).into())
+            }
         }
     }
 
@@ -172,19 +182,22 @@ impl<'s> Reader<'s> {
             );
             return Some((what, "move there before the compensation is switched"));
         }
-        if !point.truncate().is_finite() || Some(point.x) == x && Some(point.y) == y {
+        let fault = self.not_straight(first, parts, is_on);
+        if fault.is_none() && (!point.truncate().is_finite() || Some(point.x) == x && Some(point.y) == y) {
             let what = "the first move after a switch of the compensation does not move in the plane";
             return Some((what.to_owned(), help));
         }
-        // LinuxCNC enters on an arc too, and leaves by a straight move (`convert_arc`, `convert_arc_comp1`).
+        fault.map(|what| (what.to_owned(), help))
+    }
+
+    /// The fault of a first move that is not straight: LinuxCNC enters on an arc too, and leaves by a straight move (`convert_arc`,
+    /// `convert_arc_comp1`).
+    fn not_straight(&self, first: &Move, parts: usize, is_on: bool) -> Option<&'static str> {
         let enters_on_arcs = is_on && self.dialect.comp == CompWord::Register;
         match first.path {
             Path::Line => None,
             Path::Arc { axis, .. } if enters_on_arcs && axis == DVec3::Z && parts == 1 => None,
-            _ => Some((
-                "the first move after a switch of the compensation is not straight in the plane".to_owned(),
-                help,
-            )),
+            _ => Some("the first move after a switch of the compensation is not straight in the plane"),
         }
     }
 }

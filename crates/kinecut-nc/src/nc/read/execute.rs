@@ -44,6 +44,7 @@ impl<'s> Reader<'s> {
             self.hand_change()?;
         }
         self.spindle_and_coolant();
+        self.orientation(words)?;
         if let Some((_, bytes)) = &dwell {
             self.dwell(bytes, words)?;
         }
@@ -216,6 +217,11 @@ impl<'s> Reader<'s> {
         }
         self.modal.tool.id = Some(ToolNumber(number));
         self.modal.rotary_axes.lapsed = false;
+        // A length that was given as a number stays in force.
+        if self.lift != 0.0 {
+            let length = std::mem::take(&mut self.lift);
+            self.modal.tool.length = Some(self.own_length(length));
+        }
         if let Some(register) = self.dialect.register_after_change {
             self.modal.tool.length = Some(register);
         }
@@ -287,7 +293,13 @@ impl<'s> Reader<'s> {
             // There is no length to switch: the zero of Z was set with the tool.
             return Ok(());
         } else {
-            match self.code(|c| matches!(c, Code::LengthOn | Code::LengthOff | Code::TipControl { .. })) {
+            let of_length = |c: Code| {
+                matches!(
+                    c,
+                    Code::LengthOn | Code::LengthOff | Code::LengthByNumber { .. } | Code::TipControl { .. }
+                )
+            };
+            match self.code(of_length) {
                 Some((code @ (Code::LengthOn | Code::TipControl { .. }), bytes)) => {
                     let register = match take(words, "H") {
                         Some(register) => self.count(&register, "a register")?,
@@ -306,7 +318,11 @@ impl<'s> Reader<'s> {
                         _ => self.tip_control_ends(true),
                     }
                 }
+                Some((Code::LengthByNumber { add }, bytes)) => self.length_by_number(words, add, &bytes)?,
                 Some(_) => {
+                    if self.lift != 0.0 {
+                        self.lifted(0.0);
+                    }
                     self.modal.tool.length = None;
                     self.tip_control_ends(false);
                 }
@@ -339,10 +355,14 @@ impl<'s> Reader<'s> {
         }
         // These controls begin in G54.
         let begins = before.is_none() && offset == WorkOffset::G54 && !self.dialect.long_addresses;
+        let machine = self.machine_place_in(before);
         if !begins {
             self.modal.position = [None; 3];
         }
         self.set_frame();
+        if !begins && self.modal.rotary_axes.plane.is_none() && self.modal.rotary_axes.tcp == Tcp::Off {
+            self.modal.position = self.place_of(machine);
+        }
         let has = |i: usize| self.program.setups.get(i).is_some_and(|s| s.work_offsets.contains_key(&offset));
         let now = self.modal.setup.0 as usize;
         let count = self.program.setups.len();

@@ -11,12 +11,14 @@
 //! stay at the height that is not known.
 
 mod arc;
+mod by_number;
 mod call;
 mod called;
 mod calls;
 mod comp;
 mod cubic;
 mod cycle;
+mod data;
 mod execute;
 mod hole;
 mod jump;
@@ -27,6 +29,7 @@ mod motion;
 pub(super) mod number;
 mod nurbs;
 mod o_lines;
+mod orientation;
 mod path_mode;
 pub(super) mod place;
 mod plane;
@@ -45,6 +48,7 @@ mod tap;
 mod turn;
 mod turned;
 mod variables;
+mod zeros;
 
 use crate::base::{Code, FileId, Finding, Result, Sources};
 use crate::program::{Item, Program, Setup, Tcp};

@@ -116,6 +116,10 @@ impl<'s> Reader<'s> {
         let mut end = self.modal.position;
         for axis in 0..3 {
             let Some((word, way)) = take_way(words, AXES[axis]) else { continue };
+            if self.modal.turned.adrift[axis] {
+                let message = "the coordinates that this axis had before G92 are not known to the program";
+                return Err(self.lacks(&word.bytes, message).help("begin with a known place").into());
+            }
             let value = word.value * self.modal.length_unit;
             let absolute = match way {
                 WordMode::Plain => self.modal.absolute,
@@ -239,9 +243,13 @@ impl<'s> Reader<'s> {
                 .into());
         }
         let mut joints = [None; 6];
+        let mut machine = self.machine_place();
         for axis in 0..3 {
             if let Some(word) = take(words, AXES[axis]) {
                 joints[axis] = Some(word.value * self.modal.length_unit);
+                // With a length it is the spindle that is there, not the tip.
+                let is_tip = axis < 2 || self.modal.tool.length.is_none() && self.lift == 0.0;
+                machine[axis] = joints[axis].filter(|_| is_tip);
                 self.modal.position[axis] = None;
             }
         }
@@ -257,6 +265,12 @@ impl<'s> Reader<'s> {
         }
         if self.modal.turned.is_turned() && (joints[0].is_some() || joints[1].is_some()) {
             self.modal.position = [None, None, self.modal.position[2]];
+        }
+        if !tilted && self.modal.rotary_axes.rotaries.at.iter().all(|a| a.is_none_or(|a| a == 0.0)) {
+            let place = self.place_of(machine);
+            for (known, place) in self.modal.position.iter_mut().zip(place) {
+                *known = known.or(place);
+            }
         }
         if self.dialect.suspends_length && joints[2].is_some() && self.modal.tool.length.is_some() {
             let finding = self.lacks(

@@ -253,7 +253,11 @@ impl<'s> Run<'s> {
         let mut expression = lexer.expression(bytes.end as usize, end);
         let mut level = Level::new(ARGUMENTS, false);
         let mut count = 0;
-        while expression.pass("[") {
+        loop {
+            expression.pass_comments()?;
+            if !expression.pass("[") {
+                break;
+            }
             expression.at -= 1;
             let value = expression.bracketed()?.number();
             let Some(place) = level.locals.get_mut(count) else {

@@ -67,6 +67,10 @@ pub(super) struct Reader<'s> {
     pub(super) stored_shift: glam::DVec3,
     /// Radius registers that the program sets [mm].
     pub(super) radii: Vec<(u32, f64)>,
+    /// Lengths of tools that the program sets [mm].
+    pub(super) lengths_set: Vec<(u32, f64)>,
+    /// Length in force without a tool that the program has called [mm].
+    pub(super) lift: f64,
     /// Feed moves that start at a place that the program has not set.
     pub(super) from_nowhere: Vec<Span>,
     /// The jump that the present block asks for.
@@ -114,6 +118,8 @@ impl<'s> Reader<'s> {
             polar: None,
             stored_shift: glam::DVec3::ZERO,
             radii: Vec::new(),
+            lengths_set: Vec::new(),
+            lift: 0.0,
             from_nowhere: Vec::new(),
             jump: None,
         }

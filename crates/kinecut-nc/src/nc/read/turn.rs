@@ -11,7 +11,7 @@
 //!   further `G68` is read about the same centre only, where it cannot mean two things. `R` in `G91` counts from the angle
 //!   in force where parameter 5400 RIN says so: it is read where none is in force.
 //! - LinuxCNC: `G10 L2 P R` turns a work offset about its zero and stays beyond the program; `G52` shifts in the turned
-//!   coordinates. Other data of `G10` are set up, not programmed: refused.
+//!   coordinates. `G10` is next door.
 
 use glam::{DVec2, DVec3};
 
@@ -94,7 +94,7 @@ impl<'s> Reader<'s> {
             Some((plane, _)) => plane,
             None => self.program.add_frame(Frame::Work(offset)),
         };
-        let motion = self.modal.turned.motion(self.dialect.turn, offset);
+        let motion = self.modal.turned.motion_of(self.dialect.turn, offset);
         let before = std::mem::replace(&mut self.modal.turned.motion, motion);
         self.modal.frame = match motion == Rigid::IDENTITY {
             true => parent,
@@ -172,41 +172,6 @@ impl<'s> Reader<'s> {
         Ok(())
     }
 
-    /// `G10 L2 P R`.
-    fn set_data(&mut self, words: &mut [Word<'s>], bytes: &Bytes) -> Result<()> {
-        let what = take(words, "L");
-        if what.is_none_or(|l| l.value != 2.0) {
-            let why = "of G10 only the rotation of a work offset (L2 P R) is read";
-            return Err(self.place.not_understood(bytes, why).into());
-        }
-        if self.has_axis(words) {
-            let why = "the zero of a work offset is set up by the job, not by the program (G10 L2 X Y Z)";
-            return Err(self.place.not_understood(bytes, why).into());
-        }
-        let Some(number) = take(words, "P") else {
-            return Err(self.lacks(bytes, "G10 L2 without the work offset P").into());
-        };
-        let in_force = self.modal.offset.unwrap_or(WorkOffset::G54);
-        let offset = match self.count(&number, "a work offset")? {
-            0 => Some(in_force),
-            n @ 1..=6 => WorkOffset::from_tenths(530 + 10 * n),
-            n @ 7..=9 => WorkOffset::from_tenths(584 + n),
-            _ => None,
-        };
-        let Some(offset) = offset else {
-            return Err(self.place.malformed(&number.bytes, "work offsets are P0 to P9").into());
-        };
-        let Some(angle) = take(words, "R") else {
-            return Err(self.lacks(bytes, "G10 L2 without an axis or a rotation").into());
-        };
-        let offsets = &mut self.modal.turned.offsets;
-        match offsets.iter_mut().find(|o| o.0 == offset) {
-            Some(found) => found.1 = angle.value,
-            None => offsets.push((offset, angle.value)),
-        }
-        Ok(())
-    }
-
     fn frame_shift(&mut self, words: &mut [Word<'s>], add: bool, bytes: &Bytes) -> Result<()> {
         self.alone(bytes)?;
         let named = self.lengths(words);
@@ -260,7 +225,7 @@ impl<'s> Reader<'s> {
     }
 
     /// The lengths that a block names [mm].
-    fn lengths(&self, words: &mut [Word<'s>]) -> [Option<f64>; 3] {
+    pub(super) fn lengths(&self, words: &mut [Word<'s>]) -> [Option<f64>; 3] {
         AXES.map(|axis| take(words, axis).map(|v| v.value * self.modal.length_unit))
     }
 }

@@ -7,6 +7,8 @@ use crate::nc::dialect::TurnWord;
 use crate::nc::turn;
 use crate::program::WorkOffset;
 
+use super::zeros::Zeros;
+
 /// Shifts and turns of the coordinates; mm, degrees.
 #[derive(Clone, Debug)]
 pub(super) struct Turned {
@@ -17,6 +19,11 @@ pub(super) struct Turned {
     pub(super) centre: DVec2,
     /// Rotation of each work offset (LinuxCNC).
     pub(super) offsets: Vec<(WorkOffset, f64)>,
+    /// Zeros of the work offsets that the program has set.
+    pub(super) zeros: Zeros,
+    /// Axes whose coordinates were given to a place that was not known, and of which those were taken back.
+    pub(super) given: [bool; 3],
+    pub(super) adrift: [bool; 3],
     /// Maps the coordinates into the work offset.
     pub(super) motion: Rigid,
     /// Axes in which an increment has two meanings.
@@ -30,6 +37,9 @@ impl Default for Turned {
             degrees: 0.0,
             centre: DVec2::ZERO,
             offsets: Vec::new(),
+            zeros: Zeros::default(),
+            given: [false; 3],
+            adrift: [false; 3],
             motion: Rigid::IDENTITY,
             fresh: [false; 3],
         }
@@ -47,7 +57,13 @@ impl Turned {
         self.motion == Rigid::IDENTITY && self.offsets.iter().all(|o| o.1 == 0.0)
     }
 
-    pub(super) fn motion(&self, word: TurnWord, offset: WorkOffset) -> Rigid {
+    /// Maps coordinates into the work offset as the setup has it.
+    pub(super) fn motion_of(&self, word: TurnWord, offset: WorkOffset) -> Rigid {
+        let motion = self.within(word, offset);
+        Rigid { translation: motion.translation + self.zeros.shift(offset), ..motion }
+    }
+
+    fn within(&self, word: TurnWord, offset: WorkOffset) -> Rigid {
         match word {
             TurnWord::Offset => turn::motion(word, self.shift, self.of(offset)),
             TurnWord::Local if self.degrees != 0.0 && self.centre != DVec2::ZERO => {
@@ -56,6 +72,14 @@ impl Turned {
                 Rigid { rotation, translation: self.shift + centre - rotation * centre }
             }
             _ => turn::motion(word, self.shift, self.degrees),
+        }
+    }
+
+    /// Turns a work offset [deg].
+    pub(super) fn turn_offset(&mut self, offset: WorkOffset, degrees: f64) {
+        match self.offsets.iter_mut().find(|o| o.0 == offset) {
+            Some(found) => found.1 = degrees,
+            None => self.offsets.push((offset, degrees)),
         }
     }
 

@@ -66,6 +66,18 @@ impl<'a, 's> Expression<'a, 's> {
         true
     }
 
+    /// Passes comments in round brackets.
+    pub(in crate::nc) fn pass_comments(&mut self) -> Result<()> {
+        while self.peek() == Some(b'(') {
+            let Some(length) = self.bytes[self.at..self.end].iter().position(|b| *b == b')') else {
+                let bytes = self.at as u32..self.end as u32;
+                return Err(self.place.malformed(&bytes, "this comment is not closed").into());
+            };
+            self.at += length + 1;
+        }
+        Ok(())
+    }
+
     /// From a byte to where reading is.
     fn since(&self, from: usize) -> Bytes {
         from as u32..self.at.max(from + 1).min(self.end.max(from + 1)) as u32

@@ -224,7 +224,7 @@ impl Writer<'_> {
         Ok((centre.length() * angle).hypot(way[normal]) * self.grid.unit())
     }
 
-    fn arc_block(
+    pub(super) fn arc_block(
         &mut self,
         plane: Plane,
         word: &'static str,

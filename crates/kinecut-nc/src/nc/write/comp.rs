@@ -7,6 +7,7 @@ use glam::DVec3;
 
 use crate::base::{Code, Finding, Result};
 use crate::nc::dialect::{CompWord, Plane};
+use crate::nc::grid::plain;
 use crate::program::{Comp, Move, Path, State};
 
 use super::{Writer, unsupported};
@@ -94,7 +95,10 @@ impl Writer<'_> {
             CompWord::Register | CompWord::ModalRegister if register == 0 => {
                 Err(refused("D0 is no radius register").value(0.0, "").bound(1.0, "").into())
             }
-            CompWord::Register | CompWord::ModalRegister => Ok(format!("{word} D{register}")),
+            CompWord::Register | CompWord::ModalRegister => Ok(match self.own_register(register)? {
+                Some(radius) => format!("{word}.1 D{}", plain(2.0 * radius)),
+                None => format!("{word} D{register}"),
+            }),
         }
     }
 

@@ -9,6 +9,7 @@ mod call;
 mod comp;
 mod cubic;
 mod cycle;
+mod data;
 mod involute;
 mod klartext;
 mod moves;
@@ -111,6 +112,7 @@ pub fn write(program: &Program, tools: &[Tool], settings: &PostSettings) -> Resu
         parameters_used: false,
         turns_kept: false,
         beyond_turn: false,
+        own_registers: Vec::new(),
         shares: None,
     };
     if writer.klartext() {
@@ -203,6 +205,8 @@ struct Writer<'a> {
     turns_kept: bool,
     /// A rotary axis was written beyond a whole turn.
     beyond_turn: bool,
+    /// Lengths and radii that the program gives as numbers [mm].
+    own_registers: Vec<(u32, f64)>,
     /// Parts of a move in inverse time.
     shares: Option<shares::Shares>,
 }
@@ -334,6 +338,7 @@ impl Writer<'_> {
                 self.message(text);
                 Ok(())
             }
+            Item::Data(data) => self.control_data(&data, &state),
         }
     }
 
@@ -367,21 +372,23 @@ impl Writer<'_> {
             self.tool = Some(id);
             self.place = ToolPosition::default();
             self.modal.forget();
-            self.length_word(length);
+            self.length_word(length)?;
         } else if self.length != length || self.length_suspended {
             if self.dialect.axes.tcp == TcpWord::Length {
                 self.tcp_off()?;
             }
-            self.length_word(length);
+            self.length_word(length)?;
         }
         Ok(())
     }
 
     /// Calls a length register; heights are then another, so the next move names its Z.
-    fn length_word(&mut self, length: Option<u32>) {
-        let word = match length {
-            Some(register) => format!("{}{register}", self.dialect.length_on),
-            None => self.dialect.length_off.to_owned(),
+    fn length_word(&mut self, length: Option<u32>) -> Result<()> {
+        let own = length.map_or(Ok(None), |register| self.own_register(register))?;
+        let word = match (length, own) {
+            (_, Some(number)) => format!("G43.1 Z{}", super::grid::plain(number)),
+            (Some(register), None) => format!("{}{register}", self.dialect.length_on),
+            (None, None) => self.dialect.length_off.to_owned(),
         };
         if self.dialect.length_with_z {
             self.length_pending = Some(word);
@@ -396,6 +403,7 @@ impl Writer<'_> {
         self.length = length;
         self.length_suspended = false;
         self.forget_axis(2);
+        Ok(())
     }
 
     fn forget_axis(&mut self, axis: usize) {

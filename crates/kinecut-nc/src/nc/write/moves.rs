@@ -135,7 +135,7 @@ impl Writer<'_> {
     fn prepare(&mut self, state: &State) -> Result<()> {
         if self.length_suspended {
             let length = self.length;
-            self.length_word(length);
+            self.length_word(length)?;
         }
         self.state(state, true)
     }
@@ -214,6 +214,9 @@ impl Writer<'_> {
                 self.cubics(&record.into(), point, state.speed)
             }
             Path::Involute { record, rise } => self.involute(&record, rise, point, state.speed),
+            Path::Spiral { spiral, rise } if self.spiral_as_arc(&spiral, &rise, point, state.speed)? => {
+                Ok(())
+            }
             Path::Spiral { spiral, rise } if self.takes_cubics(rise.is_even(), point)? => {
                 self.cubics(&spiral.into(), point, state.speed)
             }

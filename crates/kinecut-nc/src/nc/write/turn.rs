@@ -451,7 +451,7 @@ impl Writer<'_> {
 }
 
 /// The number of a work offset in `G10 L2 P`: G54 is 1, G59.3 is 9.
-fn number(offset: WorkOffset) -> u16 {
+pub(super) fn number(offset: WorkOffset) -> u16 {
     match offset.tenths() {
         tenths @ ..=590 => (tenths - 530) / 10,
         tenths => tenths - 584,

@@ -70,8 +70,15 @@ pub struct Subprogram {
     pub text: Arc<str>,
 }
 
-/// Files beside a program that hold what it calls, and what those call; one that is not there is missed where it is called.
-pub fn subprograms(file: &str, text: &str, control: Control, loader: &dyn Loader) -> Vec<Subprogram> {
+/// Files that hold what a program calls, and what those call: beside it, and then in `folders`, which are seen from its own. One
+/// that is not there is missed where it is called.
+pub fn subprograms(
+    file: &str,
+    text: &str,
+    control: Control,
+    folders: &[String],
+    loader: &dyn Loader,
+) -> Vec<Subprogram> {
     let (folder, own) = match file.rfind(['/', '\\']) {
         Some(at) => file.split_at(at + 1),
         None => ("", file),
@@ -84,15 +91,19 @@ pub fn subprograms(file: &str, text: &str, control: Control, loader: &dyn Loader
     while next < asked.len() && next < MOST_CALLED {
         let names = asked[next].clone();
         next += 1;
-        let candidates = names.iter().flat_map(|name| endings.iter().map(move |ending| (name, ending)));
-        let there = candidates.filter(|(name, _)| !name.contains(['/', '\\'])).find_map(|(name, ending)| {
-            let file = if ending.is_empty() {
-                format!("{folder}{name}")
-            } else {
-                format!("{folder}{name}.{ending}")
+        let folders = std::iter::once(folder.to_owned()).chain(folders.iter().map(|of| within(folder, of)));
+        let names: Vec<&String> = names.iter().filter(|name| !name.contains(['/', '\\'])).collect();
+        let mut candidates = folders.flat_map(|folder| {
+            let named = names.iter().flat_map(|name| endings.iter().map(move |ending| (*name, *ending)));
+            named.map(|(name, ending)| (folder.clone(), name.clone(), ending)).collect::<Vec<_>>()
+        });
+        let there = candidates.find_map(|(folder, name, ending)| {
+            let file = match ending {
+                "" => format!("{folder}{name}"),
+                _ => format!("{folder}{name}.{ending}"),
             };
             let bytes = loader.read_as(&file, FileKind::Program).ok()?;
-            Some(Subprogram { name: name.clone(), file, text: text_of(&bytes).0 })
+            Some(Subprogram { name, file, text: text_of(&bytes).0 })
         });
         let Some(there) = there else { continue };
         for further in nc::called(&there.text, control) {
@@ -103,6 +114,12 @@ pub fn subprograms(file: &str, text: &str, control: Control, loader: &dyn Loader
         found.push(there);
     }
     found
+}
+
+/// A folder as seen from another, with a stroke at its end.
+fn within(folder: &str, of: &str) -> String {
+    let own = if of.starts_with(['/', '\\']) { of.to_owned() } else { format!("{folder}{of}") };
+    if own.ends_with(['/', '\\']) { own } else { format!("{own}/") }
 }
 
 /// Most programs that one program and what it calls may call in files of their own.
@@ -136,7 +153,7 @@ pub(super) fn program(
         }
         program.start = Some(start);
     }
-    program.beside = subprograms(&program.file, &program.text, control, loader);
+    program.beside = subprograms(&program.file, &program.text, control, &t.subprograms, loader);
     if let Some(number) = t.tool {
         program.in_spindle = Some(tool_of(number, tools)?.number);
     }

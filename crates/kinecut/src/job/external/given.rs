@@ -52,6 +52,8 @@ pub struct ProgramWants {
     pub input: Option<NumberInput>,
     /// Most blocks that it may run in loops and calls; default: that of the job, otherwise 20 million.
     pub blocks: Option<u64>,
+    /// Folders with programs that it calls, as seen from its own; default: those of the job.
+    pub subprograms: Vec<String>,
     /// Place of the tip before the program moves it, in coordinates of the work offset [mm].
     pub start: Option<[f64; 3]>,
     /// Files beside the program with programs that it calls: names and bytes, in its folder.
@@ -214,6 +216,10 @@ pub fn given_with_job(
         control: Some(control.name().to_owned()),
         input: wants.input.or(own.as_ref().map(|p| p.input)).unwrap_or_default(),
         blocks: wants.blocks.or(own.as_ref().and_then(|p| p.blocks)),
+        subprograms: match wants.subprograms.is_empty() {
+            true => own.as_ref().map(|p| p.subprograms.clone()).unwrap_or_default(),
+            false => wants.subprograms.clone(),
+        },
         start: wants.start.or(own.as_ref().and_then(|p| p.start)),
         tool: wants.tool.or(own.as_ref().and_then(|p| p.tool)),
         registers: own.map(|p| p.registers).unwrap_or_default(),
@@ -287,6 +293,7 @@ pub fn given_alone(program: GivenFile<'_>, wants: &ProgramWants, needs_stock: bo
                 tool: wants.tool,
                 input: wants.input.unwrap_or_default(),
                 blocks: wants.blocks,
+                subprograms: wants.subprograms.clone(),
                 start: wants.start,
                 ..ProgramTable::default()
             })

@@ -23,6 +23,9 @@ pub struct ProgramTable {
     /// Most blocks that the program may run in loops and calls; default: 20 million.
     #[serde(default)]
     pub blocks: Option<u64>,
+    /// Folders with subprograms that it calls, as seen from the folder of the program, which is looked through first.
+    #[serde(default)]
+    pub subprograms: Vec<String>,
     /// Place of the tip before the program moves it, in coordinates of the setup's work offset, mm; default: not known.
     #[serde(default)]
     pub start: Option<[f64; 3]>,

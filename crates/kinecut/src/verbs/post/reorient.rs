@@ -132,6 +132,7 @@ impl<'a> Walk<'a> {
             Item::Stop(kind) => self.made.push_stop(kind, &state, origin),
             Item::Text(text) => self.made.push_text(text, &state, origin),
             Item::Message(text) => self.made.push_message(text, &state, origin),
+            Item::Data(data) => self.made.push_data(data, &state, origin),
         }
         self.of.push(index as u32);
         Ok(())

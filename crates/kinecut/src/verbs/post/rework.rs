@@ -83,6 +83,7 @@ pub(crate) fn rework(source: &Program, radii: &[(u32, f64)], from: Control, to: 
             Item::Stop(kind) => program.push_stop(kind, &state, origin),
             Item::Text(text) => program.push_text(text, &state, origin),
             Item::Message(text) => program.push_message(text, &state, origin),
+            Item::Data(data) => program.push_data(data, &state, origin),
         }
     }
     done.program = program;

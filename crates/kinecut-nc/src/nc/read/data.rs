@@ -1,0 +1,291 @@
+//! `G10`: data of the control that a program sets, and the machine coordinates that are known from it.
+//!
+//! - `L2 P`: machine coordinates of the zero of a work offset. The first of an axis tells where in the machine the zero of the setup is
+//!   taken to be, which is said; another one later shifts the coordinates. On FANUC `G91` adds to the zero, and `P0` is the
+//!   offset that is added to all; on LinuxCNC and GRBL `P0` is the work offset in force, `G91` changes nothing, and LinuxCNC turns the
+//!   offset by `R`.
+//! - `L20 P` (LinuxCNC, GRBL): the zero is put where the present place gets the coordinates that are said.
+//! - `L1 P` (LinuxCNC), `L10 P` and `L12 P` (FANUC): length and radius in the tool table. A radius counts from there on; the first length
+//!   is taken to be that of the tool, another one later is refused, and so are lengths that the control finds from the present place.
+//!
+//! Once the zero of a work offset is known in the machine, so is the place behind a move in machine coordinates, and the
+//! place in another work offset whose zero is known.
+
+use glam::DVec3;
+
+use crate::base::{Code as FindingCode, Finding, Result};
+use crate::nc::dialect::{AXES, FlowWords, TurnWord};
+use crate::nc::multi_axis::ROTARY;
+use crate::program::{ControlData, Item, Program, Speed, WorkOffset, moved};
+
+use super::lex::Word;
+use super::place::Bytes;
+use super::reader::{Kind, Reader, Value, take};
+use super::zeros::vector;
+
+impl<'s> Reader<'s> {
+    /// Executes `G10`.
+    pub(super) fn set_data(&mut self, words: &mut [Word<'s>], bytes: &Bytes) -> Result<()> {
+        let Some(kind) = take(words, "L") else {
+            return Err(self.lacks(bytes, "G10 without L").help("program L2 to set a work offset").into());
+        };
+        let fanuc = self.dialect.flow == FlowWords::MacroB;
+        let number = self.count(&kind, "L")?;
+        match number {
+            2 => self.set_zero(words, bytes),
+            20 if !fanuc => self.set_zero_here(words, bytes),
+            10 | 12 if fanuc => self.set_register(words, number == 10, bytes),
+            1 if self.dialect.turn == TurnWord::Offset => self.set_tool(words, bytes),
+            _ => {
+                let why = "of G10 only work offsets and the tool table are read (L2, L20; L1; on FANUC L2, L10, L12)";
+                Err(self.place.not_understood(&kind.bytes, why).into())
+            }
+        }
+    }
+
+    /// `G10 L2 P X Y Z R`.
+    fn set_zero(&mut self, words: &mut [Word<'s>], bytes: &Bytes) -> Result<()> {
+        let offset = self.offset_of(words, bytes)?;
+        let named = self.lengths(words);
+        self.no_turned_zero(words)?;
+        let angle = match self.dialect.turn {
+            TurnWord::Offset => take(words, "R"),
+            _ => None,
+        };
+        if named == [None; 3] && angle.is_none() {
+            return Err(self.lacks(bytes, "G10 L2 without an axis or a rotation").into());
+        }
+        if let (Some(angle), Some(offset)) = (angle, offset) {
+            self.modal.turned.turn_offset(offset, angle.value);
+        }
+        if !self.modal.absolute && self.dialect.flow == FlowWords::MacroB {
+            let zero = self.modal.turned.zeros.of_mut(offset);
+            zero.shift += DVec3::from_array(named.map(|v| v.unwrap_or(0.0)));
+            return Ok(());
+        }
+        let first: Vec<usize> = (0..3)
+            .filter(|axis| named[*axis].is_some())
+            .filter(|axis| self.modal.turned.zeros.of(offset).is_none_or(|z| z.first[*axis].is_none()))
+            .collect();
+        if !first.is_empty() && moves_in(&self.program, offset) {
+            let which = offset.map_or("all work offsets".to_owned(), |o| o.to_string());
+            let message =
+                format!("the zero of {which} changes after moves in it, by how much the machine alone knows");
+            let finding = self.lacks(bytes, &message);
+            return Err(finding.help("set it before the first move").into());
+        }
+        let zero = self.modal.turned.zeros.of_mut(offset);
+        let mut place = [None; 3];
+        for axis in 0..3 {
+            let Some(value) = named[axis] else { continue };
+            match zero.first[axis] {
+                None => {
+                    zero.first[axis] = Some(value - zero.shift[axis]);
+                    place[axis] = zero.first[axis];
+                }
+                Some(first) => zero.shift[axis] = value - first,
+            }
+        }
+        if place != [None; 3] {
+            let in_force = offset.is_none() || offset == self.modal.offset.or(Some(WorkOffset::G54));
+            for axis in first.into_iter().filter(|_| in_force) {
+                self.modal.position[axis] = None;
+            }
+            self.data(ControlData::Zero { offset, place });
+            let message = "the program sets the zero of a work offset in machine coordinates (G10 L2): the setup is taken to have it there";
+            self.assume(bytes, message);
+        }
+        Ok(())
+    }
+
+    /// `G10 L20 P X Y Z`.
+    fn set_zero_here(&mut self, words: &mut [Word<'s>], bytes: &Bytes) -> Result<()> {
+        let offset = self.offset_of(words, bytes)?.unwrap_or(WorkOffset::G54);
+        let named = self.lengths(words);
+        self.no_turned_zero(words)?;
+        if named == [None; 3] {
+            return Err(self.lacks(bytes, "G10 L20 without an axis").into());
+        }
+        let own = offset == self.modal.offset.unwrap_or(WorkOffset::G54);
+        if own && self.unknown_axes(named) {
+            self.gets_coordinates(Some(offset), named, bytes)?;
+        }
+        let turned = &self.modal.turned;
+        // In the coordinates of its own zero, or of the machine.
+        let (zero, here) = match own {
+            true => (DVec3::ZERO, moved(&turned.motion, vector(self.modal.position))),
+            false => (vector(turned.zeros.first(offset)), vector(self.machine_place())),
+        };
+        let motion = turned.motion_of(self.dialect.turn, offset);
+        let before = moved(&motion.inverse(), here - zero);
+        let wanted = DVec3::from_array([0, 1, 2].map(|i| named[i].unwrap_or(before[i])));
+        let step = moved(&motion, before) - moved(&motion, wanted);
+        let askew = motion.rotation != glam::DMat3::IDENTITY;
+        for axis in 0..3 {
+            let counts = named[axis].is_some() || askew && axis < 2;
+            if counts && step[axis].is_nan() {
+                let message =
+                    format!("G10 L20 sets the zero of {offset} from a place that is not known in it");
+                let finding = self.lacks(bytes, &message);
+                return Err(finding.help("set the zeros of both work offsets first (G10 L2)").into());
+            }
+            if counts {
+                self.modal.turned.zeros.of_mut(Some(offset)).shift[axis] += step[axis];
+            }
+        }
+        Ok(())
+    }
+
+    /// `G10 L1 P Z R`: a line of LinuxCNC's tool table.
+    fn set_tool(&mut self, words: &mut [Word<'s>], bytes: &Bytes) -> Result<()> {
+        let Some(tool) = take(words, "P") else {
+            return Err(self.lacks(bytes, "G10 L1 without the tool P").into());
+        };
+        let number = self.count(&tool, "a tool number")?;
+        for axis in [AXES[0], AXES[1]] {
+            if let Some(word) = take(words, axis).filter(|w| w.value != 0.0) {
+                let why = "a tool that is offset across its axis is not followed";
+                return Err(self.place.not_understood(&word.bytes, why).into());
+            }
+        }
+        let unit = self.modal.length_unit;
+        if let Some(radius) = take(words, "R") {
+            self.radius_is(number, radius.value * unit);
+        }
+        match take(words, AXES[2]) {
+            Some(length) => self.length_is(number, length.value * unit, bytes),
+            None => Ok(()),
+        }
+    }
+
+    /// `G10 L10 P R` and `G10 L12 P R`: registers of lengths and radii.
+    fn set_register(&mut self, words: &mut [Word<'s>], length: bool, bytes: &Bytes) -> Result<()> {
+        let (Some(number), Some(value)) = (take(words, "P"), take(words, "R")) else {
+            return Err(self
+                .lacks(bytes, "a register of the tool table needs its number P and its value R")
+                .into());
+        };
+        if !self.modal.absolute {
+            let finding =
+                self.lacks(bytes, "an increment of a register (G91), which the machine alone knows");
+            return Err(finding.help("program G90").into());
+        }
+        let (number, value) = (self.count(&number, "a register")?, value.value * self.modal.length_unit);
+        if length {
+            return self.length_is(number, value, bytes);
+        }
+        self.radius_is(number, value);
+        Ok(())
+    }
+
+    /// A radius that the program sets [mm].
+    pub(super) fn radius_is(&mut self, register: u32, radius: f64) {
+        self.radii.retain(|r| r.0 != register);
+        self.radii.push((register, radius));
+        self.data(ControlData::Radius { register, radius });
+    }
+
+    /// A length that the program sets [mm].
+    fn length_is(&mut self, register: u32, length: f64, bytes: &Bytes) -> Result<()> {
+        match self.lengths_set.iter().find(|l| l.0 == register) {
+            Some((_, before)) if *before != length => {
+                let message = format!("the length of {register} changes, which is not followed");
+                Err(self.lacks(bytes, &message).value_mm(length).help("set it once").into())
+            }
+            Some(_) => Ok(()),
+            None => {
+                self.lengths_set.push((register, length));
+                self.data(ControlData::Length { register, length });
+                self.assume(
+                    bytes,
+                    "the program sets the length of a tool (G10): it is taken to be that of the tool",
+                );
+                Ok(())
+            }
+        }
+    }
+
+    /// The work offset of P; none is what is added to all of them.
+    fn offset_of(&self, words: &mut [Word<'s>], bytes: &Bytes) -> Result<Option<WorkOffset>> {
+        let Some(number) = take(words, "P") else {
+            return Err(self.lacks(bytes, "G10 without the work offset P").into());
+        };
+        let fanuc = self.dialect.flow == FlowWords::MacroB;
+        let found = match self.count(&number, "a work offset")? {
+            0 if fanuc => return Ok(None),
+            0 => Some(self.modal.offset.unwrap_or(WorkOffset::G54)),
+            n @ 1..=6 => WorkOffset::from_tenths(530 + 10 * n),
+            n @ 7..=9 if !fanuc => WorkOffset::from_tenths(584 + n),
+            _ => None,
+        };
+        let most = if fanuc { 6 } else { 9 };
+        found.filter(|o| (self.dialect.has_offset)(*o)).map(Some).ok_or_else(|| {
+            let finding =
+                self.place.malformed(&number.bytes, "the number of the work offset is out of range");
+            finding.value(number.value, "").bound(f64::from(most), "").into()
+        })
+    }
+
+    /// Refuses the zero of a rotary axis that is not zero.
+    fn no_turned_zero(&self, words: &mut [Word<'s>]) -> Result<()> {
+        if self.dialect.axes.rotary.is_none() {
+            return Ok(());
+        }
+        let turned: Option<Value> = ROTARY.iter().filter_map(|r| take(words, r)).find(|v| v.value != 0.0);
+        match turned {
+            Some(word) => {
+                let why = "a work offset that turns the zero of a rotary axis is not followed";
+                Err(self.place.not_understood(&word.bytes, why).into())
+            }
+            None => Ok(()),
+        }
+    }
+
+    /// Appends data of the control.
+    pub(super) fn data(&mut self, data: ControlData) {
+        self.flush(Kind::Other);
+        self.program.push_data(data, &self.state(Speed::Rapid { linear: false }), self.origin);
+    }
+
+    /// Says what is assumed, once.
+    pub(super) fn assume(&mut self, bytes: &Bytes, message: &str) {
+        if self.findings.iter().all(|f| f.message != message) {
+            let place = self.place.sources.locate(self.place.span(bytes));
+            let finding = Finding::warning(FindingCode::NC_ASSUMED, message).at(place);
+            self.findings.push(finding.help("compare it with the setup"));
+        }
+    }
+
+    /// Machine coordinates of the place, where the zero of the work offset in force is known there [mm].
+    pub(super) fn machine_place(&self) -> [Option<f64>; 3] {
+        self.machine_place_in(self.modal.offset)
+    }
+
+    /// Those of the place in the coordinates of a work offset.
+    pub(super) fn machine_place_in(&self, offset: Option<WorkOffset>) -> [Option<f64>; 3] {
+        let offset = offset.unwrap_or(WorkOffset::G54);
+        let zero = vector(self.modal.turned.zeros.first(offset));
+        let here = zero + moved(&self.modal.turned.motion, vector(self.modal.position));
+        here.to_array().map(|v| Some(v).filter(|v| !v.is_nan()))
+    }
+
+    /// The place in the coordinates in force of a place in the machine, where that is known [mm].
+    pub(super) fn place_of(&self, machine: [Option<f64>; 3]) -> [Option<f64>; 3] {
+        let offset = self.modal.offset.unwrap_or(WorkOffset::G54);
+        let zero = vector(self.modal.turned.zeros.first(offset));
+        let here = moved(&self.modal.turned.motion.inverse(), vector(machine) - zero);
+        here.to_array().map(|v| Some(v).filter(|v| !v.is_nan()))
+    }
+}
+
+/// Whether the tip was moved in a work offset, in any of them for none.
+fn moves_in(program: &Program, offset: Option<WorkOffset>) -> bool {
+    (0..program.items.len()).any(|i| {
+        let moves = match program.items.get(i) {
+            Item::Move(motion) => matches!(motion.end, crate::program::Target::Tip { .. }),
+            Item::Cycle(..) => true,
+            _ => false,
+        };
+        moves && offset.is_none_or(|o| program.in_work(program.state(i).frame).is_some_and(|(of, _)| of == o))
+    })
+}

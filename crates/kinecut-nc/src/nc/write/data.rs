@@ -1,0 +1,131 @@
+//! Data of the control: `G10` and `G92`.
+
+use crate::base::{Finding, Result};
+use crate::nc::Control;
+use crate::nc::dialect::AXES;
+use crate::nc::grid::plain;
+use crate::program::{ControlData, OWN_REGISTERS, State, WorkOffset};
+
+use super::{Writer, turn, unsupported};
+
+impl Writer<'_> {
+    /// Writes data that the program sets.
+    pub(super) fn control_data(&mut self, data: &ControlData, state: &State) -> Result<()> {
+        self.uncompensated("data of the control are set")?;
+        let control = self.settings.control;
+        let [linuxcnc, fanuc, grbl] = [
+            control == Control::LinuxCnc,
+            matches!(control, Control::Fanuc | Control::Haas),
+            matches!(control, Control::Grbl | Control::GrblHal),
+        ];
+        let block = match *data {
+            ControlData::Zero { offset, place } if linuxcnc || fanuc || grbl => {
+                let number = match offset {
+                    None if fanuc => 0,
+                    None => return Err(cannot("the offset that is added to all work offsets").into()),
+                    Some(offset) => self.offset_number(offset)?,
+                };
+                format!("G10 L2 P{number}{}", self.axis_words(place)?)
+            }
+            ControlData::Here { offset, place } if linuxcnc || grbl || fanuc && offset.is_none() => {
+                self.state(state, true)?;
+                let words = self.axis_words(place)?;
+                for axis in 0..3 {
+                    if let Some(value) = place[axis] {
+                        self.place.written[axis] = Some(self.grid.round(value)?);
+                        self.place.exact[axis] = value;
+                    }
+                }
+                match offset {
+                    None => format!("G92{words}"),
+                    Some(offset) => format!("G10 L20 P{}{words}", self.offset_number(offset)?),
+                }
+            }
+            ControlData::Length { register, length } if register >= OWN_REGISTERS => {
+                self.own_registers.push((register, length));
+                return Ok(());
+            }
+            ControlData::Radius { register, radius } if register >= OWN_REGISTERS => {
+                self.own_registers.push((register, radius));
+                return Ok(());
+            }
+            ControlData::Lift { length: 0.0 } if linuxcnc => self.dialect.length_off.to_owned(),
+            ControlData::Lift { length } if linuxcnc => format!("G43.1 Z{}", plain(length)),
+            ControlData::Orient { degrees, way, seconds } if linuxcnc => {
+                let mut block = "M19".to_owned();
+                for (word, value) in [("R", degrees), ("P", f64::from(way)), ("Q", seconds)] {
+                    if value != 0.0 {
+                        block.push_str(&format!(" {word}{}", plain(value)));
+                    }
+                }
+                block
+            }
+            ControlData::Orient { degrees: 0.0, way: 0, .. } if fanuc => "M19".to_owned(),
+            ControlData::Length { register, length } if linuxcnc => {
+                format!("G10 L1 P{register} Z{}", plain(length))
+            }
+            ControlData::Radius { register, radius } if linuxcnc => {
+                format!("G10 L1 P{register} R{}", plain(radius))
+            }
+            ControlData::Length { register, length } if fanuc => {
+                format!("G10 L10 P{register} R{}", self.word_number(length))
+            }
+            ControlData::Radius { register, radius } if fanuc => {
+                format!("G10 L12 P{register} R{}", self.word_number(radius))
+            }
+            ControlData::Zero { .. } => return Err(cannot("the zero of a work offset").into()),
+            ControlData::Here { .. } => return Err(cannot("the coordinates of the present place").into()),
+            ControlData::Orient { .. } => return Err(cannot("the place where the spindle stands").into()),
+            ControlData::Lift { .. } => return Err(cannot("a length without a tool").into()),
+            ControlData::Length { .. } | ControlData::Radius { .. } => {
+                return Err(cannot("a line of the tool table").into());
+            }
+        };
+        self.page.block(block);
+        Ok(())
+    }
+
+    /// A length or radius that the program gives as a number [mm], for a control that takes it so.
+    pub(super) fn own_register(&self, register: u32) -> Result<Option<f64>> {
+        if register < OWN_REGISTERS {
+            return Ok(None);
+        }
+        let found = self.own_registers.iter().rev().find(|(own, _)| *own == register);
+        let value = found.filter(|_| self.settings.control == Control::LinuxCnc).map(|(_, value)| *value);
+        value.map(Some).ok_or_else(|| {
+            unsupported("the program gives a length or radius as a number (G43.1, G41.1), which this control does not take")
+                .help("give it by a register")
+                .into()
+        })
+    }
+
+    /// P of a work offset.
+    fn offset_number(&self, offset: WorkOffset) -> Result<u16> {
+        let has = (self.dialect.has_offset)(offset) && offset.tenths() <= 593;
+        has.then(|| turn::number(offset)).ok_or_else(|| cannot(&format!("the zero of {offset}")).into())
+    }
+
+    fn axis_words(&self, place: [Option<f64>; 3]) -> Result<String> {
+        let mut words = String::new();
+        for (axis, value) in AXES.iter().zip(place) {
+            if let Some(value) = value {
+                let count = self.grid.round(value)?;
+                words.push_str(&format!(" {axis}{}", self.word_number(self.grid.value(count))));
+            }
+        }
+        Ok(words)
+    }
+
+    fn word_number(&self, value: f64) -> String {
+        let mut number = plain(value);
+        if self.dialect.point && !number.contains('.') {
+            number.push('.');
+        }
+        number
+    }
+}
+
+fn cannot(what: &str) -> Finding {
+    unsupported(format!("the program sets {what}, which is not written for this control"))
+        .help("set it up at the control, and leave it out of the program")
+}

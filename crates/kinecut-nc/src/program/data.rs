@@ -1,0 +1,58 @@
+//! Data of the control that a program sets.
+
+use super::WorkOffset;
+
+/// Registers from this number on are the program's own: lengths and radii that it gives as numbers (`G43.1`, `G41.1`).
+pub const OWN_REGISTERS: u32 = 1 << 30;
+
+/// Data that a program sets at the control, in millimetres; no axis moves.
+///
+/// Where the zero of a work offset lies on the part is known from the setup, and its place in the machine is not: a program that sets
+/// it for the first time is taken to set it where the setup has it. Another zero later is a shifted frame of the program.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum ControlData {
+    /// Machine coordinates of the zero of a work offset, of the axes that are said (`G10 L2`); `None` is the offset that is added
+    /// to all of them (`G10 L2 P0`).
+    Zero {
+        /// The work offset.
+        offset: Option<WorkOffset>,
+        /// Its zero.
+        place: [Option<f64>; 3],
+    },
+    /// Coordinates that the present place gets, of axes whose place the program has not set before: by the zero of a work offset
+    /// (`G10 L20`), or for all of them (`G92`).
+    Here {
+        /// The work offset.
+        offset: Option<WorkOffset>,
+        /// The coordinates.
+        place: [Option<f64>; 3],
+    },
+    /// A length in the tool table (`G10 L1 P Z`, `G10 L10 P R`).
+    Length {
+        /// Its register.
+        register: u32,
+        /// The length.
+        length: f64,
+    },
+    /// A length without a tool that the program has called (`G43.1`); zero is none.
+    Lift {
+        /// The length.
+        length: f64,
+    },
+    /// The spindle stops at an angle (`M19`).
+    Orient {
+        /// The angle [deg].
+        degrees: f64,
+        /// Sense: 0 shortest, 1 clockwise, 2 counter-clockwise.
+        way: u8,
+        /// Longest wait for it [s].
+        seconds: f64,
+    },
+    /// A radius in the tool table (`G10 L1 P R`, `G10 L12 P R`).
+    Radius {
+        /// Its register.
+        register: u32,
+        /// The radius.
+        radius: f64,
+    },
+}

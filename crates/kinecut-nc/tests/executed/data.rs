@@ -1,0 +1,218 @@
+//! Data of the control that a program sets: `G10`, `G92` at the beginning, `G43.1`, `G41.1`, `M19`; arcs that are not round.
+//!
+//! Expected places are those of the interpreter's own test-suite and stand-alone version, or follow from the rules of the manuals.
+
+use crate::{moves, read, refused, run};
+use kinecut_nc::base::Sources;
+use kinecut_nc::nc::Control::{Fanuc, Grbl, LinuxCnc, Sinumerik840d};
+use kinecut_nc::nc::{self, Control, PostSettings, Reading};
+use kinecut_nc::program::{Comp, ControlData, Item, Path, Target};
+
+/// Ends of the moves of the tip in the coordinates of the work offset as the setup has it.
+fn in_work(reading: &Reading) -> Vec<[f64; 3]> {
+    let (program, items) = (&reading.program, &reading.program.items);
+    let mut places = Vec::new();
+    for i in 0..items.len() {
+        let Item::Move(motion) = items.get(i) else { continue };
+        let Target::Tip { point, .. } = motion.end else { continue };
+        let (_, motion) = program.in_work(program.state(i).frame).unwrap();
+        places.push((motion.point(point) * 1e6).round().to_array().map(|v| v / 1e6 + 0.0));
+    }
+    places
+}
+
+/// The text that is written of a program, and what is read of that.
+fn again(reading: &Reading, control: Control) -> (String, Reading) {
+    let settings = PostSettings { decimals: 6, ..PostSettings::new(control) };
+    let text = nc::write(&reading.program, &[], &settings).unwrap().text;
+    let second = read(&text, control).unwrap_or_else(|e| panic!("{e}\n{text}"));
+    (text.to_string(), second)
+}
+
+fn has(reading: &Reading, wanted: ControlData) -> bool {
+    let items = &reading.program.items;
+    (0..items.len()).any(|i| items.get(i) == Item::Data(wanted))
+}
+
+#[test]
+fn a_zero_that_is_set_again_shifts_and_turns() {
+    let text = "G21 G54\nG10 L2 P1 X0 Y0 Z0 R0\nG1 X0 Y0 Z0 F60\nG10 L2 P1 X1\nX0 Y0 Z0\nG10 L2 P1 R-45\nY SQRT[2]\n\
+                G10 L2 P1 X2 Y1 R90\nY3\nG10 L2 P1 X0 Y0\nX0 Y0\nM2\n";
+    let wanted = [[0.0; 3], [1.0, 0.0, 0.0], [2.0, 1.0, 0.0], [-1.0, 1.0, 0.0], [0.0, 0.0, 0.0]];
+    let reading = read(text, LinuxCnc).unwrap();
+    assert_eq!(in_work(&reading), wanted);
+    assert_eq!(in_work(&again(&reading, LinuxCnc).1), wanted);
+    let said = "the program sets the zero of a work offset in machine coordinates (G10 L2): the setup is taken to have it there";
+    assert_eq!(reading.findings.iter().filter(|f| f.message == said).count(), 1);
+    let late = refused("G0 X5\nG10 L2 P1 X3", LinuxCnc);
+    assert!(
+        late.contains("the zero of G54 changes after moves in it, by how much the machine alone knows"),
+        "{late}"
+    );
+}
+
+#[test]
+fn a_zero_is_set_by_the_present_place() {
+    let text = "G21 G54\nG10 L2 P1 X0 Y0 Z0 R45\nG0 G53 X0 Y0 Z0\nG10 L20 P1 X-1\nG1 X0 F60\nG10 L20 P1 Y -1\nY0\n\
+                G10 L20 P1 X1 Y1\nX0 Y0\nM2\n";
+    let half = 0.5f64.sqrt();
+    let round = |v: f64| (v * 1e6).round() / 1e6;
+    let wanted = [[round(half), round(half), 0.0], [0.0, round(2.0 * half), 0.0], [0.0; 3]];
+    let reading = read(text, LinuxCnc).unwrap();
+    assert_eq!(in_work(&reading), wanted);
+    // GRBL has the same words, and P0 for the work offset in force.
+    assert_eq!(run("X5\nG10 L20 P0 X1\nX0", Grbl), ["R 5 0 0", "R 0 0 0"]);
+    let unknown = refused("G10 L20 P2 X1", LinuxCnc);
+    assert!(
+        unknown.contains("G10 L20 sets the zero of G55 from a place that is not known in it"),
+        "{unknown}"
+    );
+}
+
+#[test]
+fn the_place_is_known_behind_machine_coordinates_and_in_another_offset() {
+    let text = "G21\nG10 L2 P1 X10 Y20 Z30\nG10 L2 P2 X11 Y22 Z33\nG54 G90\nG53 G0 X11 Y22 Z33\nG91 G1 X1 F60\nG55 X1\n\
+                G90 G54 G53 G0 Z30\nG1 X0\nM2\n";
+    // In G54 the place is (1, 2, 3), then (2, 2, 3); in G55 that is (1, 0, 0).
+    assert_eq!(moves(&read(text, LinuxCnc).unwrap()), ["F 2 2 3", "F 2 0 0", "F 0 2 0"]);
+    // With a length it is the spindle that is there, not the tip.
+    let long = "G21\nG10 L2 P1 X10 Y20 Z30\nT1 M6\nG43 H1\nG53 G0 X11 Y22 Z33\nG91 G1 Z1 F60\nM2\n";
+    assert!(
+        read(long, LinuxCnc)
+            .unwrap_err()
+            .contains("an increment from a position that the program has not set")
+    );
+}
+
+#[test]
+fn fanuc_sets_zeros_and_registers() {
+    let text = "O1\nG21 G90 G10 L2 P0 X0. Y0. Z0.\nG10 L2 P1 X-300. Y-200. Z-400.\nG10 L12 P5 R4.98\nG10 L10 P5 R120.\n\
+                G54 G0 X0. Y0. Z0.\nG91 G10 L2 P1 X5.\nG90 X0. Y0.\nM30\n";
+    let reading = read(text, Fanuc).unwrap();
+    assert_eq!(reading.radii, [(5, 4.98)]);
+    let places: Vec<[f64; 2]> = in_work(&reading).iter().map(|p| [p[0], p[1]]).collect();
+    assert_eq!(places, [[0.0, 0.0], [5.0, 0.0]]);
+    let (text, second) = again(&reading, Fanuc);
+    for block in
+        ["G10 L2 P0 X0. Y0. Z0.", "G10 L2 P1 X-300. Y-200. Z-400.", "G10 L12 P5 R4.98", "G10 L10 P5 R120."]
+    {
+        assert!(text.contains(block), "{block}\n{text}");
+    }
+    assert_eq!(second.radii, [(5, 4.98)]);
+    let twice = refused("G10 L10 P5 R120.\nG10 L10 P5 R119.", Fanuc);
+    assert!(twice.contains("the length of 5 changes, which is not followed"), "{twice}");
+    let settings = PostSettings::new(Sinumerik840d);
+    let other = nc::write(&reading.program, &[], &settings).unwrap_err().to_string();
+    assert!(
+        other.contains("the offset that is added to all") || other.contains("the zero of a work offset"),
+        "{other}"
+    );
+}
+
+#[test]
+fn coordinates_are_given_to_the_place_where_the_program_begins() {
+    let reading = read("G21 G92 X0 Y0 Z10\nG1 X5 F100\nG92 X0\nX1\nM2\n", LinuxCnc).unwrap();
+    assert_eq!(in_work(&reading), [[5.0, 0.0, 10.0], [6.0, 0.0, 10.0]]);
+    assert!(reading.findings.iter().any(|f| {
+        f.message
+            == "the program gives coordinates to the place where it begins: the setup is taken to have that zero"
+    }));
+    // No feed move starts at a place that is not known.
+    assert!(reading.findings.iter().all(|f| f.code.to_string() != "KC0529"));
+    let (text, second) = again(&reading, LinuxCnc);
+    assert!(text.contains("G92 X0 Y0 Z10"), "{text}");
+    assert_eq!(in_work(&second), in_work(&reading));
+    // What was before is not known.
+    assert!(read("G21 G92 X0\nG92.1\nM2\n", LinuxCnc).is_ok());
+    let back = read("G21 G92 X0\nG92.1\nG0 X1\nM2\n", LinuxCnc).unwrap_err();
+    assert!(back.contains("the coordinates that this axis had before G92 are not known"), "{back}");
+}
+
+#[test]
+fn lengths_and_radii_are_numbers() {
+    let reading = read(
+        "G21 G54 T1 M6\nG43.1 Z100.5\nG0 X0 Y0 Z5\nG42.1 D-0.8\nG1 X10 F100\nX20\nG40 X30\nG49\nM2\n",
+        LinuxCnc,
+    )
+    .unwrap();
+    let (text, second) = again(&reading, LinuxCnc);
+    assert!(text.contains("G43.1 Z100.5"), "{text}");
+    // A negative diameter changes the side.
+    assert!(text.contains("G41.1 D0.8"), "{text}");
+    for reading in [&reading, &second] {
+        let items = &reading.program.items;
+        let state = (0..items.len()).map(|i| reading.program.state(i).comp).find(|c| *c != Comp::Off);
+        let Some(Comp::Left(register)) = state else { panic!("{state:?}") };
+        assert_eq!(reading.radii, [(register, 0.4)]);
+    }
+    let fanuc = nc::write(&reading.program, &[], &PostSettings::new(Fanuc)).unwrap_err().to_string();
+    assert!(fanuc.contains("G43.1"), "{fanuc}");
+    let sum = refused("T1 M6\nG43.2 H1", LinuxCnc);
+    assert!(sum.contains("G43.2 adds lengths that only the tool table of the machine has"), "{sum}");
+    let known = read("G21 T1 M6\nG10 L1 P7 Z3\nG43.1 Z2\nG43.2 H7\nG0 Z1\nM2\n", LinuxCnc).unwrap();
+    assert!(again(&known, LinuxCnc).0.contains("G43.1 Z5"));
+    // Before a tool is called it is a length of its own.
+    let lifted = read("G21 G43.1 Z5\nG53 G0 X1 Y2 Z3\nG49\nM2\n", LinuxCnc).unwrap();
+    assert!(
+        has(&lifted, ControlData::Lift { length: 5.0 }) && has(&lifted, ControlData::Lift { length: 0.0 })
+    );
+    assert!(refused("G41.1\nG1 X1 F1", LinuxCnc).contains("without D"));
+}
+
+#[test]
+fn the_spindle_stops_at_an_angle() {
+    let reading = read("G21 M19 R45 P1 Q2\nM19\nM2\n", LinuxCnc).unwrap();
+    assert!(has(&reading, ControlData::Orient { degrees: 45.0, way: 1, seconds: 2.0 }));
+    assert!(again(&reading, LinuxCnc).0.contains("M19 R45 P1 Q2"));
+    assert!(refused("M19 R361", LinuxCnc).contains("from 0 to 360 degrees"));
+    assert!(refused("M19 P3", LinuxCnc).contains("P0, P1 or P2"));
+    assert!(refused("G64 M19 R90", LinuxCnc).contains("both G64 and M19 of this block take it"));
+}
+
+#[test]
+fn the_radius_of_an_arc_that_is_not_round_changes_evenly() {
+    // The interpreter's own case: 25 mm at the start, 25.014 at the end.
+    let text = "G21 G17 G0 X0 Y0 Z0\nG2 X50 Y0 I24.986 J0 F100\nM2\n";
+    let reading = read(text, LinuxCnc).unwrap();
+    let spiral = |reading: &Reading| {
+        let items = &reading.program.items;
+        (0..items.len()).find_map(|i| match items.get(i) {
+            Item::Move(motion) => match motion.path {
+                Path::Spiral { spiral, .. } => Some(spiral),
+                _ => None,
+            },
+            _ => None,
+        })
+    };
+    let of = spiral(&reading).unwrap();
+    let [a, b] = of.parameters();
+    // Half way round it is half way out.
+    let middle = of.point(0.5 * (a + b));
+    assert!((middle.x - 24.986).abs() < 1e-9 && (middle.y - 25.0).abs() < 1e-9, "{middle}");
+    let (text, second) = again(&reading, LinuxCnc);
+    assert!(text.contains("G2 X50 Y0 I24.986 J0"), "{text}");
+    assert!((spiral(&second).unwrap().length() - of.length()).abs() < 1e-9);
+    // Rounded words leave an arc, and other controls move the centre.
+    assert!(spiral(&read("G21 G0 X0 Y0 Z0\nG2 X50 Y0 I24.998 J0 F100\nM2\n", LinuxCnc).unwrap()).is_none());
+    let fanuc = "G21 G54 G0 X0. Y0. Z0.\nG2 X50. Y0. I24.998 J0. F100.\nM30\n";
+    assert!(spiral(&read(fanuc, Fanuc).unwrap()).is_none());
+}
+
+#[test]
+fn comments_are_between_the_arguments_of_a_call() {
+    let body = "o1 sub\nX#1 Y#2\no1 endsub\no1 call [1] (will this cause problems) [2] (no)";
+    assert_eq!(run(body, LinuxCnc), ["R 1 2 0"]);
+    assert!(refused("o1 sub\no1 endsub\no1 call [1] (open", LinuxCnc).contains("comment is not closed"));
+}
+
+#[test]
+fn a_wrong_first_move_behind_a_switch_is_said_where_it_is() {
+    let mut sources = Sources::default();
+    let text = "G21 G0 X0 Y0 Z0\nG41 D1\nG1 X10 F100\nG40\nG2 I5\nM2\n";
+    let error = nc::read(&mut sources, "a.ngc", text, LinuxCnc, &[]).unwrap_err().to_string();
+    assert!(
+        error.starts_with("a.ngc:5:1: the first move after a switch of the compensation is not straight"),
+        "{error}"
+    );
+    assert!(error.contains("it is switched in line 4"), "{error}");
+}
