@@ -7,7 +7,8 @@ use glam::DVec3;
 use super::control::positive;
 use super::kinematics::Travels;
 use super::{
-    Body, CoordinateCode, Dynamics, Elementary, Joint, Kinematics, Link, MOST_JOINTS, MotionControl, Rapids,
+    Body, CoordinateCode, Dynamics, Elementary, Joint, Kinematics, Link, MOST_JOINTS, MotionControl, OwnCode,
+    Rapids,
 };
 use crate::base::{Code, Finding, Result};
 use crate::geom::Rigid;
@@ -34,6 +35,8 @@ pub struct Machine {
     pub control: MotionControl,
     /// Course of its rapid moves, a parameter of the control; `None` where it is not known.
     pub rapids: Option<Rapids>,
+    /// Codes of its control that the language does not have.
+    pub codes: Arc<[OwnCode]>,
     /// Solids of its links; empty where they are not known. After a change of the joints the links of the bodies have
     /// to be changed too.
     pub bodies: Arc<[Body]>,
@@ -79,6 +82,7 @@ impl Machine {
             dynamics: Dynamics::default(),
             control: MotionControl::default(),
             rapids: None,
+            codes: Arc::default(),
             bodies: Arc::default(),
         }
     }

@@ -270,6 +270,8 @@ pub(super) enum Code {
     Cubic,
     /// `G5.1`.
     Quadratic,
+    /// `G6.2`: a control point of a spline with its knot; `G6.3` runs it.
+    KnotRow,
     /// `G5.2`: a control point of a spline; `G5.3` runs it.
     ControlPoint,
     RunSpline,
@@ -377,6 +379,24 @@ pub(super) enum Code {
     },
     /// `M19`: the spindle stops at an angle.
     Orientation,
+    /// `M70` and `M73`: the state is saved; `M71` forgets it, `M72` takes it again.
+    Save {
+        returns: bool,
+    },
+    Forget,
+    TakeAgain,
+    /// `G28.1` and `G30.1`: the place is stored for `G28` and `G30`.
+    StorePlace {
+        second: bool,
+    },
+    /// `G30`: as `G28`, to another place.
+    SecondReference,
+    /// `G38.2` to `G38.5`.
+    Probe {
+        kind: u8,
+    },
+    /// Switches a device, or waits for one; it has words of its own.
+    Device(&'static str),
     /// Moves no axis and changes no coordinate; the text says what it does.
     Harmless(&'static str),
 }
@@ -479,6 +499,8 @@ impl Code {
             | Code::Cubic
             | Code::Quadratic
             | Code::ControlPoint
+            | Code::KnotRow
+            | Code::Probe { .. }
             | Code::RunSpline
             | Code::Cycle(_)
             | Code::SynchronisedTap
@@ -494,7 +516,9 @@ impl Code {
             Code::ReturnToStart(_) => 10,
             Code::Work(_) => 12,
             Code::ExactStop | Code::ExactPath | Code::Continuous | Code::Rounded => 13,
-            Code::Dwell | Code::MachineFrame | Code::Reference => 20,
+            Code::Dwell | Code::MachineFrame | Code::Reference | Code::SecondReference => 20,
+            Code::StorePlace { .. } => 20,
+            Code::Save { .. } | Code::Forget | Code::TakeAgain => 27,
             Code::PresetShift | Code::ShiftOff { .. } | Code::ShiftAgain => 20,
             Code::Polar { .. } => 19,
             Code::LocalShift | Code::SetData | Code::FrameShift { .. } | Code::FrameTurn { .. } => 20,
@@ -508,7 +532,12 @@ impl Code {
             Code::SpindleClockwise | Code::SpindleCounterClockwise | Code::SpindleOff | Code::Orientation => {
                 23
             }
-            Code::Mist | Code::Flood | Code::CoolantOff | Code::Rigid | Code::Harmless(_) => return None,
+            Code::Mist
+            | Code::Flood
+            | Code::CoolantOff
+            | Code::Rigid
+            | Code::Device(_)
+            | Code::Harmless(_) => return None,
         })
     }
 }

@@ -79,7 +79,8 @@ impl Cycle {
     /// Most steps that an expansion may have.
     pub const MAX_STEPS: usize = 100_000;
 
-    /// The heights that every cycle has: reference, bottom, and that to which the tool returns [mm].
+    /// The heights that every cycle has: reference, bottom, and that to which the tool returns [mm], not a number where the program has
+    /// not set it.
     pub fn heights(&self) -> [f64; 3] {
         let mut cycle = *self;
         cycle.heights_mut().map(|height| *height)
@@ -113,7 +114,8 @@ impl Cycle {
     pub fn expansion(&self) -> Result<Vec<CycleStep>> {
         use CycleStep::{Dwell, Feed, Rapid};
         let [reference, bottom, retract] = self.heights();
-        let ordered = bottom.is_finite() && retract.is_finite() && bottom < reference && reference <= retract;
+        let ordered =
+            bottom.is_finite() && !retract.is_infinite() && bottom < reference && !(reference > retract);
         if !ordered {
             return Err(Finding::error(
                 Code::NC_STATE,

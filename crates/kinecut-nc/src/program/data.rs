@@ -39,6 +39,13 @@ pub enum ControlData {
         /// The length.
         length: f64,
     },
+    /// A move at feed towards a place in coordinates of its frame that ends where a probe changes its state (`G38.2` to `G38.5`).
+    Probe {
+        /// 2: until it touches, 3: likewise, without an alarm, 4: until it lets go, 5: likewise, without an alarm.
+        kind: u8,
+        /// The place, of the axes that move.
+        place: [Option<f64>; 3],
+    },
     /// The spindle stops at an angle (`M19`).
     Orient {
         /// The angle [deg].

@@ -181,7 +181,7 @@ impl Program {
                 Item::Text(text) => new.push_text(text, &state, origin),
                 Item::Message(text) => new.push_message(text, &state, origin),
                 Item::Data(data) => {
-                    if let ControlData::Here { .. } = data {
+                    if let ControlData::Here { .. } | ControlData::Probe { .. } = data {
                         place.at = DVec3::NAN;
                     }
                     new.push_data(data, &state, origin);

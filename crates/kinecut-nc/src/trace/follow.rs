@@ -14,8 +14,8 @@ use crate::base::{Code, Finding, Result};
 use crate::geom::{Curve, Line, Rigid};
 use crate::machine::Machine;
 use crate::program::{
-    AxisPositions, Comp, ControlData, CycleStep, Frame, FrameId, Item, Move, Program, Setup, SetupId, Speed,
-    State, Target, Tcp, ToolAxis, ToolNumber, moved,
+    AxisPositions, Comp, ControlData, CycleStep, Frame, FrameId, Item, Move, Path, Program, Setup, SetupId,
+    Speed, State, Target, Tcp, ToolAxis, ToolNumber, moved,
 };
 use crate::tool::Tool;
 
@@ -175,6 +175,12 @@ impl<'a> Follow<'a> {
                 Ok(())
             }
             Item::Data(ControlData::Here { place, .. }) => self.given(index, place, state),
+            Item::Data(ControlData::Probe { place, .. }) => {
+                for axis in 0..3 {
+                    self.tip[axis] = self.tip[axis].filter(|_| place[axis].is_none());
+                }
+                Ok(())
+            }
             Item::Data(ControlData::Lift { .. }) => {
                 self.tip[2] = None;
                 Ok(())
@@ -283,7 +289,16 @@ impl<'a> Follow<'a> {
     ) -> Option<Curve> {
         let start = self.start_in(frame)?;
         let point = filled(point, start);
-        let whole = Move { end: Target::Tip { point, axis: ToolAxis::Fixed }, path: motion.path };
+        let path = match motion.path {
+            // A helix whose start the program has not set.
+            Path::Arc { centre, axis, sweep, rise } if rise.is_nan() => {
+                let up = start * axis.abs();
+                let centre = centre * (DVec3::ONE - axis.abs()) + up;
+                Path::Arc { centre, axis, sweep, rise: (point - start).dot(axis) }
+            }
+            path => path,
+        };
+        let whole = Move { end: Target::Tip { point, axis: ToolAxis::Fixed }, path };
         let known = end.iter().all(Option::is_some);
         known.then(|| whole.curve(start)).flatten().map(|c| c.moved(frame))
     }
@@ -374,6 +389,16 @@ impl<'a> Follow<'a> {
                     (height, State { speed: Speed::PerRevolution(pitch), ..*state })
                 }
             };
+            if height.is_nan() {
+                // A height that the program has not set.
+                let end = if frame.rotation.z_axis == DVec3::Z {
+                    [self.tip[0], self.tip[1], None]
+                } else {
+                    [None; 3]
+                };
+                self.run(index, None, end, &motion_state)?;
+                continue;
+            }
             let start = self.start_in(&frame).ok_or_else(|| self.unknown_start(index))?;
             let end = DVec3::new(start.x, start.y, height);
             let path = Curve::from(Line { start, end }).moved(&frame);

@@ -155,7 +155,7 @@ fn splines_are_curves() {
     assert_eq!((done[0].as_str(), done.last().unwrap().as_str()), ("F 5 5 0", "F 2 0 0"));
     assert!(done.contains(&"F 10 5 0".to_owned()) && done.len() > 6, "{done:?}");
     for (body, expected) in [
-        ("F100\nG5.3", "G5.3 without the control points"),
+        ("F100\nG5.3", "a spline without control points"),
         ("F100\nG5.2 X1 Y1\nG5.3", "a control point without its weight P"),
         ("F100\nG5.2 X1 P1\nG5.3", "a control point needs both X and Y"),
         ("F100\nG5.2 X1 Y1 P1\nG5.3", "fewer control points than its order"),

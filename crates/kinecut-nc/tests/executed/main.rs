@@ -8,6 +8,7 @@ mod controls;
 mod data;
 mod linuxcnc;
 mod macro_b;
+mod state;
 
 /// Reads a program; the error as it is shown.
 fn read(text: &str, control: Control) -> Result<Reading, String> {

@@ -76,6 +76,9 @@ def answer(done):
         place = re.search(r":(\d+):(\d+)", told)
         raise Refused(next((line for line in told.splitlines() if line.strip()), f"code {done.returncode}, no JSON"),
                       *(map(int, place.groups()) if place else ())) from None
+    wrong = [f for f in found.get("findings", []) if f.get("severity") == "error"] if isinstance(found, dict) and found.get("errors") else []
+    if wrong:
+        found = wrong[0]
     if done.returncode not in (0, 1) or isinstance(found, dict) and found.get("severity") == "error" and "message" in found:
         first = found[0] if isinstance(found, list) and found else found
         first = first.get("error", first) if isinstance(first, dict) else {}

@@ -23,7 +23,7 @@
 
 pub(super) mod o_word;
 
-use crate::program::WorkOffset;
+use crate::program::{StopKind, WorkOffset};
 use crate::tool::Hand;
 
 use super::dialect::{
@@ -92,8 +92,17 @@ pub(super) const DIALECT: Dialect = Dialect {
         (51, Code::Quadratic),
         (52, Code::ControlPoint),
         (53, Code::RunSpline),
+        (62, Code::KnotRow),
+        (63, Code::RunSpline),
         (200, Code::Units { inch: true, feeds: true }),
         (280, Code::Reference),
+        (281, Code::StorePlace { second: false }),
+        (300, Code::SecondReference),
+        (301, Code::StorePlace { second: true }),
+        (382, Code::Probe { kind: 2 }),
+        (383, Code::Probe { kind: 3 }),
+        (384, Code::Probe { kind: 4 }),
+        (385, Code::Probe { kind: 5 }),
         (210, Code::Units { inch: false, feeds: true }),
         (430, Code::LengthOn),
         (431, Code::LengthByNumber { add: false }),
@@ -128,6 +137,22 @@ pub(super) const DIALECT: Dialect = Dialect {
     ],
     m_codes: &[
         (19, Code::Orientation),
+        (50, Code::Device("feed override")),
+        (51, Code::Device("spindle override")),
+        (52, Code::Device("adaptive feed")),
+        (53, Code::Device("feed hold")),
+        (60, Code::Stop(StopKind::Program)),
+        (62, Code::Device("output on, with the motion")),
+        (63, Code::Device("output off, with the motion")),
+        (64, Code::Device("output on")),
+        (65, Code::Device("output off")),
+        (66, Code::Device("waits for an input")),
+        (67, Code::Device("analogue output, with the motion")),
+        (68, Code::Device("analogue output")),
+        (70, Code::Save { returns: false }),
+        (71, Code::Forget),
+        (72, Code::TakeAgain),
+        (73, Code::Save { returns: true }),
         (48, Code::Harmless("overrides on")),
         (49, Code::Harmless("overrides off")),
         (98, Code::CallProgram),

@@ -85,7 +85,7 @@ impl<'s> Reader<'s> {
             if let Some(to) = part.end {
                 stop[a] = Some(to.x);
                 stop[b] = Some(to.y);
-                stop[n] = stop[n].map(|_| start[n] + rise * done / total);
+                stop[n] = stop[n].map(|_| start[n] + rise * done / total).filter(|v| !v.is_nan());
             }
             let rise = rise * part.sweep / total;
             let speed = speed.of_part(part.sweep / total);
@@ -106,12 +106,15 @@ impl<'s> Reader<'s> {
         spiral(from, to, centre, ccw, turns).ok()
     }
 
-    /// The start of an arc: in its plane it is known, and off it unless the arc stays there.
+    /// The start of an arc: in its plane it is known; one whose height is not known is not followed, and that is said.
     fn start_of_arc(&mut self, words: &[Word<'s>], plane: Plane) -> Result<DVec3> {
         let [a, b, n] = plane.axes();
         let at = self.modal.position;
         let flat = at[a].is_some() && at[b].is_some();
-        if at[n].is_some() || !flat || words.iter().any(|w| !w.used && w.is(AXES[n])) {
+        // Words of a helix may be increments, and compensation needs its start.
+        let rises = words.iter().any(|w| !w.used && w.is(AXES[n]));
+        let needs_start = rises && (!self.modal.absolute || self.modal.comp != Comp::Off);
+        if at[n].is_some() || !flat || needs_start {
             return self.start();
         }
         self.from_nowhere.push(self.place.span(&self.here));

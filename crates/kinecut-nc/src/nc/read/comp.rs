@@ -29,6 +29,7 @@ impl<'s> Reader<'s> {
         let forbidden = |c: Code| match c {
             Code::Units { .. } | Code::ToolChange => true,
             Code::Plane(plane) => plane != Plane::Xy,
+            Code::SecondReference => !off,
             Code::MachineFrame | Code::Reference | Code::Work(_) | Code::LengthOn | Code::LengthOff => !off,
             Code::LengthByNumber { .. } | Code::TipControl { .. } => !off,
             Code::Transformation { on: true } => !off,

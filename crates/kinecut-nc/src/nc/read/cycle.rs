@@ -12,7 +12,7 @@
 //! (`interp_internal.hh`, `CYCLE_MACRO`).
 
 use crate::base::{Code, CountBound, Result};
-use crate::nc::dialect::{AXES, CycleKind, SeriesRule};
+use crate::nc::dialect::{AXES, CycleKind, Plane, SeriesRule};
 use crate::nc::native::Native;
 use crate::program::{Cycle, Speed, Tapping, Tcp};
 
@@ -69,7 +69,9 @@ impl<'s> Reader<'s> {
         // The block may say where the hole is.
         let says = |name: &str| self.modal.absolute && words.iter().any(|w| w.is(name));
         let placed = |axis: usize| at[axis].is_some() || says(AXES[axis]);
-        let Some(z) = at[n].filter(|_| placed(a) && placed(b)) else {
+        // From a height that is not known the tool goes to R, and with G98 back to it: the rest is known.
+        let unknown = self.modal.absolute && self.modal.plane == Plane::Xy;
+        let Some(z) = at[n].or(unknown.then_some(f64::NAN)).filter(|_| placed(a) && placed(b)) else {
             self.start()?;
             return Ok(());
         };
@@ -152,7 +154,9 @@ impl<'s> Reader<'s> {
             }
             _ => (reference, bottom),
         };
-        let retract = if self.modal.return_to_start && begun > reference { begun } else { reference };
+        // A height that is not known stays so.
+        let higher = begun > reference || begun.is_nan();
+        let retract = if self.modal.return_to_start && higher { begun } else { reference };
         self.repeated.add(&REPEATS, f64::from(repeats - 1)).map_err(|e| self.place.located(&here, e))?;
         let cycle = match kind {
             CycleKind::Drill | CycleKind::DrillDwell => Cycle::Drill { reference, bottom, retract, dwell },
@@ -171,6 +175,7 @@ impl<'s> Reader<'s> {
         }
         for repetition in 0..repeats {
             let way = match self.dialect.series {
+                _ if self.modal.position[n].is_none() => [f64::NAN; 2],
                 SeriesRule::Fanuc | SeriesRule::EachBlock => [reference.max(self.height()); 2],
                 // The first hole is at the present height only if that is above R.
                 SeriesRule::Interpreter => {

@@ -63,9 +63,13 @@ impl<'s> Reader<'s> {
         }
         self.path_mode(words)?;
         self.distances();
+        self.devices(words);
+        self.saving()?;
+        self.storing();
         self.tilting(words)?;
         self.turning(words)?;
         self.presetting(words)?;
+        self.probing(words)?;
         self.motion(words, machine)?;
         self.check_compensation(&before)?;
         self.jumping(words)?;
@@ -201,6 +205,16 @@ impl<'s> Reader<'s> {
             }
         }
         self.codes = codes;
+    }
+
+    /// Codes that switch or read devices, with their words: the program goes on as it would without them.
+    fn devices(&mut self, words: &mut [Word<'s>]) {
+        let Some((Code::Device(what), bytes)) = self.code(|c| matches!(c, Code::Device(_))) else { return };
+        for name in ["P", "E", "L", "Q"] {
+            take(words, name);
+        }
+        let message = format!("`{}` ({what}) is not followed: it moves no axis", self.place.shown(&bytes));
+        self.note(&message);
     }
 
     fn tool_change(&mut self, bytes: &Bytes) -> Result<()> {
@@ -348,7 +362,7 @@ impl<'s> Reader<'s> {
         Ok(())
     }
 
-    fn work_offset(&mut self, offset: WorkOffset) {
+    pub(super) fn work_offset(&mut self, offset: WorkOffset) {
         let before = self.modal.offset.replace(offset);
         if before == Some(offset) {
             return;

@@ -18,7 +18,7 @@ pub(super) struct Hole {
     pub(super) cycle: Cycle,
     /// Words of the plane's axes [mm], and whether each is absolute.
     pub(super) moves: [Option<(f64, bool)>; 2],
-    /// Heights of the way to it: first to one, then to the hole at another [mm].
+    /// Heights of the way to it: first to one, then to the hole at another [mm]; not numbers where the height is not known.
     pub(super) way: [f64; 2],
     pub(super) speed: Speed,
     pub(super) spindle: Spindle,
@@ -53,7 +53,7 @@ impl Reader<'_> {
         let [first, height] = hole.way;
         let rapid = Speed::Rapid { linear: self.dialect.straight_rapid };
         let mut at = self.modal.position;
-        if at[n] != Some(first) {
+        if first.is_finite() && at[n] != Some(first) {
             at[n] = Some(first);
             self.push_tip(at, Path::Line, rapid);
         }
@@ -62,8 +62,14 @@ impl Reader<'_> {
                 at[axis] = Some(if absolute { to } else { at[axis].unwrap_or(0.0) + to });
             }
         }
-        at[n] = Some(height);
+        at[n] = Some(height).filter(|z| z.is_finite());
         self.push_tip(at, Path::Line, rapid);
+        let [reference, _, retract] = hole.cycle.heights();
+        if height.is_nan() {
+            // Down or up to R, which is known.
+            at[n] = Some(reference);
+            self.push_tip(at, Path::Line, rapid);
+        }
         let plain = matches!(
             hole.kind,
             CycleKind::Drill
@@ -73,14 +79,17 @@ impl Reader<'_> {
                 | CycleKind::Tap(_)
         );
         if self.modal.plane != Plane::Xy || !plain {
+            if retract.is_nan() {
+                let what = "this cycle begins at a height that the program has not set, and returns to it";
+                return Err(self.lacks(&self.here, what).help("move Z there first").into());
+            }
             return self.moves_of(hole);
         }
         self.flush(Kind::Tip);
         let state = State { spindle: hole.spindle, ..self.state(hole.speed) };
         let located = |e: crate::base::Error| e.0.at(self.place.sources.locate(self.place.span(&self.here)));
         self.program.push_cycle(hole.cycle, &state, self.origin).map_err(located)?;
-        let [_, _, retract] = hole.cycle.heights();
-        self.modal.position[n] = Some(retract);
+        self.modal.position[n] = Some(retract).filter(|z| z.is_finite());
         Ok(())
     }
 

@@ -22,6 +22,7 @@ mod data;
 mod execute;
 mod hole;
 mod jump;
+mod knots;
 mod lex;
 mod message;
 mod modal;
@@ -36,14 +37,17 @@ mod plane;
 mod points;
 mod polar;
 mod preset;
+mod probe;
 mod reader;
 mod reference;
 mod rotary_axes;
 mod rotary_state;
 mod run;
+mod saved;
 mod settings;
 mod statements;
 mod sticky;
+mod stored;
 mod tap;
 mod turn;
 mod turned;
@@ -141,6 +145,7 @@ pub fn read_source(
     }
     let mut reader = Reader::new(place, dialect, setups);
     reader.points = Points::of(text, dialect, settings.input);
+    reader.own_codes = settings.codes.clone();
     if let Some(start) = settings.start {
         reader.modal.position = start.map(Some);
     }

@@ -28,7 +28,7 @@ pub(super) struct ToolState {
 }
 
 /// Modal state of a reader; mm, s, rad.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(super) struct Modal {
     /// Motion code in force.
     pub(super) motion: Option<Code>,

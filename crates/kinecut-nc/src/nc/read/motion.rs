@@ -14,8 +14,13 @@ use super::reader::{Kind, Reader, take, take_way};
 impl<'s> Reader<'s> {
     /// Executes the motion of a block; `machine`: the place of a word for machine coordinates.
     pub(super) fn motion(&mut self, words: &mut [Word<'s>], machine: Option<Bytes>) -> Result<()> {
-        if let Some((_, bytes)) = self.code(|c| c == Code::Reference) {
+        if let Some((_, bytes)) = self.code(|c| matches!(c, Code::Reference | Code::SecondReference)) {
             return self.reference_move(words, &bytes);
+        }
+        if self.code(|c| matches!(c, Code::Probe { .. })).is_some() {
+            self.modal.motion = None;
+            self.modal.sticky.end();
+            return Ok(());
         }
         let code = self.motion_code();
         if let Some((code, code_at)) = &code {
@@ -35,14 +40,17 @@ impl<'s> Reader<'s> {
                 self.modal.motion = None;
                 return self.run_spline(&bytes);
             }
-            if self.nurbs.is_some() && *code != Code::ControlPoint {
+            if self.nurbs.is_some() && !matches!(code, Code::ControlPoint | Code::KnotRow) {
                 let bytes = code_at.clone();
                 let finding = self.lacks(&bytes, "another motion before the spline is run");
-                return Err(finding.help("program G5.3").into());
+                return Err(finding.help("program G5.3, or the last knots of G6.2").into());
             }
         }
         if self.gives_points() && (code.is_some() || words.iter().any(|w| !w.used)) {
-            return self.control_point(words);
+            return match self.modal.motion {
+                Some(Code::KnotRow) => self.knot_row(words),
+                _ => self.control_point(words),
+            };
         }
         let axis = self.has_axis(words);
         let curve = matches!(self.modal.motion, Some(Code::Arc { .. } | Code::Involute { .. }));

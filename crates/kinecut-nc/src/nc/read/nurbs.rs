@@ -20,7 +20,7 @@ use super::reader::{Reader, take};
 
 /// Order without `L`, and the largest.
 const USUAL_ORDER: usize = 3;
-const LARGEST_ORDER: u32 = 32;
+pub(super) const LARGEST_ORDER: u32 = 32;
 /// Distance of the cubics from the curve at three places between their ends [mm].
 const WITHIN: f64 = 1e-5;
 /// Halvings of a span until then at most.
@@ -31,13 +31,23 @@ const MOST_CUBICS: usize = 100_000;
 /// A spline whose control points are being given: place [mm] and weight.
 #[derive(Clone, Debug)]
 pub(super) struct Nurbs {
-    order: usize,
-    points: Vec<(DVec2, f64)>,
+    pub(super) order: usize,
+    pub(super) points: Vec<(DVec2, f64)>,
+    /// Its knots; none are whole numbers.
+    pub(super) knots: Vec<f64>,
 }
 
 impl Nurbs {
-    /// The knot of a number: whole numbers, those of the ends as often as the order.
+    /// One with knots of its own, that has none yet.
+    pub(super) fn with_knots(order: usize) -> Nurbs {
+        Nurbs { order, points: Vec::new(), knots: Vec::new() }
+    }
+
+    /// The knot of a number: without knots of its own whole numbers, those of the ends as often as the order.
     fn knot(&self, i: usize) -> f64 {
+        if let Some(knot) = self.knots.get(i) {
+            return *knot;
+        }
         let last = self.points.len() - self.order + 1;
         (i + 1).saturating_sub(self.order).min(last) as f64
     }
@@ -130,8 +140,11 @@ impl<'s> Reader<'s> {
             return Err(finding.into());
         }
         let own = |place: DVec2, weight: f64| (place, weight);
-        let mut nurbs =
-            self.nurbs.take().unwrap_or_else(|| Nurbs { order: USUAL_ORDER, points: vec![own(start, 1.0)] });
+        let mut nurbs = self.nurbs.take().unwrap_or_else(|| Nurbs {
+            order: USUAL_ORDER,
+            points: vec![own(start, 1.0)],
+            knots: Vec::new(),
+        });
         if let Some(order) = order {
             let order = self.count(&order, "the order of a spline").and_then(|n| match n {
                 0..=LARGEST_ORDER => Ok(n as usize),
@@ -164,12 +177,12 @@ impl<'s> Reader<'s> {
         Ok(())
     }
 
-    /// `G5.3`: runs the spline.
+    /// `G5.3` and `G6.3`: runs the spline.
     pub(super) fn run_spline(&mut self, bytes: &Bytes) -> Result<()> {
         let Some(nurbs) = self.nurbs.take() else {
             return Err(self
-                .lacks(bytes, "G5.3 without the control points of a spline")
-                .help("program G5.2")
+                .lacks(bytes, "a spline without control points")
+                .help("program G5.2 or G6.2")
                 .into());
         };
         if nurbs.points.len() < nurbs.order {
@@ -179,6 +192,7 @@ impl<'s> Reader<'s> {
                 .bound(nurbs.order as f64, "points")
                 .into());
         }
+        self.check_knots(&nurbs, bytes)?;
         let speed = self.feed_speed()?;
         self.note("LinuxCNC runs a spline as arcs of its own choice: the spline itself is followed");
         let cubics = nurbs.cubics();
@@ -203,7 +217,7 @@ impl<'s> Reader<'s> {
     }
 
     /// Feed of a spline, which runs in XY without compensation.
-    fn spline_speed(&mut self, words: &[Word<'s>]) -> Result<Speed> {
+    pub(super) fn spline_speed(&mut self, words: &[Word<'s>]) -> Result<Speed> {
         let here = self.here.clone();
         if self.modal.comp != Comp::Off {
             return Err(self.while_on(&here).into());
@@ -221,7 +235,7 @@ impl<'s> Reader<'s> {
 
     /// Whether the motion in force gives control points.
     pub(super) fn gives_points(&self) -> bool {
-        self.modal.motion == Some(Code::ControlPoint)
+        matches!(self.modal.motion, Some(Code::ControlPoint | Code::KnotRow))
     }
 }
 
@@ -230,7 +244,8 @@ mod tests {
     use super::*;
 
     fn nurbs(order: usize, points: &[(f64, f64, f64)]) -> Nurbs {
-        Nurbs { order, points: points.iter().map(|(x, y, w)| (DVec2::new(*x, *y), *w)).collect() }
+        let points = points.iter().map(|(x, y, w)| (DVec2::new(*x, *y), *w)).collect();
+        Nurbs { order, points, knots: Vec::new() }
     }
 
     #[test]

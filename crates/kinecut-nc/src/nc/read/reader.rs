@@ -3,6 +3,7 @@
 use std::cell::Cell;
 
 use crate::base::{Code as FindingCode, Finding, Result, Span, Sum};
+use crate::machine::{CodeEffect, OwnCode};
 use crate::nc::dialect::{AXES, COMMON_G, COMMON_M, Code, Dialect, FlowWords, TurnWord};
 use crate::nc::multi_axis::ROTARY;
 use crate::nc::run::Variables;
@@ -16,6 +17,8 @@ use super::nurbs::Nurbs;
 use super::place::{Bytes, SourceText};
 use super::points::Points;
 use super::polar::Polar;
+use super::saved::Saved;
+use super::stored::Stored;
 
 /// A value of a word and its place.
 #[derive(Clone, Debug)]
@@ -38,6 +41,8 @@ pub(super) struct Reader<'s> {
     pub(super) repeated: Sum,
     /// The program has said its number.
     numbered: bool,
+    /// Codes of the machine that the language does not have.
+    pub(super) own_codes: Vec<OwnCode>,
     /// Coordinates without a decimal point.
     pub(super) points: Points,
     /// The words of the present block.
@@ -69,6 +74,10 @@ pub(super) struct Reader<'s> {
     pub(super) radii: Vec<(u32, f64)>,
     /// Lengths of tools that the program sets [mm].
     pub(super) lengths_set: Vec<(u32, f64)>,
+    /// Modal states that were saved (`M70`, `M73`).
+    pub(super) saved: Vec<Saved>,
+    /// Places that `G28` and `G30` go to, where the program has stored them.
+    pub(super) stored_places: [Option<Stored>; 2],
     /// Length in force without a tool that the program has called [mm].
     pub(super) lift: f64,
     /// Feed moves that start at a place that the program has not set.
@@ -101,6 +110,7 @@ impl<'s> Reader<'s> {
             ended: false,
             repeated: Sum::default(),
             numbered: false,
+            own_codes: Vec::new(),
             points: Points::default(),
             origin: Origin::default(),
             here: 0..0,
@@ -119,6 +129,8 @@ impl<'s> Reader<'s> {
             stored_shift: glam::DVec3::ZERO,
             radii: Vec::new(),
             lengths_set: Vec::new(),
+            saved: Vec::new(),
+            stored_places: [None; 2],
             lift: 0.0,
             from_nowhere: Vec::new(),
             jump: None,
@@ -388,6 +400,9 @@ impl<'s> Reader<'s> {
 
     fn g_code(&self, value: f64) -> Option<Code> {
         let tenths = whole(value * 10.0)?;
+        if let Some(own) = self.own_code('G', tenths) {
+            return Some(own);
+        }
         let find = |table: &[(u32, Code)]| {
             let found = table.iter().find(|(t, _)| *t == tenths).map(|(_, c)| *c);
             found.filter(|c| *c != Code::FeedPerRevolution || self.dialect.per_revolution)
@@ -397,8 +412,21 @@ impl<'s> Reader<'s> {
         })
     }
 
+    /// The effect of a code that the machine has of its own.
+    fn own_code(&self, letter: char, tenths: u32) -> Option<Code> {
+        let found = self.own_codes.iter().find(|c| c.letter == letter && c.tenths == tenths)?;
+        Some(match found.effect {
+            CodeEffect::TipControl => Code::Transformation { on: true },
+            CodeEffect::NoTipControl => Code::Transformation { on: false },
+            CodeEffect::NoMotion => Code::Harmless("a code of the machine"),
+        })
+    }
+
     fn m_code(&self, value: f64) -> Option<Code> {
         let number = whole(value)?;
+        if let Some(own) = self.own_code('M', number.saturating_mul(10)) {
+            return Some(own);
+        }
         let found = COMMON_M.iter().chain(self.dialect.m_codes).find(|(m, _)| *m == number).map(|(_, c)| *c);
         found.filter(|c| match c {
             Code::ToolChange => !self.dialect.hand_change(),

@@ -7,7 +7,7 @@
 use glam::DVec3;
 
 use crate::base::Result;
-use crate::nc::dialect::AXES;
+use crate::nc::dialect::{AXES, Code};
 use crate::nc::multi_axis::ROTARY;
 use crate::program::{Move, Path, Speed, Target, Tcp, ToolAxis};
 
@@ -52,6 +52,8 @@ impl<'s> Reader<'s> {
             }
             joints[3 + axis] = Some(0.0);
         }
+        let second = self.code(|c| c == Code::SecondReference).is_some();
+        let stored = self.stored_places[usize::from(second)];
         if joints == [None; 6] {
             if self.dialect.point {
                 return Err(self.lacks(bytes, "the way to the reference point without an axis").into());
@@ -71,6 +73,9 @@ impl<'s> Reader<'s> {
                 self.modal.tool_item = None;
             }
         }
+        if let Some(place) = stored.filter(|_| joints[3..] == [None; 3]) {
+            return self.to_stored(place, [0, 1, 2].map(|axis| joints[axis].is_some()), bytes);
+        }
         for axis in 0..3 {
             if joints[axis].is_some() {
                 self.modal.position[axis] = None;
@@ -87,7 +92,10 @@ impl<'s> Reader<'s> {
         self.flush(Kind::Other);
         let motion = Move { end: Target::Joints(joints), path: Path::Line };
         self.program.push_move(motion, &self.state(speed), self.origin);
-        self.note("the reference point (G28) is taken to be machine zero");
+        self.note(match second {
+            true => "the second reference point (G30) is taken to be machine zero",
+            false => "the reference point (G28) is taken to be machine zero",
+        });
         Ok(())
     }
 }

@@ -181,7 +181,8 @@ impl<'s> Reader<'s> {
             return Err(finding.help("end it first (CYCLE800())").into());
         }
         self.no_compensation_with_tip(&bytes)?;
-        self.modal.rotary_axes.tcp = self.modal.rotary_axes.interpolation.unwrap_or(Tcp::Vector);
+        let usual = if self.dialect.axes.tcp == TcpWord::Transformation { Tcp::Vector } else { Tcp::Axes };
+        self.modal.rotary_axes.tcp = self.modal.rotary_axes.interpolation.unwrap_or(usual);
         Ok(())
     }
 

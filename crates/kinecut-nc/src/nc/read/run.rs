@@ -345,7 +345,9 @@ impl<'s> Run<'s> {
 
     /// Returns from a call, to a block number of the caller where one is given.
     pub(super) fn back(&mut self, to: Option<u32>, bytes: &Bytes) -> Result<bool> {
+        let depth = self.frames.len();
         let Some(frame) = self.frames.last_mut() else { return self.main_returns(to, bytes) };
+        self.reader.returned(depth, bytes)?;
         if frame.again > 0 {
             frame.again -= 1;
             let begin = frame.begin;

@@ -4,6 +4,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::base::FileId;
+use crate::machine::OwnCode;
 
 /// Meaning of a coordinate without a decimal point on a FANUC control (parameter 3401#0 DPI).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
@@ -30,6 +31,8 @@ pub struct ReadSettings {
     pub input: NumberInput,
     /// Place of the tip before the first move, in coordinates of the first work offset [mm], where it is known.
     pub start: Option<[f64; 3]>,
+    /// Codes of the machine that the language of the control does not have.
+    pub codes: Vec<OwnCode>,
     /// Whether reading goes on behind a block that is wrong or not understood: no axis is where the program says, until the
     /// program says it again. The errors are in [`Reading::errors`](super::Reading::errors).
     pub reads_on: bool,
@@ -47,6 +50,7 @@ impl Default for ReadSettings {
             files: Vec::new(),
             input: NumberInput::Auto,
             start: None,
+            codes: Vec::new(),
             reads_on: false,
         }
     }

@@ -6,7 +6,7 @@
 //!
 //! Holes that follow one another with the same words are a series: `write::series`.
 
-use crate::base::Result;
+use crate::base::{Code, Finding, Result};
 use crate::nc::dialect::{AXES, Plane};
 use crate::nc::grid::plain;
 use crate::nc::native::{Canned, Native};
@@ -30,6 +30,10 @@ impl Writer<'_> {
         state: &State,
     ) -> Result<()> {
         let cycle = &Cycle::in_one_go(steps).unwrap_or(*cycle);
+        if cycle.heights()[2].is_nan() {
+            let message = "a cycle returns to a height that the program has not set";
+            return Err(Finding::error(Code::NC_STATE, message).help("move Z there before the cycle").into());
+        }
         if state.tcp != Tcp::Off && !self.klartext() {
             return Err(unsupported("a drilling cycle under control of the tool centre point")
                 .help("drill in a tilted plane, or give the moves")

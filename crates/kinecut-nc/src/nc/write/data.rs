@@ -41,6 +41,23 @@ impl Writer<'_> {
                     Some(offset) => format!("G10 L20 P{}{words}", self.offset_number(offset)?),
                 }
             }
+            ControlData::Probe { kind, place } if linuxcnc || grbl => {
+                self.state(state, true)?;
+                let mut block = String::new();
+                if let (mode, Some(feed)) = self.feed_words(state.speed)? {
+                    block = mode.map_or_else(String::new, |mode| format!("{mode} "));
+                    block.push_str(&format!("F{feed} "));
+                }
+                block.push_str(&format!("G38.{kind}{}", self.axis_words(place)?));
+                self.modal.motion = None;
+                for axis in 0..3 {
+                    if place[axis].is_some() {
+                        self.place.written[axis] = None;
+                        self.place.exact[axis] = f64::NAN;
+                    }
+                }
+                block
+            }
             ControlData::Length { register, length } if register >= OWN_REGISTERS => {
                 self.own_registers.push((register, length));
                 return Ok(());
@@ -75,6 +92,7 @@ impl Writer<'_> {
             }
             ControlData::Zero { .. } => return Err(cannot("the zero of a work offset").into()),
             ControlData::Here { .. } => return Err(cannot("the coordinates of the present place").into()),
+            ControlData::Probe { .. } => return Err(cannot("a move of a probe").into()),
             ControlData::Orient { .. } => return Err(cannot("the place where the spindle stands").into()),
             ControlData::Lift { .. } => return Err(cannot("a length without a tool").into()),
             ControlData::Length { .. } | ControlData::Radius { .. } => {

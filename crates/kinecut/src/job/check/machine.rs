@@ -8,10 +8,10 @@ use super::control::control;
 use super::joint::{axis, linear_axes, travel, usual_letters};
 use super::setup::rotation;
 use crate::base::bounded::text;
-use crate::base::{Code, Finding, Loader, Result};
+use crate::base::{Code, Error, Finding, Loader, Result};
 use crate::geom::Rigid;
 use crate::job::file::{AxisTable, FrameTable, MachineTable, SpindleTable};
-use crate::machine::{CoordinateCode, Elementary, Machine};
+use crate::machine::{CoordinateCode, Elementary, Machine, OwnCode};
 
 /// Least volume that the directions of three translations span: below it one of them follows from the others.
 const LEAST_VOLUME: f64 = 1e-3;
@@ -66,6 +66,12 @@ pub(crate) fn machine(t: &MachineTable, loader: &dyn Loader) -> Result<Machine> 
     machine.dynamics = linear_axes(&t.dynamics)?.over(machine.dynamics);
     machine.control = control(&t.dynamics)?.over(machine.control);
     machine.rapids = t.rapids.or(machine.rapids);
+    if !t.codes.is_empty() {
+        let codes = t.codes.iter().map(|(name, effect)| {
+            OwnCode::parse(name, *effect).map_err(|e| Error::from(e.0.key(format!("codes.{name}"))))
+        });
+        machine.codes = codes.collect::<Result<Vec<OwnCode>>>()?.into();
+    }
     if let Some(table) = &t.spindle {
         machine.spindle = spindle(table, machine.spindle)?;
     }

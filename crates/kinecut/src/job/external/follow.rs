@@ -79,8 +79,14 @@ pub(crate) fn follow(
         files.push((called.name.clone(), sources.add(&called.file, Arc::clone(&called.text))));
     }
     let reads_on = errors == Errors::GoOn;
-    let settings =
-        ReadSettings { files, input: program.input, start: program.start, blocks: program.blocks, reads_on };
+    let settings = ReadSettings {
+        files,
+        input: program.input,
+        start: program.start,
+        blocks: program.blocks,
+        codes: job.machine.as_ref().map(|m| m.codes.to_vec()).unwrap_or_default(),
+        reads_on,
+    };
     let mut reading = nc::read_source(&sources, file, program.control, &clamping, &settings)?;
     let mut assumed = Vec::new();
     if missing == Missing::StoodFor {

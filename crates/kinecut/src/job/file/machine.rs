@@ -9,7 +9,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::BodyTable;
-use crate::machine::{Interpolator, Rapids};
+use crate::machine::{CodeEffect, Interpolator, Rapids};
 
 /// A machine, or the name of a file with one.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -46,6 +46,10 @@ pub struct MachineTable {
     /// except for controls whose language defines the straight line (LinuxCNC, Grbl, HEIDENHAIN).
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub rapids: Option<Rapids>,
+    /// Codes that the control of this machine has of its own, with their effect: "tip-control" (the linear axes follow the
+    /// rotary ones), "no-tip-control", "no-motion". `codes = { M428 = "tip-control", M429 = "no-tip-control" }`.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub codes: BTreeMap<String, CodeEffect>,
     /// The axes, by letter or, for inclined rotary axes, by the digit of the code: `[axis.A]`, `[axis.7]`. An axis that is
     /// not listed has its standard direction and passes through the machine's zero.
     #[serde(default)]

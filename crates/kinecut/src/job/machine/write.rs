@@ -7,7 +7,7 @@ use glam::{DMat3, DVec3};
 use crate::base::unit::variant_key;
 use crate::geom::{Rigid, Solid};
 use crate::job::check::machine::shortest;
-use crate::machine::{Body, Joint, Link, Machine};
+use crate::machine::{Body, Joint, Link, Machine, OwnCode};
 
 /// Digits of a number in a file: two fewer than a double holds, so that degrees come out as they were given.
 const DIGITS: usize = 14;
@@ -44,6 +44,11 @@ pub fn machine_toml(machine: &Machine) -> String {
     }
     if let Some(rapids) = machine.rapids {
         let _ = writeln!(out, "rapids = \"{}\"", variant_key(&rapids));
+    }
+    if !machine.codes.is_empty() {
+        let named = |c: &OwnCode| format!("\"{c}\" = \"{}\"", variant_key(&c.effect));
+        let codes: Vec<String> = machine.codes.iter().map(named).collect();
+        let _ = writeln!(out, "codes = {{ {} }}", codes.join(", "));
     }
     for joint in &machine.joints {
         axis(&mut out, joint);
