@@ -175,3 +175,36 @@ fn an_alarm_of_the_program_ends_it() {
     let reading = nc::read_source(&sources, file, Fanuc, &[], &settings).unwrap();
     assert_eq!(reading.errors.len(), 1, "{:?}", reading.errors);
 }
+
+#[test]
+fn grbl_answers_by_number() {
+    for (body, number) in [
+        ("G1 X5 Q2 F100", 20),
+        ("G1 X5 P2 F100", 36),
+        ("M6", 20),
+        ("G0 X1 X2", 25),
+        ("G0 G1 X1", 21),
+        ("G28 G1 X5 F1", 24),
+        ("G1 X1", 22),
+        ("G2 X10.01 Y0 I5 F100", 33),
+        ("G2 X10 Y0 R1 F100", 34),
+        ("G2 X10 Y0 F100", 35),
+        ("G2 G53 X10 Y0 I5 F100", 30),
+        ("G80 X1", 31),
+        ("G4", 28),
+        ("G10 P1 X1", 28),
+        ("G10 L2.5 P1 X1", 23),
+        ("G53 G0", 26),
+        ("G38.2 F1", 26),
+        ("G1 X1.2.3 F1", 2),
+        ("G1 X1 =2 F1", 1),
+    ] {
+        let said = format!("GRBL answers error {number} here");
+        let error = refused(body, Grbl);
+        assert!(error.contains(&said), "{body}: {error}");
+    }
+    assert!(!refused("G1 X1", LinuxCnc).contains("answers error"));
+    let tape = read("%\nG21 G54 G0 X1\nM2\n", Grbl).unwrap();
+    assert!(tape.findings.iter().any(|f| f.message.starts_with("GRBL answers error 1 to a line with `%`")));
+    assert!(refused("G1 X1", GrblHal).contains("grblHAL answers error 22 here"));
+}

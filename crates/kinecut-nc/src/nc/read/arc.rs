@@ -26,9 +26,11 @@ const INVOLUTE_DIFFERENCE: f64 = 0.01;
 
 impl<'s> Reader<'s> {
     pub(super) fn no_centre(&self, bytes: &Bytes) -> Finding {
-        self.place
+        let finding = self
+            .place
             .error(FindingCode::NC_ARC, bytes, "an arc without centre or radius")
-            .help("program I, J, K or a radius")
+            .help("program I, J, K or a radius");
+        self.answers(finding, 35)
     }
 
     pub(super) fn arc(&mut self, words: &mut [Word<'s>], ccw: bool) -> Result<()> {
@@ -164,7 +166,7 @@ impl<'s> Reader<'s> {
         }
         if length - radius.abs() > SHORT_RADIUS {
             let finding = wrong("the radius of an arc is shorter than half the distance of its ends");
-            return Err(finding.value_mm(radius).bound_mm(length).into());
+            return Err(self.answers(finding.value_mm(radius).bound_mm(length), 34).into());
         }
         let height = ((radius.abs() - length) * (radius.abs() + length)).clamp(0.0, f64::INFINITY).sqrt();
         let left = half.perp() / length;
@@ -181,7 +183,8 @@ impl<'s> Reader<'s> {
             let message = format!(
                 "the start of an arc is {r1:.5} mm from its centre, the end {r2:.5} mm: the difference is too large"
             );
-            return Err(self.no_fit(&message).value_mm(difference).bound_mm(bound).into());
+            let finding = self.no_fit(&message).value_mm(difference).bound_mm(bound);
+            return Err(self.answers(finding, 33).into());
         }
         let least = if matches!(self.dialect.mismatch, Mismatch::Ngc) { ZERO_RADIUS } else { 0.0 };
         if r1 <= least || r2 <= least {

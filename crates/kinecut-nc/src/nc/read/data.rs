@@ -27,7 +27,8 @@ impl<'s> Reader<'s> {
     /// Executes `G10`.
     pub(super) fn set_data(&mut self, words: &mut [Word<'s>], bytes: &Bytes) -> Result<()> {
         let Some(kind) = take(words, "L") else {
-            return Err(self.lacks(bytes, "G10 without L").help("program L2 to set a work offset").into());
+            let finding = self.lacks(bytes, "G10 without L").help("program L2 to set a work offset");
+            return Err(self.answers(finding, 28).into());
         };
         let fanuc = self.dialect.flow == FlowWords::MacroB;
         let number = self.count(&kind, "L")?;
@@ -208,7 +209,7 @@ impl<'s> Reader<'s> {
     /// The work offset of P; none is what is added to all of them.
     fn offset_of(&self, words: &mut [Word<'s>], bytes: &Bytes) -> Result<Option<WorkOffset>> {
         let Some(number) = take(words, "P") else {
-            return Err(self.lacks(bytes, "G10 without the work offset P").into());
+            return Err(self.answers(self.lacks(bytes, "G10 without the work offset P"), 28).into());
         };
         let fanuc = self.dialect.flow == FlowWords::MacroB;
         let found = match self.count(&number, "a work offset")? {

@@ -282,7 +282,9 @@ impl<'s> Reader<'s> {
                         .into());
                 }
             },
-            (None, None) => return Err(self.lacks(bytes, "a dwell without a time").into()),
+            (None, None) => {
+                return Err(self.answers(self.lacks(bytes, "a dwell without a time"), 28).into());
+            }
             (Some(_), Some(turns)) => return Err(self.twice(&turns.bytes).into()),
         };
         if time.value < 0.0 {

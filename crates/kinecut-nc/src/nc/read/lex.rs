@@ -6,6 +6,7 @@ use crate::nc::run::{Expression, Names, Value};
 
 use super::number::Number;
 use super::place::{Bytes, SourceText};
+use super::reader::answered;
 
 /// A word: an address with its number, or a keyword without one.
 #[derive(Clone, Debug)]
@@ -33,6 +34,11 @@ impl<'t> Word<'t> {
             ([own], [letter]) => own.eq_ignore_ascii_case(letter),
             (own, name) => own.eq_ignore_ascii_case(name),
         }
+    }
+
+    /// Whether GRBL reads its letter.
+    pub(super) fn is_of_grbl(&self) -> bool {
+        "FGIJKLMNPRSTXYZ".contains(&self.name.to_ascii_uppercase())
     }
 
     /// A keyword without a number.
@@ -191,7 +197,8 @@ impl<'s> Lexer<'_, 's> {
                         stop += 1;
                     }
                     let token = range(at, stop);
-                    return Err(self.place.malformed(&token, "this character has no meaning here").into());
+                    let finding = self.place.malformed(&token, "this character has no meaning here");
+                    return Err(answered(self.dialect, finding, 1).into());
                 }
             };
         }
@@ -377,7 +384,7 @@ impl<'s> Lexer<'_, 's> {
             } else {
                 "it has the letter O where a digit belongs"
             };
-            return Err(self.place.malformed(&token, why).into());
+            return Err(answered(self.dialect, self.place.malformed(&token, why), 2).into());
         }
         let place = range(at, stop);
         if torn {

@@ -64,7 +64,9 @@ impl<'s> Reader<'s> {
                 (Some((Code::Cycle(_), bytes)), _) => {
                     Err(self.lacks(&bytes, "a cycle without an axis").into())
                 }
-                (_, Some(bytes)) => Err(self.lacks(&bytes, "machine coordinates without an axis").into()),
+                (_, Some(bytes)) => {
+                    Err(self.answers(self.lacks(&bytes, "machine coordinates without an axis"), 26).into())
+                }
                 _ => Ok(()),
             };
         }
@@ -100,7 +102,8 @@ impl<'s> Reader<'s> {
             Some(Code::SynchronisedTap) => self.synchronised_tap(words),
             _ => {
                 let here = self.here.clone();
-                Err(self.lacks(&here, "axis words without a motion code (G0, G1, ...)").into())
+                let finding = self.lacks(&here, "axis words without a motion code (G0, G1, ...)");
+                Err(self.answers(finding, 31).into())
             }
         }
     }
@@ -186,7 +189,7 @@ impl<'s> Reader<'s> {
                     _ if self.modal.feed.is_some() => "a feed move with feed zero",
                     _ => "a feed move without a feed (F)",
                 };
-                Err(self.lacks(&here, what).into())
+                Err(self.answers(self.lacks(&here, what), 22).into())
             }
         }
     }
@@ -242,7 +245,10 @@ impl<'s> Reader<'s> {
         let speed = match self.modal.motion {
             Some(Code::Rapid) => Speed::Rapid { linear: self.dialect.straight_rapid },
             Some(Code::Feed) => self.feed_speed()?,
-            _ => return Err(self.lacks(bytes, "machine coordinates need G0 or G1").into()),
+            _ => {
+                let finding = self.lacks(bytes, "machine coordinates need G0 or G1");
+                return Err(self.answers(finding, 30).into());
+            }
         };
         if !self.modal.absolute {
             return Err(self

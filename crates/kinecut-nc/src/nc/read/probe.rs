@@ -18,7 +18,7 @@ impl<'s> Reader<'s> {
             return Ok(());
         };
         if !self.has_axis(words) {
-            return Err(self.lacks(&bytes, "a probe without an axis").into());
+            return Err(self.answers(self.lacks(&bytes, "a probe without an axis"), 26).into());
         }
         if self.modal.comp != Comp::Off {
             return Err(self.while_on(&bytes).into());

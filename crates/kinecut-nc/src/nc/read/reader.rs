@@ -4,7 +4,7 @@ use std::cell::Cell;
 
 use crate::base::{Code as FindingCode, Finding, Result, Span, Sum};
 use crate::machine::{CodeEffect, OwnCode};
-use crate::nc::dialect::{AXES, COMMON_G, COMMON_M, Code, Dialect, FlowWords, TurnWord};
+use crate::nc::dialect::{AXES, COMMON_G, COMMON_M, Code, Dialect, FlowWords, Mismatch, TurnWord};
 use crate::nc::multi_axis::ROTARY;
 use crate::nc::run::Variables;
 use crate::program::{Comp, Frame, Origin, OriginId, Program, Setup, Speed, State, WorkOffset};
@@ -290,7 +290,8 @@ impl<'s> Reader<'s> {
                     None if rotary => "the control has no rotary axes",
                     _ => "no code of this block uses it",
                 };
-                Err(self.place.not_understood(&word.bytes, why).into())
+                let number = if word.is_of_grbl() { 36 } else { 20 };
+                Err(self.answers(self.place.not_understood(&word.bytes, why), number).into())
             }
             None => Ok(()),
         }
@@ -328,7 +329,7 @@ impl<'s> Reader<'s> {
                 }
                 Some(_) => {
                     if before.iter().any(|w| w.is(word.name)) {
-                        return Err(self.twice(&word.bytes).into());
+                        return Err(self.answers(self.twice(&word.bytes), 25).into());
                     }
                     None
                 }
@@ -342,7 +343,7 @@ impl<'s> Reader<'s> {
                 let group = |c: Code| c.group().or_else(|| self.group_of_m_code(c));
                 let said = |of| self.codes.iter().any(|(c, _)| group(*c) == Some(of) && !beside(*c));
                 if group(code).is_some_and(said) {
-                    return Err(self.twice(&word.bytes).into());
+                    return Err(self.answers(self.twice(&word.bytes), 21).into());
                 }
                 self.codes.push((code, word.bytes.clone()));
             }
@@ -374,11 +375,8 @@ impl<'s> Reader<'s> {
             self.place.shown(&bytes),
             self.place.shown(&of_motion)
         );
-        Err(self
-            .place
-            .error(FindingCode::NC_SYNTAX, &of_motion, message)
-            .help("write them in two blocks")
-            .into())
+        let finding = self.place.error(FindingCode::NC_SYNTAX, &of_motion, message);
+        Err(self.answers(finding.help("write them in two blocks"), 24).into())
     }
 
     /// Whether the block is an arc, where K is a length and not a count.
@@ -390,6 +388,11 @@ impl<'s> Reader<'s> {
     fn unknown(&self, word: &Word<'_>) -> Finding {
         let answer = self.dialect.answer.unwrap_or("kinecut does not know what the control does with it");
         self.place.not_understood(&word.bytes, answer)
+    }
+
+    /// A finding with the number of the error that GRBL or grblHAL answers there.
+    pub(super) fn answers(&self, finding: Finding, number: u8) -> Finding {
+        answered(self.dialect, finding, number)
     }
 
     pub(super) fn twice(&self, bytes: &Bytes) -> Finding {
@@ -446,8 +449,10 @@ impl<'s> Reader<'s> {
 
     /// A value that must be a whole number.
     pub(super) fn count(&self, value: &Value, what: &str) -> Result<u32> {
-        whole(value.value)
-            .ok_or_else(|| self.place.malformed(&value.bytes, &format!("{what} is a whole number")).into())
+        whole(value.value).ok_or_else(|| {
+            let finding = self.place.malformed(&value.bytes, &format!("{what} is a whole number"));
+            self.answers(finding, 23).into()
+        })
     }
 
     /// Adds a tool item, if the state in force is not that of the last one.
@@ -487,6 +492,20 @@ impl<'s> Reader<'s> {
     pub(super) fn has_axis(&self, words: &[Word<'s>]) -> bool {
         self.has_rotary(words) || words.iter().any(|w| !w.used && AXES.iter().any(|a| w.is(a)))
     }
+}
+
+/// A finding with the number of the error that GRBL or grblHAL answers there.
+pub(super) fn answered(dialect: &Dialect, finding: Finding, number: u8) -> Finding {
+    if !matches!(dialect.mismatch, Mismatch::Grbl) {
+        return finding;
+    }
+    let name = if dialect.answer.is_some() { "GRBL" } else { "grblHAL" };
+    let answer = format!("{name} answers error {number} here");
+    let help = match finding.help.as_str() {
+        "" => answer,
+        help => format!("{help}; {answer}"),
+    };
+    finding.help(help)
 }
 
 /// The first lines of a list.

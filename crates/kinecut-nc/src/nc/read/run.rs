@@ -200,6 +200,10 @@ impl<'s> Run<'s> {
     /// Runs a block; `false` at the end.
     pub(super) fn block(&mut self, block: &mut Block<'s>) -> Result<bool> {
         if block.tape {
+            if self.reader.dialect.answer.is_some() {
+                let bytes = self.at.saturating_sub(2) as u32..self.at.saturating_sub(1) as u32;
+                self.reader.warn(&bytes, "GRBL answers error 1 to a line with `%`: senders leave it out");
+            }
             return Ok(!(self.started && self.reader.dialect.tape.is_some()));
         }
         if !self.started {
