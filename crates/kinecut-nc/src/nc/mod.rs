@@ -12,6 +12,7 @@
 mod arc_fit;
 mod comment;
 mod control;
+mod corner_fit;
 mod detect;
 mod dialect;
 mod dialects;

@@ -5,6 +5,7 @@ use kinecut_nc::nc::{self, Control, Reading};
 use kinecut_nc::program::{Item, Path, Speed, Target};
 
 mod controls;
+mod fanuc_corners;
 mod linuxcnc;
 mod macro_b;
 

@@ -34,7 +34,9 @@
 //!   negative. `G69` ends it. `P1` roll-pitch-yaw is read, about the axes of the work offset, which stay fixed; `P2`
 //!   to `P4` and `G68.3` are not.
 //!
-//! Source of the last two: general knowledge of the operator's manual of the 30i, and programs and post-processors of others;
+//! * Corners: `,R` rounds and `,C` chamfers the corner to the next move of the plane (`nc/read/corner.rs`).
+//!
+//! Source of the two before it: general knowledge of the operator's manual of the 30i, and programs and post-processors of others;
 //! the sense of `P1` and of `P` of `G53.1` are those of implementations that follow it, not checked against a manual.
 //! Source of the rotation: operator's manual of the Series 15i, connection manual of the 0i (parameters 5400, 5410).
 //! Source: alarm list of the Series 16/18 for the involute; the rest from general knowledge of the operator's manuals

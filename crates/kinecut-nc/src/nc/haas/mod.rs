@@ -6,6 +6,7 @@
 //! * `M97 P` calls the block of a number in the same program. The number of a program has five digits: none of them counts
 //!   calls.
 //! * `G4 P` with a point is in seconds, without one in milliseconds.
+//! * `,R` and `,C` stand between straight moves only.
 //! * A feed without a point may count ten-thousandths of an inch by setting 77: it is read in whole units, and said.
 //!
 //! `G12`, `G13`, `G47`, `G70` to `G72` and `G150` move axes and are refused by name.

@@ -65,7 +65,7 @@ impl<'s> Reader<'s> {
         self.tilting(words)?;
         self.turning(words)?;
         self.presetting(words)?;
-        self.motion(words, machine)?;
+        self.motion_and_corner(words, machine)?;
         self.check_compensation(&before)?;
         self.jumping(words)?;
         if let Some((Code::Stop(kind), _)) = self.code(|c| matches!(c, Code::Stop(_))) {
@@ -94,7 +94,7 @@ impl<'s> Reader<'s> {
     /// Executes such a block: what [`Reader::execute`] does of it.
     pub(super) fn go_on(&mut self, words: &mut [Word<'s>]) -> Result<()> {
         let before = self.before()?;
-        self.motion(words, None)?;
+        self.motion_and_corner(words, None)?;
         self.check_compensation(&before)
     }
 
@@ -273,6 +273,9 @@ impl<'s> Reader<'s> {
     }
 
     pub(super) fn push_dwell(&mut self, seconds: f64) {
+        if self.waits_for_corner(seconds) {
+            return;
+        }
         self.flush(Kind::Other);
         self.program.push_dwell(seconds, &self.state(Speed::Rapid { linear: false }), self.origin);
     }

@@ -15,6 +15,7 @@ mod call;
 mod called;
 mod calls;
 mod comp;
+mod corner;
 mod cubic;
 mod cycle;
 mod execute;

@@ -188,7 +188,8 @@ impl<'s> Reader<'s> {
             }
             self.from_nowhere.push(self.place.span(&self.here));
         }
-        self.push_tip(end, Path::Line, speed);
+        let path = self.through_corner(end, Path::Line, speed)?;
+        self.push_tip(end, path, speed);
         Ok(())
     }
 

@@ -68,7 +68,8 @@ impl Reader<'_> {
                 || is(word, &["A", "B", "C"])
                 || is(word, &["I", "J", "K"]) && feature;
             let seconds = is(word, &["X"]) && dwells;
-            let length = !angle && !seconds && (is(word, &["X", "Y", "Z", "I", "J", "R"]) || length_k);
+            let length =
+                !angle && !seconds && (is(word, &["X", "Y", "Z", "I", "J", "R", ",R", ",C"]) || length_k);
             let depth = is(word, &["Q"]) && !feature;
             if word.computed {
                 let step =

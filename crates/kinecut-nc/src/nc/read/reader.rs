@@ -9,6 +9,7 @@ use crate::nc::run::Variables;
 use crate::program::{Comp, Frame, Origin, OriginId, Program, Setup, Speed, State, WorkOffset};
 
 use super::Reading;
+use super::corner::Corner;
 use super::jump::Jump;
 use super::lex::{Block, Word, WordMode};
 use super::modal::Modal;
@@ -71,6 +72,8 @@ pub(super) struct Reader<'s> {
     pub(super) from_nowhere: Vec<Span>,
     /// The jump that the present block asks for.
     pub(super) jump: Option<Jump>,
+    /// Corner behind the last move, which waits for the next.
+    pub(super) corner: Option<Corner>,
 }
 
 /// The kinds of item that decide whether a switched-off length becomes an item.
@@ -116,11 +119,13 @@ impl<'s> Reader<'s> {
             radii: Vec::new(),
             from_nowhere: Vec::new(),
             jump: None,
+            corner: None,
         }
     }
 
     /// Ends the reading; `at` is the first byte not read.
     pub(super) fn finish(mut self, at: usize) -> Result<Reading> {
+        self.corner_without_move()?;
         self.flush(Kind::Other);
         self.say_from_nowhere();
         let text = self.place.text();
@@ -211,7 +216,7 @@ impl<'s> Reader<'s> {
     /// Leaves a block that is wrong: from here on no position is known.
     pub(super) fn skip_block(&mut self) {
         self.codes.clear();
-        (self.jump, self.nurbs, self.polar) = (None, None, None);
+        (self.jump, self.nurbs, self.polar, self.corner) = (None, None, None, None);
         self.modal.position = [None; 3];
         self.modal.comp = Comp::Off;
         self.modal.comp_turned = None;
@@ -247,7 +252,7 @@ impl<'s> Reader<'s> {
             return Ok(());
         }
         if self.dialect.flow == FlowWords::MacroB && self.calls_macro(&mut block.words)? {
-            return Ok(());
+            return self.corner_without_move();
         }
         self.collect(&mut block.words)?;
         if self.dialect.point {
