@@ -347,6 +347,10 @@ pub(super) enum Code {
     Stop(StopKind),
     /// Moves no axis and changes no coordinate; the text says what it does.
     Harmless(&'static str),
+    /// `G30`: as G28, to the second, third or fourth reference point.
+    FurtherReference,
+    /// `G54.1`, `G154`: the work offset of a number.
+    ExtendedOffset,
 }
 
 /// Canned cycles.
@@ -460,9 +464,9 @@ impl Code {
             Code::CompOff | Code::Comp { .. } => 7,
             Code::LengthOn | Code::LengthOff | Code::TipControl { .. } => 8,
             Code::ReturnToStart(_) => 10,
-            Code::Work(_) => 12,
+            Code::Work(_) | Code::ExtendedOffset => 12,
             Code::ExactStop | Code::ExactPath | Code::Continuous | Code::Rounded => 13,
-            Code::Dwell | Code::MachineFrame | Code::Reference => 20,
+            Code::Dwell | Code::MachineFrame | Code::Reference | Code::FurtherReference => 20,
             Code::PresetShift | Code::ShiftOff { .. } | Code::ShiftAgain => 20,
             Code::Polar { .. } => 19,
             Code::LocalShift | Code::SetData | Code::FrameShift { .. } | Code::FrameTurn { .. } => 20,

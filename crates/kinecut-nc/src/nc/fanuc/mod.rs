@@ -35,8 +35,10 @@
 //!   to `P4` and `G68.3` are not.
 //!
 //! * Corners: `,R` rounds and `,C` chamfers the corner to the next move of the plane (`nc/read/corner.rs`).
+//! * `G54.1 P` and `G54 P` are the further work offsets, `G30 P2` to `P4` the further reference points, whose places no program
+//!   knows: machine zero is assumed, as a doubt.
 //!
-//! Source of the two before it: general knowledge of the operator's manual of the 30i, and programs and post-processors of others;
+//! Source of the two before these: general knowledge of the operator's manual of the 30i, and programs and post-processors of others;
 //! the sense of `P1` and of `P` of `G53.1` are those of implementations that follow it, not checked against a manual.
 //! Source of the rotation: operator's manual of the Series 15i, connection manual of the 0i (parameters 5400, 5410).
 //! Source: alarm list of the Series 16/18 for the involute; the rest from general knowledge of the operator's manuals
@@ -54,9 +56,9 @@ use super::dialect::{
 use super::multi_axis::{MultiAxis, TcpWord, TiltWord};
 use super::native::{Canned, Native, TapWord};
 
-/// G54 to G59. `G54.1 P` is an option.
+/// G54 to G59, and `G54.1 P1` to `P48` or `P300`, which is an option.
 fn has_offset(offset: WorkOffset) -> bool {
-    matches!(offset.tenths(), 540 | 550 | 560 | 570 | 580 | 590)
+    offset.extension().is_some() || matches!(offset.tenths(), 540 | 550 | 560 | 570 | 580 | 590)
 }
 
 /// Clearance of `G83` (parameter 5115) and lift of `G73` (parameter 5114) [mm]: the machine's maker sets them, mostly to
@@ -148,6 +150,8 @@ pub(super) const DIALECT: Dialect = Dialect {
         (840, Code::Cycle(CycleKind::Tap(Hand::Right))),
         (980, Code::ReturnToStart(true)),
         (990, Code::ReturnToStart(false)),
+        (300, Code::FurtherReference),
+        (541, Code::ExtendedOffset),
     ],
     m_codes: &[(29, Code::Rigid), (98, Code::CallProgram), (99, Code::Return)],
     keywords: &[],

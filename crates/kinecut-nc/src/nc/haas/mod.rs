@@ -7,6 +7,7 @@
 //!   calls.
 //! * `G4 P` with a point is in seconds, without one in milliseconds.
 //! * `,R` and `,C` stand between straight moves only.
+//! * `G154 P1` to `P99` are the further work offsets, `G110` to `G129` the first twenty of them.
 //! * A feed without a point may count ten-thousandths of an inch by setting 77: it is read in whole units, and said.
 //!
 //! `G12`, `G13`, `G47`, `G70` to `G72` and `G150` move axes and are refused by name.
@@ -18,9 +19,10 @@ use super::fanuc;
 use super::multi_axis::MultiAxis;
 use crate::program::WorkOffset;
 
-/// G54 to G59.
+/// G54 to G59, and `G154 P1` to `P99`, of which the first twenty are G110 to G129 too.
 fn has_offset(offset: WorkOffset) -> bool {
-    matches!(offset.tenths(), 540 | 550 | 560 | 570 | 580 | 590)
+    offset.extension().is_some_and(|number| number <= 99)
+        || matches!(offset.tenths(), 540 | 550 | 560 | 570 | 580 | 590)
 }
 
 pub(super) const DIALECT: Dialect = Dialect {
@@ -49,6 +51,7 @@ pub(super) const DIALECT: Dialect = Dialect {
         (990, Code::ReturnToStart(false)),
         (1030, Code::Harmless("look-ahead")),
         (1870, Code::Harmless("accuracy of corners")),
+        (1540, Code::ExtendedOffset),
     ],
     m_codes: &[
         (19, Code::Harmless("orients the spindle")),

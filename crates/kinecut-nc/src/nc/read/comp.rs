@@ -29,7 +29,8 @@ impl<'s> Reader<'s> {
         let forbidden = |c: Code| match c {
             Code::Units { .. } | Code::ToolChange => true,
             Code::Plane(plane) => plane != Plane::Xy,
-            Code::MachineFrame | Code::Reference | Code::Work(_) | Code::LengthOn | Code::LengthOff => !off,
+            Code::MachineFrame | Code::Reference | Code::FurtherReference => !off,
+            Code::Work(_) | Code::LengthOn | Code::LengthOff => !off,
             Code::TipControl { .. } | Code::Transformation { on: true } => !off,
             Code::Tilt | Code::TiltByTool | Code::Orient => true,
             Code::Rotation { .. }

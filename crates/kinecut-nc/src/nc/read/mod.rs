@@ -19,6 +19,7 @@ mod corner;
 mod cubic;
 mod cycle;
 mod execute;
+mod extended_offset;
 mod hole;
 mod jump;
 mod lex;

@@ -14,8 +14,8 @@ use super::reader::{Kind, Reader, take, take_way};
 impl<'s> Reader<'s> {
     /// Executes the motion of a block; `machine`: the place of a word for machine coordinates.
     pub(super) fn motion(&mut self, words: &mut [Word<'s>], machine: Option<Bytes>) -> Result<()> {
-        if let Some((_, bytes)) = self.code(|c| c == Code::Reference) {
-            return self.reference_move(words, &bytes);
+        if let Some((code, bytes)) = self.code(|c| matches!(c, Code::Reference | Code::FurtherReference)) {
+            return self.reference_move(words, code, &bytes);
         }
         let code = self.motion_code();
         if let Some((code, code_at)) = &code {

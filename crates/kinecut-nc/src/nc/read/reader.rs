@@ -258,6 +258,7 @@ impl<'s> Reader<'s> {
         if self.dialect.point {
             self.numbers_without_point(&mut block.words)?;
         }
+        self.extended_offset(&mut block.words)?;
         self.polar_words(&mut block.words)?;
         let before = self.program.items.len();
         let modal = self.code(|c| c == Code::ModalCall).is_some();
@@ -348,8 +349,16 @@ impl<'s> Reader<'s> {
 
     /// Refuses a second code that uses axis words, of a control that takes one.
     pub(super) fn one_use_of_axes(&self) -> Result<()> {
-        let covets =
-            |c: Code| matches!(c, Code::Reference | Code::SetData | Code::LocalShift | Code::PresetShift);
+        let covets = |c: Code| {
+            matches!(
+                c,
+                Code::Reference
+                    | Code::FurtherReference
+                    | Code::SetData
+                    | Code::LocalShift
+                    | Code::PresetShift
+            )
+        };
         let (Some((_, bytes)), Some((motion, of_motion))) = (self.code(covets), self.motion_code()) else {
             return Ok(());
         };
@@ -392,7 +401,8 @@ impl<'s> Reader<'s> {
             found.filter(|c| *c != Code::FeedPerRevolution || self.dialect.per_revolution)
         };
         find(COMMON_G).or_else(|| find(self.dialect.g_codes)).or_else(|| {
-            WorkOffset::from_tenths(tenths).filter(|o| (self.dialect.has_offset)(*o)).map(Code::Work)
+            let offset = WorkOffset::from_tenths(tenths).or_else(|| self.offset_by_code(tenths));
+            offset.filter(|o| (self.dialect.has_offset)(*o)).map(Code::Work)
         })
     }
 

@@ -74,7 +74,8 @@ impl<'s> Reader<'s> {
         }
         let ends = self.code(|c| c == Code::Rotation { on: false }).is_some();
         let forbidden = |c: Code| match c {
-            Code::MachineFrame | Code::Reference | Code::Work(_) | Code::LocalShift => !ends,
+            Code::MachineFrame | Code::Reference | Code::FurtherReference => !ends,
+            Code::Work(_) | Code::LocalShift => !ends,
             Code::Plane(plane) => plane != Plane::Xy,
             _ => false,
         };
