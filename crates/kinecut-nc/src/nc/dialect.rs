@@ -369,6 +369,12 @@ pub(super) enum CycleKind {
     BoreDwell,
     /// `G84` and `G74` with a floating holder: the spindle turns back at the bottom, the way out is at feed (LinuxCNC).
     Floating(Hand),
+    /// `G76`: the tool steps aside at the bottom and leaves (FANUC, Haas).
+    FineBore,
+    /// `G87` of FANUC: the tool steps aside, goes below the work and bores upwards.
+    BackBore,
+    /// `G88`, `G87` of Haas: the spindle and the program stop at the bottom, the way out is by hand.
+    LeftByHand,
 }
 
 /// Plane of arcs.

@@ -37,6 +37,7 @@
 //! * Corners: `,R` rounds and `,C` chamfers the corner to the next move of the plane (`nc/read/corner.rs`).
 //! * `G54.1 P` and `G54 P` are the further work offsets, `G30 P2` to `P4` the further reference points, whose places no program
 //!   knows: machine zero is assumed, as a doubt.
+//! * `G76`, `G87`, `G88` are moves (`nc/read/boring.rs`).
 //!
 //! Source of the two before these: general knowledge of the operator's manual of the 30i, and programs and post-processors of others;
 //! the sense of `P1` and of `P` of `G53.1` are those of implementations that follow it, not checked against a manual.
@@ -152,6 +153,9 @@ pub(super) const DIALECT: Dialect = Dialect {
         (990, Code::ReturnToStart(false)),
         (300, Code::FurtherReference),
         (541, Code::ExtendedOffset),
+        (760, Code::Cycle(CycleKind::FineBore)),
+        (870, Code::Cycle(CycleKind::BackBore)),
+        (880, Code::Cycle(CycleKind::LeftByHand)),
     ],
     m_codes: &[(29, Code::Rigid), (98, Code::CallProgram), (99, Code::Return)],
     keywords: &[],

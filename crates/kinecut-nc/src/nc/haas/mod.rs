@@ -8,6 +8,9 @@
 //! * `G4 P` with a point is in seconds, without one in milliseconds.
 //! * `,R` and `,C` stand between straight moves only.
 //! * `G154 P1` to `P99` are the further work offsets, `G110` to `G129` the first twenty of them.
+//! * `G73` and `G83` with I, J and K have a first step, each shorter by J, none below K; P waits at the bottom. `G84` and `G74` are
+//!   rigid by themselves. `G76` steps aside, behind `G87` and `G88` the tool is taken out by hand. `G77` is refused: the way from Z
+//!   out of the counterbore is not in the pages that are public.
 //! * A feed without a point may count ten-thousandths of an inch by setting 77: it is read in whole units, and said.
 //!
 //! `G12`, `G13`, `G47`, `G70` to `G72` and `G150` move axes and are refused by name.
@@ -18,6 +21,7 @@ use super::dialect::{Code, CycleKind, Dialect, FlowWords};
 use super::fanuc;
 use super::multi_axis::MultiAxis;
 use crate::program::WorkOffset;
+use crate::tool::Hand;
 
 /// G54 to G59, and `G154 P1` to `P99`, of which the first twenty are G110 to G129 too.
 fn has_offset(offset: WorkOffset) -> bool {
@@ -52,6 +56,11 @@ pub(super) const DIALECT: Dialect = Dialect {
         (1030, Code::Harmless("look-ahead")),
         (1870, Code::Harmless("accuracy of corners")),
         (1540, Code::ExtendedOffset),
+        (740, Code::Cycle(CycleKind::Tap(Hand::Left))),
+        (760, Code::Cycle(CycleKind::FineBore)),
+        (840, Code::Cycle(CycleKind::Tap(Hand::Right))),
+        (870, Code::Cycle(CycleKind::LeftByHand)),
+        (880, Code::Cycle(CycleKind::LeftByHand)),
     ],
     m_codes: &[
         (19, Code::Harmless("orients the spindle")),

@@ -11,6 +11,7 @@
 //! stay at the height that is not known.
 
 mod arc;
+mod boring;
 mod call;
 mod called;
 mod calls;

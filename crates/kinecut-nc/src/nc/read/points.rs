@@ -55,7 +55,8 @@ impl Reader<'_> {
         };
         let feature = has(Code::Tilt);
         let axis = self.centre_is_axis() || has(Code::TipControl { vector: true });
-        let lengths_k = self.curved() || feature || axis;
+        // A Haas counts by L.
+        let lengths_k = self.curved() || feature || axis || self.dialect.haas;
         let (dwells, turns) = (has(Code::Dwell), has(Code::Rotation { on: true }));
         let is = |word: &Word<'_>, names: &[&str]| names.iter().any(|n| word.is(n));
         let mut without = None;
