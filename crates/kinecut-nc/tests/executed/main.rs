@@ -7,6 +7,7 @@ use kinecut_nc::program::{Item, Path, Speed, Target};
 mod controls;
 mod fanuc_corners;
 mod fanuc_cycles;
+mod fanuc_modal_macro;
 mod fanuc_offsets;
 mod linuxcnc;
 mod macro_b;

@@ -128,7 +128,9 @@ impl<'s> Reader<'s> {
                 .into());
         }
         let dwell = match (kind, sticky.dwell) {
-            (CycleKind::DrillDwell | CycleKind::BoreDwell, None) if self.dialect.series == SeriesRule::Fanuc => {
+            (CycleKind::DrillDwell | CycleKind::BoreDwell, None)
+                if self.dialect.series == SeriesRule::Fanuc =>
+            {
                 self.note("a cycle with a wait has no P: it does not wait");
                 0.0
             }

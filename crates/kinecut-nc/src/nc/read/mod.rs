@@ -26,6 +26,7 @@ mod jump;
 mod lex;
 mod message;
 mod modal;
+mod modal_macro;
 mod motion;
 pub(super) mod number;
 mod nurbs;

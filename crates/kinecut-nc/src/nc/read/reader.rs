@@ -13,6 +13,7 @@ use super::corner::Corner;
 use super::jump::Jump;
 use super::lex::{Block, Word, WordMode};
 use super::modal::Modal;
+use super::modal_macro::ModalMacros;
 use super::nurbs::Nurbs;
 use super::place::{Bytes, SourceText};
 use super::points::Points;
@@ -72,6 +73,8 @@ pub(super) struct Reader<'s> {
     pub(super) from_nowhere: Vec<Span>,
     /// The jump that the present block asks for.
     pub(super) jump: Option<Jump>,
+    /// Macros that are called after each block that moves.
+    pub(super) modal_macros: ModalMacros,
     /// Corner behind the last move, which waits for the next.
     pub(super) corner: Option<Corner>,
 }
@@ -119,6 +122,7 @@ impl<'s> Reader<'s> {
             radii: Vec::new(),
             from_nowhere: Vec::new(),
             jump: None,
+            modal_macros: ModalMacros::default(),
             corner: None,
         }
     }
