@@ -351,6 +351,14 @@ pub(super) enum Code {
     FurtherReference,
     /// `G54.1`, `G154`: the work offset of a number.
     ExtendedOffset,
+    /// `G51` (on) and `G50`: coordinates are scaled.
+    Scale {
+        on: bool,
+    },
+    /// `G51.1` (on) and `G50.1`: coordinates are mirrored.
+    Mirror {
+        on: bool,
+    },
 }
 
 /// Canned cycles.
@@ -483,6 +491,7 @@ impl Code {
             Code::Stop(_) | Code::CallProgram | Code::CallBlock | Code::Return => 21,
             Code::ToolChange => 22,
             Code::SurfaceSpeed => 26,
+            Code::Scale { .. } | Code::Mirror { .. } => 27,
             Code::SpindleClockwise | Code::SpindleCounterClockwise | Code::SpindleOff => 23,
             Code::Mist | Code::Flood | Code::CoolantOff | Code::Rigid | Code::Harmless(_) => return None,
         })

@@ -10,6 +10,7 @@
 //! block is rounded from the exact curve, increments are taken from the rounded start).
 
 mod arc_fit;
+mod axis_map;
 mod comment;
 mod control;
 mod corner_fit;

@@ -103,7 +103,7 @@ fn cycles_left_by_hand_stop_the_program() {
 
 /// Heights of the feeds of the only cycle.
 fn depths(body: &str) -> (Vec<f64>, Cycle) {
-    let reading = read(&format!("{START}{body}\nG80\nM30\n"), Haas).unwrap();
+    let reading = read(&format!("{START}{body}\nG80\nM30\n"), Haas).expect(body);
     let items = &reading.program.items;
     let found = (0..items.len()).find_map(|i| match items.get(i) {
         Item::Cycle(cycle, steps) => Some((
@@ -115,7 +115,7 @@ fn depths(body: &str) -> (Vec<f64>, Cycle) {
         )),
         _ => None,
     });
-    found.unwrap()
+    found.expect("a cycle")
 }
 
 #[test]

@@ -9,6 +9,7 @@ mod fanuc_corners;
 mod fanuc_cycles;
 mod fanuc_modal_macro;
 mod fanuc_offsets;
+mod fanuc_scaling;
 mod linuxcnc;
 mod macro_b;
 

@@ -38,6 +38,8 @@
 //! * `G54.1 P` and `G54 P` are the further work offsets, `G30 P2` to `P4` the further reference points, whose places no program
 //!   knows: machine zero is assumed, as a doubt.
 //! * `G76`, `G87`, `G88` are moves (`nc/read/boring.rs`).
+//! * `G66` and `G67` call a macro after each move (`nc/read/modal_macro.rs`).
+//! * `G51` and `G51.1` scale and mirror: read as the moves they are (`nc/read/scaling.rs`).
 //!
 //! Source of the two before these: general knowledge of the operator's manual of the 30i, and programs and post-processors of others;
 //! the sense of `P1` and of `P` of `G53.1` are those of implementations that follow it, not checked against a manual.
@@ -153,6 +155,10 @@ pub(super) const DIALECT: Dialect = Dialect {
         (990, Code::ReturnToStart(false)),
         (300, Code::FurtherReference),
         (541, Code::ExtendedOffset),
+        (500, Code::Scale { on: false }),
+        (510, Code::Scale { on: true }),
+        (501, Code::Mirror { on: false }),
+        (511, Code::Mirror { on: true }),
         (760, Code::Cycle(CycleKind::FineBore)),
         (870, Code::Cycle(CycleKind::BackBore)),
         (880, Code::Cycle(CycleKind::LeftByHand)),

@@ -11,6 +11,8 @@
 //! * `G73` and `G83` with I, J and K have a first step, each shorter by J, none below K; P waits at the bottom. `G84` and `G74` are
 //!   rigid by themselves. `G76` steps aside, behind `G87` and `G88` the tool is taken out by hand. `G77` is refused: the way from Z
 //!   out of the counterbore is not in the pages that are public.
+//! * `G51 P` scales, with a point in P; there is no `G51.1`, and `G101` is not read. `G68` without X and Y is about the present place, and
+//!   said.
 //! * A feed without a point may count ten-thousandths of an inch by setting 77: it is read in whole units, and said.
 //!
 //! `G12`, `G13`, `G47`, `G70` to `G72` and `G150` move axes and are refused by name.
@@ -56,6 +58,8 @@ pub(super) const DIALECT: Dialect = Dialect {
         (1030, Code::Harmless("look-ahead")),
         (1870, Code::Harmless("accuracy of corners")),
         (1540, Code::ExtendedOffset),
+        (500, Code::Scale { on: false }),
+        (510, Code::Scale { on: true }),
         (740, Code::Cycle(CycleKind::Tap(Hand::Left))),
         (760, Code::Cycle(CycleKind::FineBore)),
         (840, Code::Cycle(CycleKind::Tap(Hand::Right))),

@@ -16,7 +16,7 @@ use crate::nc::linuxcnc::o_word::OLines;
 /// let text = "o<drill> call [5]\nM98 P20\nM2\nO20\nM99\n";
 /// assert_eq!(called(text, Control::LinuxCnc), [["drill"]]);
 /// assert_eq!(called("M98 P10 L2\nM30", Control::Fanuc), [["o0010", "0010", "o10", "10"]]);
-/// assert_eq!(called("G66 P1234 A1.\nM30", Control::Fanuc), [["o1234", "1234"]]);
+/// assert_eq!(called("G66 P10 A1.\nM30", Control::Fanuc), [["o0010", "0010", "o10", "10"]]);
 /// ```
 pub fn called(text: &str, control: Control) -> Vec<Vec<String>> {
     let flow = control.dialect().flow;

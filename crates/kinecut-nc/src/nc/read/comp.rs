@@ -164,7 +164,7 @@ impl<'s> Reader<'s> {
                 help,
             ));
         };
-        let [x, y, _] = before.position;
+        let [x, y, _] = self.mapped(before.position);
         let unknown: Vec<&str> = (0..2).filter(|i| before.position[*i].is_none()).map(|i| AXES[i]).collect();
         if !unknown.is_empty() {
             let what = format!(

@@ -69,6 +69,9 @@ impl<'s> Reader<'s> {
         }
         let [round, chamfer] = WORDS.map(|word| take(words, word));
         let unit = self.modal.length_unit;
+        if let Some(word) = round.as_ref().or(chamfer.as_ref()) {
+            self.corner_is_not_scaled(&word.bytes)?;
+        }
         let next = match (round, chamfer) {
             (Some(_), Some(second)) => return Err(self.twice(&second.bytes).into()),
             (Some(word), None) => Some((Joint::Round(word.value * unit), word)),

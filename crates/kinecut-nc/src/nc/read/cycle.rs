@@ -68,6 +68,7 @@ impl<'s> Reader<'s> {
             (speed, spindle) = self.geared(speed, hand)?;
         }
         self.turns_as_it_must(kind)?;
+        self.cycle_is_not_scaled(matches!(kind, CycleKind::FineBore | CycleKind::BackBore))?;
         let at = self.modal.position;
         // The block may say where the hole is.
         let says = |name: &str| self.modal.absolute && words.iter().any(|w| w.is(name));

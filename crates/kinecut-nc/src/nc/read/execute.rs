@@ -63,6 +63,7 @@ impl<'s> Reader<'s> {
         self.path_mode(words)?;
         self.distances();
         self.tilting(words)?;
+        self.scaling(words)?;
         self.turning(words)?;
         self.presetting(words)?;
         self.motion_and_corner(words, machine)?;

@@ -42,6 +42,7 @@ mod reference;
 mod rotary_axes;
 mod rotary_state;
 mod run;
+mod scaling;
 mod settings;
 mod statements;
 mod sticky;

@@ -219,7 +219,8 @@ impl<'s> Reader<'s> {
             self.modal.tool_item = None;
         }
         self.modal.position = end;
-        let point = DVec3::from_array(end.map(|v| v.unwrap_or(f64::NAN)));
+        let point = DVec3::from_array(self.mapped(end).map(|v| v.unwrap_or(f64::NAN)));
+        let path = self.scaling.map.map_or(path, |map| map.path(path, self.modal.plane));
         self.note_feed(speed);
         let kept = self.modal.rotary_axes.kept();
         let axis = self.modal.rotary_axes.next.take().unwrap_or(kept);

@@ -39,10 +39,14 @@ impl Points {
     }
 }
 
-impl Reader<'_> {
+impl<'s> Reader<'s> {
     /// Gives the numbers of a block without a decimal point, and those that are computed, their values.
-    pub(super) fn numbers_without_point(&mut self, words: &mut [Word<'_>]) -> Result<()> {
+    pub(super) fn numbers_without_point(&mut self, words: &mut [Word<'s>]) -> Result<()> {
         self.points.increment = None;
+        let scales = self.code(|c| c == (Code::Scale { on: true })).is_some();
+        if scales {
+            self.factors_without_point(words)?;
+        }
         let inch = match self.code(|c| matches!(c, Code::Units { .. })) {
             Some((Code::Units { inch, .. }, _)) => inch,
             _ => self.modal.length_unit != 1.0,
@@ -60,7 +64,7 @@ impl Reader<'_> {
         let (dwells, turns) = (has(Code::Dwell), has(Code::Rotation { on: true }));
         let is = |word: &Word<'_>, names: &[&str]| names.iter().any(|n| word.is(n));
         let mut without = None;
-        for word in words.iter_mut() {
+        for word in words.iter_mut().filter(|w| !(scales && is(w, &["P", "I", "J", "K"]))) {
             let length_k = is(word, &["K"]) && lengths_k;
             let count = is(word, &["P", "T", "H", "D", "O", "N"])
                 || is(word, &["K"]) && !length_k

@@ -50,7 +50,9 @@ impl<'s> Reader<'s> {
         let moves = self.code(|c| {
             matches!(
                 c,
-                Code::MachineFrame
+                Code::Scale { .. }
+                    | Code::Mirror { .. }
+                    | Code::MachineFrame
                     | Code::Reference
                     | Code::FurtherReference
                     | Code::LocalShift

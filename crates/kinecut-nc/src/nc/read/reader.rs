@@ -18,6 +18,7 @@ use super::nurbs::Nurbs;
 use super::place::{Bytes, SourceText};
 use super::points::Points;
 use super::polar::Polar;
+use super::scaling::Scaling;
 
 /// A value of a word and its place.
 #[derive(Clone, Debug)]
@@ -75,6 +76,8 @@ pub(super) struct Reader<'s> {
     pub(super) jump: Option<Jump>,
     /// Macros that are called after each block that moves.
     pub(super) modal_macros: ModalMacros,
+    /// Scaled and mirrored coordinates.
+    pub(super) scaling: Scaling,
     /// Corner behind the last move, which waits for the next.
     pub(super) corner: Option<Corner>,
 }
@@ -123,6 +126,7 @@ impl<'s> Reader<'s> {
             from_nowhere: Vec::new(),
             jump: None,
             modal_macros: ModalMacros::default(),
+            scaling: Scaling::default(),
             corner: None,
         }
     }
@@ -463,7 +467,7 @@ impl<'s> Reader<'s> {
             spindle: self.modal.spindle,
             blend: self.modal.blend,
             tcp: self.modal.rotary_axes.tcp,
-            comp: self.modal.comp,
+            comp: self.scaling.map.map_or(self.modal.comp, |map| map.side(self.modal.comp)),
             coolant: self.modal.coolant,
         }
     }

@@ -468,6 +468,7 @@ impl Reader<'_> {
                 u64::from(modal.chosen.unwrap_or(u32::MAX)),
                 u64::from(modal.radius.unwrap_or(u32::MAX)),
                 self.modal_macros.state(),
+                self.scaling.state(),
             ]);
         let all = places.chain(shift).chain(numbers).chain(words).enumerate();
         all.fold(self.variables.state(), |state, (i, value)| state ^ mixed(i as u64 | 1 << 63, value))

@@ -104,7 +104,8 @@ impl<'s> Reader<'s> {
         if before == motion {
             return;
         }
-        self.modal.position = turn::restated(self.modal.position, &before, &motion);
+        let place = turn::restated(self.mapped(self.modal.position), &before, &motion);
+        self.modal.position = self.programmed(place);
         let raised = before.translation.z != motion.translation.z;
         self.modal.turned.fresh = [true, true, raised];
         self.modal.cubic_end = None;
@@ -135,9 +136,16 @@ impl<'s> Reader<'s> {
             );
             return Err(finding.help("program G69 first, or G90").into());
         }
-        let centre = match (x, y, self.modal.position) {
+        let [mapped_x, mapped_y, _] = self.mapped([x, y, None]);
+        let centre = match (mapped_x, mapped_y, self.mapped(self.modal.position)) {
             (Some(x), Some(y), _) => DVec2::new(x, y),
-            (None, None, [Some(x), Some(y), _]) if degrees == 0.0 => DVec2::new(x, y),
+            (None, None, [Some(x), Some(y), _]) if degrees == 0.0 => {
+                if self.dialect.haas {
+                    let message = "a rotation without X and Y is about the present position, or by another reading about the zero of the work";
+                    self.warn(bytes, message);
+                }
+                DVec2::new(x, y)
+            }
             (None, None, _) if degrees == 0.0 => {
                 let finding =
                     self.lacks(bytes, "a rotation about the present place, which the program has not set");
@@ -151,7 +159,8 @@ impl<'s> Reader<'s> {
             return Err(finding.help("program G69 first").into());
         }
         self.modal.turned.centre = centre;
-        self.modal.turned.degrees = angle.value;
+        let mirrored = self.scaling.map.is_some_and(|map| map.mirrors(Plane::Xy));
+        self.modal.turned.degrees = if mirrored { -angle.value } else { angle.value };
         Ok(())
     }
 
@@ -261,7 +270,7 @@ impl<'s> Reader<'s> {
     }
 
     /// The lengths that a block names [mm].
-    fn lengths(&self, words: &mut [Word<'s>]) -> [Option<f64>; 3] {
+    pub(super) fn lengths(&self, words: &mut [Word<'s>]) -> [Option<f64>; 3] {
         AXES.map(|axis| take(words, axis).map(|v| v.value * self.modal.length_unit))
     }
 }

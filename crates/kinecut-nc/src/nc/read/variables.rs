@@ -72,6 +72,9 @@ impl Reader<'_> {
 
     /// A coordinate of the tip in the coordinates and the unit of the program.
     fn coordinate(&self, axis: usize) -> Known {
+        if axis < 3 && self.scaling.map.is_some_and(|map| !map.keeps(axis)) {
+            return Known::Unknown("what it holds while coordinates are scaled or mirrored is not known");
+        }
         match self.modal.position.get(axis) {
             Some(Some(place)) => number(place / self.modal.length_unit),
             Some(None) => Known::Unknown(PLACE),
