@@ -3,6 +3,7 @@
 use crate::program::{Blend, StopKind, WorkOffset};
 use crate::tool::Hand;
 
+use super::modes::{self, Mode};
 use super::multi_axis::MultiAxis;
 use super::native::{Native, TapWord};
 use super::run::{Arithmetic, Level};
@@ -359,6 +360,10 @@ pub(super) enum Code {
     Mirror {
         on: bool,
     },
+    /// Moves no axis, and has words of its own.
+    Mode(&'static Mode),
+    /// Known, and refused: the text says why.
+    NotRead(&'static str),
 }
 
 /// Canned cycles.
@@ -424,6 +429,15 @@ impl Dialect {
     /// Whether F gives the time of a dwell.
     pub(super) fn feed_is_dwell(&self) -> bool {
         self.dwell_words.iter().any(|w| w.0 == "F")
+    }
+
+    /// Further codes of the control, which move no axis or are refused.
+    pub(super) fn further_codes(&self) -> &'static [(u32, Code)] {
+        match (self.flow, self.haas) {
+            (FlowWords::MacroB, true) => modes::HAAS,
+            (FlowWords::MacroB, false) => modes::FANUC,
+            _ => &[],
+        }
     }
 
     /// Whether it runs cubics.
@@ -494,6 +508,7 @@ impl Code {
             Code::Scale { .. } | Code::Mirror { .. } => 27,
             Code::SpindleClockwise | Code::SpindleCounterClockwise | Code::SpindleOff => 23,
             Code::Mist | Code::Flood | Code::CoolantOff | Code::Rigid | Code::Harmless(_) => return None,
+            Code::Mode(_) | Code::NotRead(_) => return None,
         })
     }
 }

@@ -24,6 +24,7 @@ mod grid;
 mod haas;
 mod heidenhain;
 mod linuxcnc;
+mod modes;
 mod multi_axis;
 mod native;
 mod own_cycle;

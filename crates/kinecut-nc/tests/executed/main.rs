@@ -8,6 +8,7 @@ mod controls;
 mod fanuc_corners;
 mod fanuc_cycles;
 mod fanuc_modal_macro;
+mod fanuc_modes;
 mod fanuc_offsets;
 mod fanuc_scaling;
 mod linuxcnc;

@@ -15,7 +15,9 @@
 //!   said.
 //! * A feed without a point may count ten-thousandths of an inch by setting 77: it is read in whole units, and said.
 //!
-//! `G12`, `G13`, `G47`, `G70` to `G72` and `G150` move axes and are refused by name.
+//! * `G187 P E` says how far corners may be rounded, which is said and not followed.
+//!
+//! `G12`, `G13`, `G47`, `G77` and `G150` move axes in ways that no public page says to the last move: refused with that reason.
 //!
 //! Source: pages of the operator's manual 96-8000 as quoted publicly, and programs of others.
 
@@ -55,8 +57,6 @@ pub(super) const DIALECT: Dialect = Dialect {
         (890, Code::Cycle(CycleKind::BoreDwell)),
         (980, Code::ReturnToStart(true)),
         (990, Code::ReturnToStart(false)),
-        (1030, Code::Harmless("look-ahead")),
-        (1870, Code::Harmless("accuracy of corners")),
         (1540, Code::ExtendedOffset),
         (500, Code::Scale { on: false }),
         (510, Code::Scale { on: true }),
@@ -75,6 +75,10 @@ pub(super) const DIALECT: Dialect = Dialect {
         (97, Code::CallBlock),
         (98, Code::CallProgram),
         (99, Code::Return),
+        (48, Code::Harmless("overrides")),
+        (49, Code::Harmless("overrides")),
+        (130, Code::Harmless("shows a picture")),
+        (131, Code::Harmless("shows a picture no more")),
     ],
     repeats: "L",
     flow: FlowWords::MacroB,

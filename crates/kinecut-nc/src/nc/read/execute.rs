@@ -18,6 +18,7 @@ const INCH: f64 = 25.4;
 impl<'s> Reader<'s> {
     pub(super) fn execute(&mut self, words: &mut [Word<'s>]) -> Result<()> {
         self.one_use_of_axes()?;
+        self.set_mode(words)?;
         self.modal.sticky.rigid |= self.code(|c| c == Code::Rigid).is_some();
         let before = self.before()?;
         self.check_rotation()?;

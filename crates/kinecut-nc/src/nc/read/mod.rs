@@ -27,6 +27,7 @@ mod lex;
 mod message;
 mod modal;
 mod modal_macro;
+mod modes;
 mod motion;
 pub(super) mod number;
 mod nurbs;

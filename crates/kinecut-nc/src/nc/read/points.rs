@@ -43,6 +43,7 @@ impl<'s> Reader<'s> {
     /// Gives the numbers of a block without a decimal point, and those that are computed, their values.
     pub(super) fn numbers_without_point(&mut self, words: &mut [Word<'s>]) -> Result<()> {
         self.points.increment = None;
+        let own_words = self.mode().map_or(&[] as &[&str], |(mode, _)| mode.words);
         let scales = self.code(|c| c == (Code::Scale { on: true })).is_some();
         if scales {
             self.factors_without_point(words)?;
@@ -64,7 +65,8 @@ impl<'s> Reader<'s> {
         let (dwells, turns) = (has(Code::Dwell), has(Code::Rotation { on: true }));
         let is = |word: &Word<'_>, names: &[&str]| names.iter().any(|n| word.is(n));
         let mut without = None;
-        for word in words.iter_mut().filter(|w| !(scales && is(w, &["P", "I", "J", "K"]))) {
+        for word in words.iter_mut().filter(|w| !(scales && is(w, &["P", "I", "J", "K"]) || is(w, own_words)))
+        {
             let length_k = is(word, &["K"]) && lengths_k;
             let count = is(word, &["P", "T", "H", "D", "O", "N"])
                 || is(word, &["K"]) && !length_k

@@ -330,6 +330,9 @@ impl<'s> Reader<'s> {
                 }
                 None => Some(self.keyword(word.name).ok_or_else(|| self.unknown(word))?),
             };
+            if let Some(Code::NotRead(why)) = code {
+                return Err(self.place.not_understood(&word.bytes, why).into());
+            }
             if let Some(code) = code {
                 word.used = true;
                 let beside = |other: Code| {
@@ -408,7 +411,8 @@ impl<'s> Reader<'s> {
             let found = table.iter().find(|(t, _)| *t == tenths).map(|(_, c)| *c);
             found.filter(|c| *c != Code::FeedPerRevolution || self.dialect.per_revolution)
         };
-        find(COMMON_G).or_else(|| find(self.dialect.g_codes)).or_else(|| {
+        let own = || find(self.dialect.g_codes).or_else(|| find(self.dialect.further_codes()));
+        find(COMMON_G).or_else(own).or_else(|| {
             let offset = WorkOffset::from_tenths(tenths).or_else(|| self.offset_by_code(tenths));
             offset.filter(|o| (self.dialect.has_offset)(*o)).map(Code::Work)
         })
