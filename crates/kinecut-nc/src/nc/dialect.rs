@@ -6,6 +6,7 @@ use crate::tool::Hand;
 use super::modes::{self, Mode};
 use super::multi_axis::MultiAxis;
 use super::native::{Native, TapWord};
+use super::read::bolt_holes::Pattern;
 use super::run::{Arithmetic, Level};
 
 /// A part of the state that is written by a block of its own.
@@ -364,6 +365,8 @@ pub(super) enum Code {
     Mode(&'static Mode),
     /// Known, and refused: the text says why.
     NotRead(&'static str),
+    /// `G70` to `G72`: a pattern of holes (Haas).
+    Holes(Pattern),
 }
 
 /// Canned cycles.
@@ -494,7 +497,9 @@ impl Code {
             Code::ReturnToStart(_) => 10,
             Code::Work(_) | Code::ExtendedOffset => 12,
             Code::ExactStop | Code::ExactPath | Code::Continuous | Code::Rounded => 13,
-            Code::Dwell | Code::MachineFrame | Code::Reference | Code::FurtherReference => 20,
+            Code::Dwell | Code::MachineFrame | Code::Reference | Code::FurtherReference | Code::Holes(_) => {
+                20
+            }
             Code::PresetShift | Code::ShiftOff { .. } | Code::ShiftAgain => 20,
             Code::Polar { .. } => 19,
             Code::LocalShift | Code::SetData | Code::FrameShift { .. } | Code::FrameTurn { .. } => 20,

@@ -1,6 +1,7 @@
 //! Words of FANUC and Haas that move no axis by themselves and have words of their own, and words that are known and not read.
 
 use super::dialect::Code;
+use super::read::bolt_holes::Pattern;
 
 /// A mode of a control that is not followed: what it does, and the words that belong to it.
 #[derive(Debug, PartialEq)]
@@ -93,6 +94,9 @@ pub(super) const FANUC: &[(u32, Code)] = &[
 pub(super) const HAAS: &[(u32, Code)] = &[
     (90, Code::Harmless("exact stop in the block")),
     (970, Code::Harmless("S in revolutions a minute")),
+    (700, Code::Holes(Pattern::Circle)),
+    (710, Code::Holes(Pattern::Arc)),
+    (720, Code::Holes(Pattern::Line)),
     (1030, Code::Mode(&BLOCKS_AHEAD)),
     (1870, Code::Mode(&SMOOTHNESS)),
     (120, Code::NotRead(POCKET)),

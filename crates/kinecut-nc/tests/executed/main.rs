@@ -11,6 +11,7 @@ mod fanuc_modal_macro;
 mod fanuc_modes;
 mod fanuc_offsets;
 mod fanuc_scaling;
+mod haas_patterns;
 mod linuxcnc;
 mod macro_b;
 

@@ -11,6 +11,7 @@
 //! stay at the height that is not known.
 
 mod arc;
+pub(super) mod bolt_holes;
 mod boring;
 mod call;
 mod called;

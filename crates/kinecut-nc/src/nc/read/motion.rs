@@ -17,6 +17,9 @@ impl<'s> Reader<'s> {
         if let Some((code, bytes)) = self.code(|c| matches!(c, Code::Reference | Code::FurtherReference)) {
             return self.reference_move(words, code, &bytes);
         }
+        if let Some((Code::Holes(pattern), bytes)) = self.code(|c| matches!(c, Code::Holes(_))) {
+            return self.pattern(words, pattern, &bytes);
+        }
         let code = self.motion_code();
         if let Some((code, code_at)) = &code {
             let interpreter = self.dialect.series == SeriesRule::Interpreter;

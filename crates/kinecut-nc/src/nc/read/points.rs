@@ -59,6 +59,7 @@ impl<'s> Reader<'s> {
             _ => has(Code::FeedPerRevolution),
         };
         let feature = has(Code::Tilt);
+        let pattern = self.code(|c| matches!(c, Code::Holes(_))).is_some();
         let axis = self.centre_is_axis() || has(Code::TipControl { vector: true });
         // A Haas counts by L.
         let lengths_k = self.curved() || feature || axis || self.dialect.haas;
@@ -72,6 +73,8 @@ impl<'s> Reader<'s> {
                 || is(word, &["K"]) && !length_k
                 || is(word, &["Q"]) && feature;
             let angle = is(word, &["R"]) && turns
+                || is(word, &["J"]) && pattern
+                || is(word, &["K"]) && pattern
                 || is(word, &["A", "B", "C"])
                 || is(word, &["I", "J", "K"]) && feature;
             let seconds = is(word, &["X"]) && dwells;
