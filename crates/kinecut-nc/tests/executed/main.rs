@@ -10,6 +10,7 @@ mod fanuc_cycles;
 mod fanuc_modal_macro;
 mod fanuc_modes;
 mod fanuc_offsets;
+mod fanuc_round_trip;
 mod fanuc_scaling;
 mod haas_patterns;
 mod linuxcnc;
