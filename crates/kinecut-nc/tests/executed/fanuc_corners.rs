@@ -102,3 +102,14 @@ fn a_corner_without_a_point_counts_increments() {
     assert_eq!(run("G1 X20. ,R5000 F100.\nY10.", Fanuc)[0], "F 15 0 0");
     assert_eq!(run("#1=5.\nG1 X20. ,R#1 F100.\nY10.", Fanuc)[0], "F 15 0 0");
 }
+
+#[test]
+fn a_corner_at_the_end_of_the_text_is_an_error_among_others() {
+    use kinecut_nc::base::Sources;
+    use kinecut_nc::nc::{self, ReadSettings};
+    let settings = ReadSettings { reads_on: true, ..ReadSettings::default() };
+    let mut sources = Sources::default();
+    let file = sources.add("a.nc", "G21 G54 G0 X0. Y0. Z0.\nM777\nG0 X0. Y0. Z0.\nG1 X9. ,R1. F100.\n");
+    let reading = nc::read_source(&sources, file, Fanuc, &[], &settings).unwrap();
+    assert_eq!(reading.errors.len(), 2, "{:?}", reading.errors);
+}

@@ -92,3 +92,14 @@ fn g30_goes_over_its_point_to_a_place_that_is_a_doubt() {
     assert!(refused("G91 G30 P5 Z0.", Fanuc).contains("P2 to P4"));
     assert!(refused("G41 D1 G1 X5. F100.\nG91 G30 Z0.", Fanuc).contains("compensation"));
 }
+
+#[test]
+fn g28_of_a_haas_cancels_the_tool_length() {
+    let text = |end: &str| format!("G21 G54\nT1 M6\nG43 H1 G0 Z50.\nG91 G28 Z0.\nG90 X1. Y1.\n{end}\nM30\n");
+    let error = read(&text("G0 Z50."), Haas).unwrap_err();
+    assert!(error.starts_with("a.nc:6:4: Z without a tool length"), "{error}");
+    for end in ["G43 H1 Z50.", "G53 Z0.", "T2 M6\nG43 H2 Z50.", "G49 Z50."] {
+        assert!(read(&text(end), Haas).is_ok(), "{end}");
+    }
+    assert!(read(&text("G0 Z50."), Fanuc).is_ok());
+}

@@ -15,6 +15,7 @@
 //!   said.
 //! * A feed without a point may count ten-thousandths of an inch by setting 77: it is read in whole units, and said.
 //!
+//! * `G28` cancels the tool length: Z without `G43` behind it is an error.
 //! * `G70`, `G71`, `G72` make the holes of the cycle in force on a circle, an arc, a line (`nc/read/bolt_holes.rs`).
 //! * `G187 P E` says how far corners may be rounded, which is said and not followed.
 //!

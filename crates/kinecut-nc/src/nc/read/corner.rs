@@ -2,7 +2,8 @@
 //!
 //! The word stands in a block with `G1`, `G2` or `G3`, and the next block is such a move too, in the plane in force; one dwell
 //! may stand between and then runs behind the corner. The move is read to its programmed end, and kept as a corner: the next
-//! move cuts both, so an increment still counts from the corner. What comes instead of that move is an error at the word.
+//! move cuts both, so an increment still counts from the corner. It runs at the feed of the move before it. What comes instead of
+//! that move is an error at the word.
 //!
 //! A Haas has them between straight moves only. `,C` is the distance from the corner at which the chamfer begins and ends: on an
 //! arc along the chord.

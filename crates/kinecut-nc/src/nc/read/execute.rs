@@ -225,7 +225,7 @@ impl<'s> Reader<'s> {
         // stops the spindle and goes to its place for changes (`convert_tool_change`, `CHANGE_TOOL`, `emcToolLoad`).
         self.modal.told.id = None;
         self.tool_origin = self.origin;
-        self.modal.length_hidden = false;
+        (self.modal.length_hidden, self.length_lost) = (false, false);
         self.modal.spindle = Spindle::Off;
         self.modal.position = [None; 3];
         Ok(())
@@ -294,6 +294,7 @@ impl<'s> Reader<'s> {
         } else {
             match self.code(|c| matches!(c, Code::LengthOn | Code::LengthOff | Code::TipControl { .. })) {
                 Some((code @ (Code::LengthOn | Code::TipControl { .. }), bytes)) => {
+                    self.length_lost = false;
                     let register = match take(words, "H") {
                         Some(register) => self.count(&register, "a register")?,
                         None => match self.modal.tool.id.filter(|_| !self.dialect.length_with_z) {
@@ -312,6 +313,7 @@ impl<'s> Reader<'s> {
                     }
                 }
                 Some(_) => {
+                    self.length_lost = false;
                     self.modal.tool.length = None;
                     self.tip_control_ends(false);
                 }

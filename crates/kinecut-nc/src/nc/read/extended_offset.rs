@@ -45,6 +45,10 @@ impl<'s> Reader<'s> {
             }
             return Ok(());
         }
+        // The wait of the cycle in force.
+        if !needs_p && matches!(self.modal.motion, Some(Code::Cycle(_))) {
+            return Ok(());
+        }
         let Some(word) = take(words, "P") else {
             if needs_p {
                 return Err(self.lacks(&bytes, "a further work offset without its number P").into());

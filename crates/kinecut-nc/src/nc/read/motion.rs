@@ -81,6 +81,12 @@ impl<'s> Reader<'s> {
 
     fn tip_move(&mut self, words: &mut [Word<'s>]) -> Result<()> {
         self.unit_is_the_same();
+        if self.length_lost
+            && let Some(word) = words.iter().find(|w| !w.used && w.is(AXES[2]))
+        {
+            let message = "Z without a tool length: G28 has cancelled it on this control";
+            return Err(self.lacks(&word.bytes, message).help("call it again with G43 H").into());
+        }
         match self.modal.motion {
             Some(Code::Rapid) => self.straight(words, Speed::Rapid { linear: self.dialect.straight_rapid }),
             Some(Code::Feed) => {

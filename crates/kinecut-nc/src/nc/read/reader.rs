@@ -74,6 +74,8 @@ pub(super) struct Reader<'s> {
     pub(super) from_nowhere: Vec<Span>,
     /// The jump that the present block asks for.
     pub(super) jump: Option<Jump>,
+    /// `G28` has cancelled the tool length, and none was called since (Haas).
+    pub(super) length_lost: bool,
     /// Macros that are called after each block that moves.
     pub(super) modal_macros: ModalMacros,
     /// Scaled and mirrored coordinates.
@@ -125,6 +127,7 @@ impl<'s> Reader<'s> {
             radii: Vec::new(),
             from_nowhere: Vec::new(),
             jump: None,
+            length_lost: false,
             modal_macros: ModalMacros::default(),
             scaling: Scaling::default(),
             corner: None,

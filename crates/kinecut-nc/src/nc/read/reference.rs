@@ -89,6 +89,11 @@ impl<'s> Reader<'s> {
         self.flush(Kind::Other);
         let motion = Move { end: Target::Joints(joints), path: Path::Line };
         self.program.push_move(motion, &self.state(speed), self.origin);
+        // A Haas forgets the tool length there (96-8000, `G49`).
+        if self.dialect.haas && self.modal.tool.length.take().is_some() {
+            self.length_lost = true;
+            self.modal.position[2] = None;
+        }
         match point {
             None => self.note("the reference point (G28) is taken to be machine zero"),
             Some(point) => self.say_further_reference(point, bytes),

@@ -228,7 +228,7 @@ impl<'s> Run<'s> {
 
     fn end_of_text(&mut self, at: usize) -> Result<bool> {
         if self.frames.is_empty() {
-            return Ok(false);
+            return self.reader.corner_without_move().map(|()| false);
         }
         let bytes = at.saturating_sub(1) as u32..at as u32;
         let word = if self.reader.dialect.flow == FlowWords::MacroB { "M99" } else { "endsub or M99" };
