@@ -56,6 +56,9 @@ fn a_line_and_an_arc_are_rounded_on_fanuc() {
     let done = run(body, Fanuc);
     assert_eq!(done, ["F 7.746 0 0", "F 9.6825 2.5 0 arc", "F -10 0 0 arc"]);
     assert!(refused(body, Haas).contains("between straight moves only"));
+    let text = "G21 G54 G0 X0. Y0. Z0.\nG1 X10. ,C10. F100.\nG3 X-10. I-10.\nM30\n";
+    let notes = read(text, Fanuc).unwrap().findings;
+    assert!(notes.iter().any(|f| f.message.contains("along the chord")), "{notes:?}");
     // The chord of the chamfer is 10: an angle of sixty degrees of that circle.
     assert_eq!(
         run("G1 X10. ,C10. F100.\nG3 X-10. I-10.", Fanuc),

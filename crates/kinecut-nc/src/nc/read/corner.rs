@@ -221,6 +221,9 @@ impl<'s> Reader<'s> {
             let why = "this control has it between straight moves only";
             return Err(self.no_corner(&corner.bytes, why).into());
         }
+        if matches!(corner.joint, Joint::Chamfer(_)) && (first.arc.is_some() || second.arc.is_some()) {
+            self.note("the size of a chamfer at an arc is read along the chord from the corner");
+        }
         let Some((first, joint, second)) = joined(&first, &second, corner.joint) else {
             let finding = self.no_corner(&corner.bytes, "its moves are too short for it");
             return Err(finding.help("make it smaller").into());
