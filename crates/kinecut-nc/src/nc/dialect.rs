@@ -3,8 +3,10 @@
 use crate::program::{Blend, StopKind, WorkOffset};
 use crate::tool::Hand;
 
+use super::modes::{self, Mode};
 use super::multi_axis::MultiAxis;
 use super::native::{Native, TapWord};
+use super::read::bolt_holes::Pattern;
 use super::run::{Arithmetic, Level};
 
 /// A part of the state that is written by a block of its own.
@@ -389,8 +391,6 @@ pub(super) enum Code {
     StorePlace {
         second: bool,
     },
-    /// `G30`: as `G28`, to another place.
-    SecondReference,
     /// `G38.2` to `G38.5`.
     Probe {
         kind: u8,
@@ -399,6 +399,24 @@ pub(super) enum Code {
     Device(&'static str),
     /// Moves no axis and changes no coordinate; the text says what it does.
     Harmless(&'static str),
+    /// `G30`: as G28, to the second, third or fourth reference point.
+    FurtherReference,
+    /// `G54.1`, `G154`: the work offset of a number.
+    ExtendedOffset,
+    /// `G51` (on) and `G50`: coordinates are scaled.
+    Scale {
+        on: bool,
+    },
+    /// `G51.1` (on) and `G50.1`: coordinates are mirrored.
+    Mirror {
+        on: bool,
+    },
+    /// Moves no axis, and has words of its own.
+    Mode(&'static Mode),
+    /// Known, and refused: the text says why.
+    NotRead(&'static str),
+    /// `G70` to `G72`: a pattern of holes (Haas).
+    Holes(Pattern),
 }
 
 /// Canned cycles.
@@ -417,6 +435,12 @@ pub(super) enum CycleKind {
     BoreDwell,
     /// `G84` and `G74` with a floating holder: the spindle turns back at the bottom, the way out is at feed (LinuxCNC).
     Floating(Hand),
+    /// `G76`: the tool steps aside at the bottom and leaves (FANUC, Haas).
+    FineBore,
+    /// `G87` of FANUC: the tool steps aside, goes below the work and bores upwards.
+    BackBore,
+    /// `G88`, `G87` of Haas: the spindle and the program stop at the bottom, the way out is by hand.
+    LeftByHand,
 }
 
 /// Plane of arcs.
@@ -458,6 +482,15 @@ impl Dialect {
     /// Whether F gives the time of a dwell.
     pub(super) fn feed_is_dwell(&self) -> bool {
         self.dwell_words.iter().any(|w| w.0 == "F")
+    }
+
+    /// Further codes of the control, which move no axis or are refused.
+    pub(super) fn further_codes(&self) -> &'static [(u32, Code)] {
+        match (self.flow, self.haas) {
+            (FlowWords::MacroB, true) => modes::HAAS,
+            (FlowWords::MacroB, false) => modes::FANUC,
+            _ => &[],
+        }
     }
 
     /// Whether it runs cubics.
@@ -514,11 +547,13 @@ impl Code {
             Code::CompOff | Code::Comp { .. } | Code::CompByNumber { .. } => 7,
             Code::LengthOn | Code::LengthOff | Code::LengthByNumber { .. } | Code::TipControl { .. } => 8,
             Code::ReturnToStart(_) => 10,
-            Code::Work(_) => 12,
+            Code::Work(_) | Code::ExtendedOffset => 12,
             Code::ExactStop | Code::ExactPath | Code::Continuous | Code::Rounded => 13,
-            Code::Dwell | Code::MachineFrame | Code::Reference | Code::SecondReference => 20,
+            Code::Dwell | Code::MachineFrame | Code::Reference | Code::FurtherReference | Code::Holes(_) => {
+                20
+            }
             Code::StorePlace { .. } => 20,
-            Code::Save { .. } | Code::Forget | Code::TakeAgain => 27,
+            Code::Save { .. } | Code::Forget | Code::TakeAgain => 28,
             Code::PresetShift | Code::ShiftOff { .. } | Code::ShiftAgain => 20,
             Code::Polar { .. } => 19,
             Code::LocalShift | Code::SetData | Code::FrameShift { .. } | Code::FrameTurn { .. } => 20,
@@ -529,15 +564,12 @@ impl Code {
             Code::Stop(_) | Code::CallProgram | Code::CallBlock | Code::Return => 21,
             Code::ToolChange => 22,
             Code::SurfaceSpeed => 26,
+            Code::Scale { .. } | Code::Mirror { .. } => 27,
             Code::SpindleClockwise | Code::SpindleCounterClockwise | Code::SpindleOff | Code::Orientation => {
                 23
             }
-            Code::Mist
-            | Code::Flood
-            | Code::CoolantOff
-            | Code::Rigid
-            | Code::Device(_)
-            | Code::Harmless(_) => return None,
+            Code::Mist | Code::Flood | Code::CoolantOff | Code::Rigid => return None,
+            Code::Mode(_) | Code::NotRead(_) | Code::Device(_) | Code::Harmless(_) => return None,
         })
     }
 }

@@ -11,8 +11,10 @@
 
 mod arc_fit;
 mod arc_spiral;
+mod axis_map;
 mod comment;
 mod control;
+mod corner_fit;
 mod detect;
 mod dialect;
 mod dialects;
@@ -23,6 +25,7 @@ mod grid;
 mod haas;
 mod heidenhain;
 mod linuxcnc;
+mod modes;
 mod multi_axis;
 mod native;
 mod own_cycle;

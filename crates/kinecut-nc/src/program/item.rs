@@ -392,6 +392,23 @@ impl Program {
         }
     }
 
+    /// Gives the move at an index another end and path; other items stay as they are.
+    pub(crate) fn set_move(&mut self, index: usize, motion: Move) {
+        let plain = match motion {
+            Move { end: Target::Tip { point, axis: ToolAxis::Fixed }, path: Path::Line } => Some(point),
+            _ => None,
+        };
+        match (self.items.slots.get(index).copied(), plain) {
+            (Some(Slot::Straight(i)), Some(point)) => self.items.straights[i as usize] = point,
+            (Some(Slot::Move(i)), _) => self.items.moves[i as usize] = motion,
+            (Some(Slot::Straight(_)), None) => {
+                self.items.moves.push(motion);
+                self.items.slots[index] = Slot::Move(self.items.moves.len() as u32 - 1);
+            }
+            _ => {}
+        }
+    }
+
     /// Marks moves along Z while rotary axes are turned in machine coordinates as leaving these where they are: their
     /// coordinates are then positions of the linear axes.
     pub fn hold_rotary_axes(&mut self) {

@@ -99,6 +99,9 @@ fn fanuc_sets_zeros_and_registers() {
         assert!(text.contains(block), "{block}\n{text}");
     }
     assert_eq!(second.radii, [(5, 4.98)]);
+    let further =
+        read("O1\nG21 G90 G10 L20 P48 X1. Y2. Z3.\nG54.1 P48 G0 X0. Y0. Z0.\nM30\n", Fanuc).unwrap();
+    assert!(again(&further, Fanuc).0.contains("G10 L20 P48 X1. Y2. Z3."));
     let twice = refused("G10 L10 P5 R120.\nG10 L10 P5 R119.", Fanuc);
     assert!(twice.contains("the length of 5 changes, which is not followed"), "{twice}");
     let settings = PostSettings::new(Sinumerik840d);

@@ -6,6 +6,14 @@ use kinecut_nc::program::{Item, Path, Speed, Target};
 
 mod controls;
 mod data;
+mod fanuc_corners;
+mod fanuc_cycles;
+mod fanuc_modal_macro;
+mod fanuc_modes;
+mod fanuc_offsets;
+mod fanuc_round_trip;
+mod fanuc_scaling;
+mod haas_patterns;
 mod linuxcnc;
 mod macro_b;
 mod state;

@@ -34,7 +34,14 @@
 //!   negative. `G69` ends it. `P1` roll-pitch-yaw is read, about the axes of the work offset, which stay fixed; `P2`
 //!   to `P4` and `G68.3` are not.
 //!
-//! Source of the last two: general knowledge of the operator's manual of the 30i, and programs and post-processors of others;
+//! * Corners: `,R` rounds and `,C` chamfers the corner to the next move of the plane (`nc/read/corner.rs`).
+//! * `G54.1 P` and `G54 P` are the further work offsets, `G30 P2` to `P4` the further reference points, whose places no program
+//!   knows: machine zero is assumed, as a doubt.
+//! * `G76`, `G87`, `G88` are moves (`nc/read/boring.rs`).
+//! * `G66` and `G67` call a macro after each move (`nc/read/modal_macro.rs`).
+//! * `G51` and `G51.1` scale and mirror: read as the moves they are (`nc/read/scaling.rs`).
+//!
+//! Source of the two before these: general knowledge of the operator's manual of the 30i, and programs and post-processors of others;
 //! the sense of `P1` and of `P` of `G53.1` are those of implementations that follow it, not checked against a manual.
 //! Source of the rotation: operator's manual of the Series 15i, connection manual of the 0i (parameters 5400, 5410).
 //! Source: alarm list of the Series 16/18 for the involute; the rest from general knowledge of the operator's manuals
@@ -52,9 +59,9 @@ use super::dialect::{
 use super::multi_axis::{MultiAxis, TcpWord, TiltWord};
 use super::native::{Canned, Native, TapWord};
 
-/// G54 to G59. `G54.1 P` is an option.
+/// G54 to G59, and `G54.1 P1` to `P48` or `P300`, which is an option.
 fn has_offset(offset: WorkOffset) -> bool {
-    matches!(offset.tenths(), 540 | 550 | 560 | 570 | 580 | 590)
+    offset.extension().is_some() || matches!(offset.tenths(), 540 | 550 | 560 | 570 | 580 | 590)
 }
 
 /// Clearance of `G83` (parameter 5115) and lift of `G73` (parameter 5114) [mm]: the machine's maker sets them, mostly to
@@ -147,8 +154,23 @@ pub(super) const DIALECT: Dialect = Dialect {
         (840, Code::Cycle(CycleKind::Tap(Hand::Right))),
         (980, Code::ReturnToStart(true)),
         (990, Code::ReturnToStart(false)),
+        (300, Code::FurtherReference),
+        (541, Code::ExtendedOffset),
+        (500, Code::Scale { on: false }),
+        (510, Code::Scale { on: true }),
+        (501, Code::Mirror { on: false }),
+        (511, Code::Mirror { on: true }),
+        (760, Code::Cycle(CycleKind::FineBore)),
+        (870, Code::Cycle(CycleKind::BackBore)),
+        (880, Code::Cycle(CycleKind::LeftByHand)),
     ],
-    m_codes: &[(29, Code::Rigid), (98, Code::CallProgram), (99, Code::Return)],
+    m_codes: &[
+        (29, Code::Rigid),
+        (98, Code::CallProgram),
+        (99, Code::Return),
+        (48, Code::Harmless("overrides")),
+        (49, Code::Harmless("overrides off")),
+    ],
     keywords: &[],
     starts_at_r: false,
     answer: None,

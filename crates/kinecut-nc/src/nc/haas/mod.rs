@@ -6,9 +6,20 @@
 //! * `M97 P` calls the block of a number in the same program. The number of a program has five digits: none of them counts
 //!   calls.
 //! * `G4 P` with a point is in seconds, without one in milliseconds.
+//! * `,R` and `,C` stand between straight moves only.
+//! * `G154 P1` to `P99` are the further work offsets, `G110` to `G129` the first twenty of them.
+//! * `G73` and `G83` with I, J and K have a first step, each shorter by J, none below K; P waits at the bottom. `G84` and `G74` are
+//!   rigid by themselves. `G76` steps aside, behind `G87` and `G88` the tool is taken out by hand. `G77` is refused: the way from Z
+//!   out of the counterbore is not in the pages that are public.
+//! * `G51 P` scales, with a point in P; there is no `G51.1`, and `G101` is not read. `G68` without X and Y is about the present place, and
+//!   said.
 //! * A feed without a point may count ten-thousandths of an inch by setting 77: it is read in whole units, and said.
 //!
-//! `G12`, `G13`, `G47`, `G70` to `G72` and `G150` move axes and are refused by name.
+//! * `G28` cancels the tool length: Z without `G43` behind it is an error.
+//! * `G70`, `G71`, `G72` make the holes of the cycle in force on a circle, an arc, a line (`nc/read/bolt_holes.rs`).
+//! * `G187 P E` says how far corners may be rounded, which is said and not followed.
+//!
+//! `G12`, `G13`, `G47`, `G77` and `G150` move axes in ways that no public page says to the last move: refused with that reason.
 //!
 //! Source: pages of the operator's manual 96-8000 as quoted publicly, and programs of others.
 
@@ -16,10 +27,12 @@ use super::dialect::{Code, CycleKind, Dialect, FlowWords};
 use super::fanuc;
 use super::multi_axis::MultiAxis;
 use crate::program::WorkOffset;
+use crate::tool::Hand;
 
-/// G54 to G59.
+/// G54 to G59, and `G154 P1` to `P99`, of which the first twenty are G110 to G129 too.
 fn has_offset(offset: WorkOffset) -> bool {
-    matches!(offset.tenths(), 540 | 550 | 560 | 570 | 580 | 590)
+    offset.extension().is_some_and(|number| number <= 99)
+        || matches!(offset.tenths(), 540 | 550 | 560 | 570 | 580 | 590)
 }
 
 pub(super) const DIALECT: Dialect = Dialect {
@@ -47,8 +60,14 @@ pub(super) const DIALECT: Dialect = Dialect {
         (890, Code::Cycle(CycleKind::BoreDwell)),
         (980, Code::ReturnToStart(true)),
         (990, Code::ReturnToStart(false)),
-        (1030, Code::Harmless("look-ahead")),
-        (1870, Code::Harmless("accuracy of corners")),
+        (1540, Code::ExtendedOffset),
+        (500, Code::Scale { on: false }),
+        (510, Code::Scale { on: true }),
+        (740, Code::Cycle(CycleKind::Tap(Hand::Left))),
+        (760, Code::Cycle(CycleKind::FineBore)),
+        (840, Code::Cycle(CycleKind::Tap(Hand::Right))),
+        (870, Code::Cycle(CycleKind::LeftByHand)),
+        (880, Code::Cycle(CycleKind::LeftByHand)),
     ],
     m_codes: &[
         (19, Code::Harmless("orients the spindle")),
@@ -59,6 +78,10 @@ pub(super) const DIALECT: Dialect = Dialect {
         (97, Code::CallBlock),
         (98, Code::CallProgram),
         (99, Code::Return),
+        (48, Code::Harmless("overrides")),
+        (49, Code::Harmless("overrides")),
+        (130, Code::Harmless("shows a picture")),
+        (131, Code::Harmless("shows a picture no more")),
     ],
     repeats: "L",
     flow: FlowWords::MacroB,

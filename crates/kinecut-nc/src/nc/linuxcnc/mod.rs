@@ -97,7 +97,7 @@ pub(super) const DIALECT: Dialect = Dialect {
         (200, Code::Units { inch: true, feeds: true }),
         (280, Code::Reference),
         (281, Code::StorePlace { second: false }),
-        (300, Code::SecondReference),
+        (300, Code::FurtherReference),
         (301, Code::StorePlace { second: true }),
         (382, Code::Probe { kind: 2 }),
         (383, Code::Probe { kind: 3 }),

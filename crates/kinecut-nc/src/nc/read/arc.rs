@@ -91,7 +91,9 @@ impl<'s> Reader<'s> {
             }
             let rise = rise * part.sweep / total;
             let speed = speed.of_part(part.sweep / total);
-            self.push_tip(stop, Path::Arc { centre: middle, axis, sweep: part.sweep, rise }, speed);
+            let path = Path::Arc { centre: middle, axis, sweep: part.sweep, rise };
+            let path = self.through_corner(stop, path, speed)?;
+            self.push_tip(stop, path, speed);
         }
         Ok(())
     }

@@ -16,6 +16,7 @@ use crate::nc::linuxcnc::o_word::OLines;
 /// let text = "o<drill> call [5]\nM98 P20\nM2\nO20\nM99\n";
 /// assert_eq!(called(text, Control::LinuxCnc), [["drill"]]);
 /// assert_eq!(called("M98 P10 L2\nM30", Control::Fanuc), [["o0010", "0010", "o10", "10"]]);
+/// assert_eq!(called("G66 P10 A1.\nM30", Control::Fanuc), [["o0010", "0010", "o10", "10"]]);
 /// ```
 pub fn called(text: &str, control: Control) -> Vec<Vec<String>> {
     let flow = control.dialect().flow;
@@ -60,11 +61,12 @@ pub(super) fn names_of(number: u32) -> Vec<String> {
     names
 }
 
-/// Numbers of programs behind `M98` and `G65`.
+/// Numbers of programs behind `M98`, `G65` and `G66`.
 fn numbers(text: &str, macro_b: bool) -> Vec<u32> {
     let mut found = Vec::new();
     for line in text.lines() {
-        let may = line.contains("98") && line.contains(['M', 'm']) || macro_b && line.contains("65");
+        let may = line.contains("98") && line.contains(['M', 'm'])
+            || macro_b && (line.contains("65") || line.contains("66"));
         if !may {
             continue;
         }
@@ -76,7 +78,7 @@ fn numbers(text: &str, macro_b: bool) -> Vec<u32> {
             .filter(|c| !c.is_ascii_whitespace())
             .map(|c| c.to_ascii_uppercase())
             .collect();
-        let macro_call = macro_b && code.contains("G65P");
+        let macro_call = macro_b && (code.contains("G65P") || code.contains("G66P"));
         if !code.contains("M98") && !macro_call {
             continue;
         }

@@ -1,8 +1,9 @@
-//! Codes that call a program or return from it: `M98`, `M99`, `G65`.
+//! Codes that call a program or return from it: `M98`, `M99`, `G65`. `G66` is next door.
 
 use crate::base::Result;
 use crate::nc::dialect::{Code, FlowWords};
 use crate::nc::fanuc::arguments::Arguments;
+use crate::nc::run::Level;
 
 use super::jump::Jump;
 use super::lex::Word;
@@ -61,11 +62,22 @@ impl<'s> Reader<'s> {
         Ok(())
     }
 
-    /// Executes a block with `G65`; whether it is one.
+    /// Executes a block with `G65`, `G66` or `G67`; whether it is one.
     pub(super) fn calls_macro(&mut self, words: &mut [Word<'s>]) -> Result<bool> {
-        let Some(call) = words.iter().position(|w| w.is("G") && w.value == Some(65.0)) else {
-            return Ok(false);
-        };
+        const CODES: [f64; 4] = [65.0, 66.0, 66.1, 67.0];
+        let is_call = |w: &Word<'s>| w.is("G") && CODES.iter().any(|code| w.value == Some(*code));
+        let Some(call) = words.iter().position(is_call) else { return Ok(false) };
+        if words[call].value != Some(65.0) {
+            return self.modal_macro(words, call).map(|()| true);
+        }
+        let bytes = words[call].bytes.clone();
+        let (number, times, locals) = self.macro_call(words, call)?;
+        self.jump = Some(Jump::Macro { number, times, locals, bytes });
+        Ok(true)
+    }
+
+    /// Number of the program, of the calls, and the arguments of the macro call at a place among the words of a block.
+    pub(super) fn macro_call(&mut self, words: &mut [Word<'s>], call: usize) -> Result<(u32, u32, Level)> {
         let bytes = words[call].bytes.clone();
         words[call].used = true;
         let Some(program) = take(words, "P") else {
@@ -86,8 +98,9 @@ impl<'s> Reader<'s> {
                 continue;
             }
             if i < call {
-                let finding = self.lacks(&word.bytes, "a word before G65 is no argument");
-                return Err(finding.help("write G65 first").into());
+                let finding =
+                    self.lacks(&word.bytes, "a word before the code of a macro call is no argument");
+                return Err(finding.help("write G65 or G66 first").into());
             }
             let value = word.value.unwrap_or_default();
             let counts = !word.point && !self.points.in_units && LENGTHS.iter().any(|l| word.is(l));
@@ -99,7 +112,6 @@ impl<'s> Reader<'s> {
                 return Err(self.place.not_understood(&word.bytes, why).into());
             }
         }
-        self.jump = Some(Jump::Macro { number, times, locals: arguments.level(), bytes });
-        Ok(true)
+        Ok((number, times, arguments.level()))
     }
 }

@@ -29,10 +29,9 @@ impl<'s> Reader<'s> {
         let forbidden = |c: Code| match c {
             Code::Units { .. } | Code::ToolChange => true,
             Code::Plane(plane) => plane != Plane::Xy,
-            Code::SecondReference => !off,
-            Code::MachineFrame | Code::Reference | Code::Work(_) | Code::LengthOn | Code::LengthOff => !off,
-            Code::LengthByNumber { .. } | Code::TipControl { .. } => !off,
-            Code::Transformation { on: true } => !off,
+            Code::MachineFrame | Code::Reference | Code::FurtherReference => !off,
+            Code::Work(_) | Code::LengthOn | Code::LengthOff | Code::LengthByNumber { .. } => !off,
+            Code::TipControl { .. } | Code::Transformation { on: true } => !off,
             Code::Tilt | Code::TiltByTool | Code::Orient => true,
             Code::Rotation { .. }
             | Code::LocalShift
@@ -174,7 +173,7 @@ impl<'s> Reader<'s> {
                 help,
             ));
         };
-        let [x, y, _] = before.position;
+        let [x, y, _] = self.mapped(before.position);
         let unknown: Vec<&str> = (0..2).filter(|i| before.position[*i].is_none()).map(|i| AXES[i]).collect();
         if !unknown.is_empty() {
             let what = format!(

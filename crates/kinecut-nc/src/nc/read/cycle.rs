@@ -23,6 +23,9 @@ use super::reader::{Reader, Value, take, take_way};
 /// Said of the cycles whose short distance a program does not know.
 const BY_PARAMETER: &str =
     "the lift of G73 and the clearance of G83 are parameters of the machine (5114, 5115): 1 mm is assumed";
+/// See [`BY_PARAMETER`].
+const BY_SETTING: &str = "the lift of G73 and the clearance of G83 are setting 22 of the control, with setting 52 above R: 1 mm is \
+     assumed, and nothing above R";
 /// Said of cycles that the control runs with small moves more.
 const BEYOND: &str = "Q is smaller than the lift of the cycle, or no binary fraction that divides the hole: the control makes \
      small moves beyond R or at the bottom that are not followed";
@@ -51,7 +54,7 @@ impl<'s> Reader<'s> {
             );
         }
         if canned.by_parameter && matches!(kind, CycleKind::Peck | CycleKind::ChipBreak) {
-            self.note(BY_PARAMETER);
+            self.note(if self.dialect.haas { BY_SETTING } else { BY_PARAMETER });
         }
         if self.modal.rotary_axes.tcp != Tcp::Off {
             return Err(self.lacks(&here, "a cycle under control of the tool centre point").into());
@@ -65,6 +68,7 @@ impl<'s> Reader<'s> {
             (speed, spindle) = self.geared(speed, hand)?;
         }
         self.turns_as_it_must(kind)?;
+        self.cycle_is_not_scaled(matches!(kind, CycleKind::FineBore | CycleKind::BackBore))?;
         let at = self.modal.position;
         // The block may say where the hole is.
         let says = |name: &str| self.modal.absolute && words.iter().any(|w| w.is(name));
@@ -81,6 +85,7 @@ impl<'s> Reader<'s> {
         let p = self.dialect.dwell_words.iter().find(|w| w.0 == "P").map_or(1.0, |w| w.1);
         let said = take(words, "P").map(|v| v.value * p);
         self.last_dwell = said.or(self.last_dwell);
+        self.words_of_kind(words, kind)?;
         let sticky = &mut self.modal.sticky;
         if self.dialect.series == SeriesRule::EachBlock {
             sticky.begun = Some(z);
@@ -116,6 +121,9 @@ impl<'s> Reader<'s> {
             Some(word) => self.count(&word, "a number of repetitions")?,
             None => 1,
         };
+        if repeats == 0 && self.dialect.series == SeriesRule::Fanuc {
+            return self.no_hole(words);
+        }
         if !(1..=MOST_REPEATS).contains(&repeats) {
             return Err(self
                 .lacks(&here, "the number of repetitions is out of range")
@@ -123,6 +131,12 @@ impl<'s> Reader<'s> {
                 .into());
         }
         let dwell = match (kind, sticky.dwell) {
+            (CycleKind::DrillDwell | CycleKind::BoreDwell, None)
+                if self.dialect.series == SeriesRule::Fanuc =>
+            {
+                self.note("a cycle with a wait has no P: it does not wait");
+                0.0
+            }
             (CycleKind::DrillDwell | CycleKind::BoreDwell, None) => {
                 return Err(self.lacks(&here, "this cycle needs a dwell P").into());
             }
@@ -139,7 +153,7 @@ impl<'s> Reader<'s> {
             (_, p) => p.unwrap_or(0.0),
         };
         let step = match (kind, sticky.step) {
-            (CycleKind::Peck | CycleKind::ChipBreak, None) => {
+            (CycleKind::Peck | CycleKind::ChipBreak, None) if sticky.pecks.is_none() => {
                 return Err(self.lacks(&here, "this cycle needs a step Q").into());
             }
             (_, step) => step.unwrap_or(0.0),
@@ -160,9 +174,13 @@ impl<'s> Reader<'s> {
         self.repeated.add(&REPEATS, f64::from(repeats - 1)).map_err(|e| self.place.located(&here, e))?;
         let cycle = match kind {
             CycleKind::Drill | CycleKind::DrillDwell => Cycle::Drill { reference, bottom, retract, dwell },
-            CycleKind::Bore | CycleKind::BoreStop | CycleKind::BoreDwell | CycleKind::Floating(_) => {
-                Cycle::Drill { reference, bottom, retract, dwell }
-            }
+            CycleKind::Bore
+            | CycleKind::BoreStop
+            | CycleKind::BoreDwell
+            | CycleKind::Floating(_)
+            | CycleKind::FineBore
+            | CycleKind::BackBore
+            | CycleKind::LeftByHand => Cycle::Drill { reference, bottom, retract, dwell },
             CycleKind::Peck => Cycle::Peck { reference, bottom, retract, step, clearance: canned.clearance },
             CycleKind::ChipBreak => Cycle::ChipBreak { reference, bottom, retract, step, lift: canned.lift },
             CycleKind::Tap(hand) => {
@@ -170,6 +188,8 @@ impl<'s> Reader<'s> {
                 Cycle::Tap(Tapping { reference, bottom, retract, pitch, hand })
             }
         };
+        let cycle = self.own_steps(cycle, &sticky);
+        let shift = self.shift_of(kind, &sticky)?;
         if !canned.runs_as_told(&cycle) {
             self.note(BEYOND);
         }
@@ -184,7 +204,20 @@ impl<'s> Reader<'s> {
                 }
             };
             // In absolute coordinates this is the same hole again, as on the control.
-            self.drill(&Hole { kind, cycle, moves, way, speed, spindle })?;
+            self.drill(&Hole { kind, cycle, moves, way, speed, spindle, dwell, shift })?;
+        }
+        Ok(())
+    }
+
+    /// A block with no repetitions: its words are kept for the next, and it makes no hole.
+    fn no_hole(&mut self, words: &mut [Word<'s>]) -> Result<()> {
+        let [a, b, _] = self.modal.plane.axes();
+        for axis in [a, b] {
+            if let Some((word, _)) = take_way(words, AXES[axis]) {
+                let finding =
+                    self.lacks(&word.bytes, "whether a cycle with no repetitions moves to its place");
+                return Err(finding.help("move there before").into());
+            }
         }
         Ok(())
     }

@@ -4,6 +4,7 @@
 //!   taken to be, which is said; another one later shifts the coordinates. On FANUC `G91` adds to the zero, and `P0` is the
 //!   offset that is added to all; on LinuxCNC and GRBL `P0` is the work offset in force, `G91` changes nothing, and LinuxCNC turns the
 //!   offset by `R`.
+//!   FANUC sets the work offsets beyond G59 by `L20 P`.
 //! - `L20 P` (LinuxCNC, GRBL): the zero is put where the present place gets the coordinates that are said.
 //! - `L1 P` (LinuxCNC), `L10 P` and `L12 P` (FANUC): length and radius in the tool table. A radius counts from there on; the first length
 //!   is taken to be that of the tool, another one later is refused, and so are lengths that the control finds from the present place.
@@ -33,7 +34,7 @@ impl<'s> Reader<'s> {
         let fanuc = self.dialect.flow == FlowWords::MacroB;
         let number = self.count(&kind, "L")?;
         match number {
-            2 => self.set_zero(words, bytes),
+            2 | 20 if number == 2 || fanuc => self.set_zero(words, number == 20, bytes),
             20 if !fanuc => self.set_zero_here(words, bytes),
             10 | 12 if fanuc => self.set_register(words, number == 10, bytes),
             1 if self.dialect.turn == TurnWord::Offset => self.set_tool(words, bytes),
@@ -44,9 +45,9 @@ impl<'s> Reader<'s> {
         }
     }
 
-    /// `G10 L2 P X Y Z R`.
-    fn set_zero(&mut self, words: &mut [Word<'s>], bytes: &Bytes) -> Result<()> {
-        let offset = self.offset_of(words, bytes)?;
+    /// `G10 L2 P X Y Z R`, and `G10 L20 P X Y Z` of FANUC for a work offset beyond G59.
+    fn set_zero(&mut self, words: &mut [Word<'s>], further: bool, bytes: &Bytes) -> Result<()> {
+        let offset = self.offset_of(words, further, bytes)?;
         let named = self.lengths(words);
         self.no_turned_zero(words)?;
         let angle = match self.dialect.turn {
@@ -101,7 +102,7 @@ impl<'s> Reader<'s> {
 
     /// `G10 L20 P X Y Z`.
     fn set_zero_here(&mut self, words: &mut [Word<'s>], bytes: &Bytes) -> Result<()> {
-        let offset = self.offset_of(words, bytes)?.unwrap_or(WorkOffset::G54);
+        let offset = self.offset_of(words, false, bytes)?.unwrap_or(WorkOffset::G54);
         let named = self.lengths(words);
         self.no_turned_zero(words)?;
         if named == [None; 3] {
@@ -207,19 +208,25 @@ impl<'s> Reader<'s> {
     }
 
     /// The work offset of P; none is what is added to all of them.
-    fn offset_of(&self, words: &mut [Word<'s>], bytes: &Bytes) -> Result<Option<WorkOffset>> {
+    fn offset_of(&self, words: &mut [Word<'s>], further: bool, bytes: &Bytes) -> Result<Option<WorkOffset>> {
         let Some(number) = take(words, "P") else {
             return Err(self.answers(self.lacks(bytes, "G10 without the work offset P"), 28).into());
         };
         let fanuc = self.dialect.flow == FlowWords::MacroB;
         let found = match self.count(&number, "a work offset")? {
+            n if further => WorkOffset::extended(n),
             0 if fanuc => return Ok(None),
             0 => Some(self.modal.offset.unwrap_or(WorkOffset::G54)),
             n @ 1..=6 => WorkOffset::from_tenths(530 + 10 * n),
             n @ 7..=9 if !fanuc => WorkOffset::from_tenths(584 + n),
             _ => None,
         };
-        let most = if fanuc { 6 } else { 9 };
+        let most = match (further, fanuc) {
+            (true, _) if self.dialect.haas => 99,
+            (true, _) => 300,
+            (false, true) => 6,
+            (false, false) => 9,
+        };
         found.filter(|o| (self.dialect.has_offset)(*o)).map(Some).ok_or_else(|| {
             let finding =
                 self.place.malformed(&number.bytes, "the number of the work offset is out of range");

@@ -18,6 +18,7 @@ const INCH: f64 = 25.4;
 impl<'s> Reader<'s> {
     pub(super) fn execute(&mut self, words: &mut [Word<'s>]) -> Result<()> {
         self.one_use_of_axes()?;
+        self.set_mode(words)?;
         self.modal.sticky.rigid |= self.code(|c| c == Code::Rigid).is_some();
         let before = self.before()?;
         self.check_rotation()?;
@@ -67,10 +68,11 @@ impl<'s> Reader<'s> {
         self.saving()?;
         self.storing();
         self.tilting(words)?;
+        self.scaling(words)?;
         self.turning(words)?;
         self.presetting(words)?;
         self.probing(words)?;
-        self.motion(words, machine)?;
+        self.motion_and_corner(words, machine)?;
         self.check_compensation(&before)?;
         self.jumping(words)?;
         if let Some((Code::Stop(kind), _)) = self.code(|c| matches!(c, Code::Stop(_))) {
@@ -99,7 +101,7 @@ impl<'s> Reader<'s> {
     /// Executes such a block: what [`Reader::execute`] does of it.
     pub(super) fn go_on(&mut self, words: &mut [Word<'s>]) -> Result<()> {
         let before = self.before()?;
-        self.motion(words, None)?;
+        self.motion_and_corner(words, None)?;
         self.check_compensation(&before)
     }
 
@@ -243,7 +245,7 @@ impl<'s> Reader<'s> {
         // stops the spindle and goes to its place for changes (`convert_tool_change`, `CHANGE_TOOL`, `emcToolLoad`).
         self.modal.told.id = None;
         self.tool_origin = self.origin;
-        self.modal.length_hidden = false;
+        (self.modal.length_hidden, self.length_lost) = (false, false);
         self.modal.spindle = Spindle::Off;
         self.modal.position = [None; 3];
         Ok(())
@@ -295,6 +297,9 @@ impl<'s> Reader<'s> {
     }
 
     pub(super) fn push_dwell(&mut self, seconds: f64) {
+        if self.waits_for_corner(seconds) {
+            return;
+        }
         self.flush(Kind::Other);
         self.program.push_dwell(seconds, &self.state(Speed::Rapid { linear: false }), self.origin);
     }
@@ -317,6 +322,7 @@ impl<'s> Reader<'s> {
             };
             match self.code(of_length) {
                 Some((code @ (Code::LengthOn | Code::TipControl { .. }), bytes)) => {
+                    self.length_lost = false;
                     let register = match take(words, "H") {
                         Some(register) => self.count(&register, "a register")?,
                         None => match self.modal.tool.id.filter(|_| !self.dialect.length_with_z) {
@@ -339,6 +345,7 @@ impl<'s> Reader<'s> {
                     if self.lift != 0.0 {
                         self.lifted(0.0);
                     }
+                    self.length_lost = false;
                     self.modal.tool.length = None;
                     self.tip_control_ends(false);
                 }

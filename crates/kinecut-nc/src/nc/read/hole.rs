@@ -8,6 +8,7 @@ use crate::nc::dialect::{CycleKind, Plane, SeriesRule};
 use crate::program::{Cycle, CycleStep, Path, Speed, Spindle, State};
 use crate::tool::Hand;
 
+use super::boring::Shift;
 use super::reader::{Kind, Reader};
 
 /// A hole.
@@ -22,6 +23,10 @@ pub(super) struct Hole {
     pub(super) way: [f64; 2],
     pub(super) speed: Speed,
     pub(super) spindle: Spindle,
+    /// Wait at the bottom [s].
+    pub(super) dwell: f64,
+    /// Step aside at the bottom.
+    pub(super) shift: Option<Shift>,
 }
 
 impl Reader<'_> {
@@ -124,6 +129,21 @@ impl Reader<'_> {
         if matches!(hole.kind, CycleKind::Drill | CycleKind::DrillDwell) {
             return self.expanded(hole);
         }
+        match (hole.kind, hole.shift) {
+            (CycleKind::FineBore, Some(shift)) => {
+                self.fine_bored(hole, shift);
+                return Ok(());
+            }
+            (CycleKind::BackBore, Some(shift)) => {
+                self.back_bored(hole, shift);
+                return Ok(());
+            }
+            (CycleKind::LeftByHand, _) => {
+                self.left_by_hand(hole);
+                return Ok(());
+            }
+            _ => {}
+        }
         if self.height() != reference {
             self.go_to_height(reference, rapid);
         }
@@ -187,14 +207,14 @@ impl Reader<'_> {
         Ok(())
     }
 
-    fn go_to_height(&mut self, height: f64, speed: Speed) {
+    pub(super) fn go_to_height(&mut self, height: f64, speed: Speed) {
         let [_, _, n] = self.modal.plane.axes();
         let mut end = self.modal.position;
         end[n] = Some(height);
         self.push_tip(end, Path::Line, speed);
     }
 
-    fn wait(&mut self, seconds: f64) {
+    pub(super) fn wait(&mut self, seconds: f64) {
         if seconds > 0.0 {
             self.push_dwell(seconds);
         }

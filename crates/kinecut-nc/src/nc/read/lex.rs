@@ -191,6 +191,7 @@ impl<'s> Lexer<'_, 's> {
                         .into());
                 }
                 c if c.is_ascii_alphabetic() => self.word(at, end, block)?,
+                b',' if self.is_corner(at, end) => self.corner_word(at, end, block)?,
                 _ => {
                     let mut stop = at + 1;
                     while !self.place.text().is_char_boundary(stop) {
@@ -254,7 +255,7 @@ impl<'s> Lexer<'_, 's> {
     }
 
     /// A letter and a number; blanks count for nothing.
-    fn letter_word(&self, at: usize, end: usize, block: &mut Block<'s>) -> Result<usize> {
+    pub(super) fn letter_word(&self, at: usize, end: usize, block: &mut Block<'s>) -> Result<usize> {
         let text = self.place.text();
         let bytes = text.as_bytes();
         let next = self.blanks(at + 1, end);

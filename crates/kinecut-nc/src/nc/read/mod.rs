@@ -11,21 +11,27 @@
 //! stay at the height that is not known.
 
 mod arc;
+pub(super) mod bolt_holes;
+mod boring;
 mod by_number;
 mod call;
 mod called;
 mod calls;
 mod comp;
+mod corner;
 mod cubic;
 mod cycle;
 mod data;
 mod execute;
+mod extended_offset;
 mod hole;
 mod jump;
 mod knots;
 mod lex;
 mod message;
 mod modal;
+mod modal_macro;
+mod modes;
 mod motion;
 pub(super) mod number;
 mod nurbs;
@@ -44,6 +50,7 @@ mod rotary_axes;
 mod rotary_state;
 mod run;
 mod saved;
+mod scaling;
 mod settings;
 mod statements;
 mod sticky;

@@ -14,8 +14,11 @@ use super::reader::{Kind, Reader, take, take_way};
 impl<'s> Reader<'s> {
     /// Executes the motion of a block; `machine`: the place of a word for machine coordinates.
     pub(super) fn motion(&mut self, words: &mut [Word<'s>], machine: Option<Bytes>) -> Result<()> {
-        if let Some((_, bytes)) = self.code(|c| matches!(c, Code::Reference | Code::SecondReference)) {
-            return self.reference_move(words, &bytes);
+        if let Some((code, bytes)) = self.code(|c| matches!(c, Code::Reference | Code::FurtherReference)) {
+            return self.reference_move(words, code, &bytes);
+        }
+        if let Some((Code::Holes(pattern), bytes)) = self.code(|c| matches!(c, Code::Holes(_))) {
+            return self.pattern(words, pattern, &bytes);
         }
         if self.code(|c| matches!(c, Code::Probe { .. })).is_some() {
             self.modal.motion = None;
@@ -88,6 +91,12 @@ impl<'s> Reader<'s> {
 
     fn tip_move(&mut self, words: &mut [Word<'s>]) -> Result<()> {
         self.unit_is_the_same();
+        if self.length_lost
+            && let Some(word) = words.iter().find(|w| !w.used && w.is(AXES[2]))
+        {
+            let message = "Z without a tool length: G28 has cancelled it on this control";
+            return Err(self.lacks(&word.bytes, message).help("call it again with G43 H").into());
+        }
         match self.modal.motion {
             Some(Code::Rapid) => self.straight(words, Speed::Rapid { linear: self.dialect.straight_rapid }),
             Some(Code::Feed) => {
@@ -203,7 +212,8 @@ impl<'s> Reader<'s> {
             }
             self.from_nowhere.push(self.place.span(&self.here));
         }
-        self.push_tip(end, Path::Line, speed);
+        let path = self.through_corner(end, Path::Line, speed)?;
+        self.push_tip(end, path, speed);
         Ok(())
     }
 
@@ -233,7 +243,8 @@ impl<'s> Reader<'s> {
             self.modal.tool_item = None;
         }
         self.modal.position = end;
-        let point = DVec3::from_array(end.map(|v| v.unwrap_or(f64::NAN)));
+        let point = DVec3::from_array(self.mapped(end).map(|v| v.unwrap_or(f64::NAN)));
+        let path = self.scaling.map.map_or(path, |map| map.path(path, self.modal.plane));
         self.note_feed(speed);
         let kept = self.modal.rotary_axes.kept();
         let axis = self.modal.rotary_axes.next.take().unwrap_or(kept);

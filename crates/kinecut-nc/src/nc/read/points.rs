@@ -39,10 +39,15 @@ impl Points {
     }
 }
 
-impl Reader<'_> {
+impl<'s> Reader<'s> {
     /// Gives the numbers of a block without a decimal point, and those that are computed, their values.
-    pub(super) fn numbers_without_point(&mut self, words: &mut [Word<'_>]) -> Result<()> {
+    pub(super) fn numbers_without_point(&mut self, words: &mut [Word<'s>]) -> Result<()> {
         self.points.increment = None;
+        let own_words = self.mode().map_or(&[] as &[&str], |(mode, _)| mode.words);
+        let scales = self.code(|c| c == (Code::Scale { on: true })).is_some();
+        if scales {
+            self.factors_without_point(words)?;
+        }
         let inch = match self.code(|c| matches!(c, Code::Units { .. })) {
             Some((Code::Units { inch, .. }, _)) => inch,
             _ => self.modal.length_unit != 1.0,
@@ -54,21 +59,27 @@ impl Reader<'_> {
             _ => has(Code::FeedPerRevolution),
         };
         let feature = has(Code::Tilt);
+        let pattern = self.code(|c| matches!(c, Code::Holes(_))).is_some();
         let axis = self.centre_is_axis() || has(Code::TipControl { vector: true });
-        let lengths_k = self.curved() || feature || axis;
+        // A Haas counts by L.
+        let lengths_k = self.curved() || feature || axis || self.dialect.haas;
         let (dwells, turns) = (has(Code::Dwell), has(Code::Rotation { on: true }));
         let is = |word: &Word<'_>, names: &[&str]| names.iter().any(|n| word.is(n));
         let mut without = None;
-        for word in words.iter_mut() {
+        for word in words.iter_mut().filter(|w| !(scales && is(w, &["P", "I", "J", "K"]) || is(w, own_words)))
+        {
             let length_k = is(word, &["K"]) && lengths_k;
             let count = is(word, &["P", "T", "H", "D", "O", "N"])
                 || is(word, &["K"]) && !length_k
                 || is(word, &["Q"]) && feature;
             let angle = is(word, &["R"]) && turns
+                || is(word, &["J"]) && pattern
+                || is(word, &["K"]) && pattern
                 || is(word, &["A", "B", "C"])
                 || is(word, &["I", "J", "K"]) && feature;
             let seconds = is(word, &["X"]) && dwells;
-            let length = !angle && !seconds && (is(word, &["X", "Y", "Z", "I", "J", "R"]) || length_k);
+            let length =
+                !angle && !seconds && (is(word, &["X", "Y", "Z", "I", "J", "R", ",R", ",C"]) || length_k);
             let depth = is(word, &["Q"]) && !feature;
             if word.computed {
                 let step =

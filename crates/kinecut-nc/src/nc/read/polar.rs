@@ -50,7 +50,14 @@ impl<'s> Reader<'s> {
         let moves = self.code(|c| {
             matches!(
                 c,
-                Code::MachineFrame | Code::Reference | Code::LocalShift | Code::Dwell | Code::Rotation { .. }
+                Code::Scale { .. }
+                    | Code::Mirror { .. }
+                    | Code::MachineFrame
+                    | Code::Reference
+                    | Code::FurtherReference
+                    | Code::LocalShift
+                    | Code::Dwell
+                    | Code::Rotation { .. }
             )
         });
         let find = |axis: usize| words.iter().position(|w| !w.used && w.is(AXES[axis]));

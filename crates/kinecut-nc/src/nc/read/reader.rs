@@ -10,14 +10,17 @@ use crate::nc::run::Variables;
 use crate::program::{Comp, Frame, Origin, OriginId, Program, Setup, Speed, State, WorkOffset};
 
 use super::Reading;
+use super::corner::Corner;
 use super::jump::Jump;
 use super::lex::{Block, Word, WordMode};
 use super::modal::Modal;
+use super::modal_macro::ModalMacros;
 use super::nurbs::Nurbs;
 use super::place::{Bytes, SourceText};
 use super::points::Points;
 use super::polar::Polar;
 use super::saved::Saved;
+use super::scaling::Scaling;
 use super::stored::Stored;
 
 /// A value of a word and its place.
@@ -84,6 +87,14 @@ pub(super) struct Reader<'s> {
     pub(super) from_nowhere: Vec<Span>,
     /// The jump that the present block asks for.
     pub(super) jump: Option<Jump>,
+    /// `G28` has cancelled the tool length, and none was called since (Haas).
+    pub(super) length_lost: bool,
+    /// Macros that are called after each block that moves.
+    pub(super) modal_macros: ModalMacros,
+    /// Scaled and mirrored coordinates.
+    pub(super) scaling: Scaling,
+    /// Corner behind the last move, which waits for the next.
+    pub(super) corner: Option<Corner>,
 }
 
 /// The kinds of item that decide whether a switched-off length becomes an item.
@@ -134,11 +145,16 @@ impl<'s> Reader<'s> {
             lift: 0.0,
             from_nowhere: Vec::new(),
             jump: None,
+            length_lost: false,
+            modal_macros: ModalMacros::default(),
+            scaling: Scaling::default(),
+            corner: None,
         }
     }
 
     /// Ends the reading; `at` is the first byte not read.
     pub(super) fn finish(mut self, at: usize) -> Result<Reading> {
+        self.corner_without_move()?;
         self.flush(Kind::Other);
         self.say_from_nowhere();
         let text = self.place.text();
@@ -229,7 +245,7 @@ impl<'s> Reader<'s> {
     /// Leaves a block that is wrong: from here on no position is known.
     pub(super) fn skip_block(&mut self) {
         self.codes.clear();
-        (self.jump, self.nurbs, self.polar) = (None, None, None);
+        (self.jump, self.nurbs, self.polar, self.corner) = (None, None, None, None);
         self.modal.position = [None; 3];
         self.modal.comp = Comp::Off;
         self.modal.comp_turned = None;
@@ -265,12 +281,13 @@ impl<'s> Reader<'s> {
             return Ok(());
         }
         if self.dialect.flow == FlowWords::MacroB && self.calls_macro(&mut block.words)? {
-            return Ok(());
+            return self.corner_without_move();
         }
         self.collect(&mut block.words)?;
         if self.dialect.point {
             self.numbers_without_point(&mut block.words)?;
         }
+        self.extended_offset(&mut block.words)?;
         self.polar_words(&mut block.words)?;
         let before = self.program.items.len();
         let modal = self.code(|c| c == Code::ModalCall).is_some();
@@ -335,6 +352,9 @@ impl<'s> Reader<'s> {
                 }
                 None => Some(self.keyword(word.name).ok_or_else(|| self.unknown(word))?),
             };
+            if let Some(Code::NotRead(why)) = code {
+                return Err(self.place.not_understood(&word.bytes, why).into());
+            }
             if let Some(code) = code {
                 word.used = true;
                 let beside = |other: Code| {
@@ -362,8 +382,16 @@ impl<'s> Reader<'s> {
 
     /// Refuses a second code that uses axis words, of a control that takes one.
     pub(super) fn one_use_of_axes(&self) -> Result<()> {
-        let covets =
-            |c: Code| matches!(c, Code::Reference | Code::SetData | Code::LocalShift | Code::PresetShift);
+        let covets = |c: Code| {
+            matches!(
+                c,
+                Code::Reference
+                    | Code::FurtherReference
+                    | Code::SetData
+                    | Code::LocalShift
+                    | Code::PresetShift
+            )
+        };
         let (Some((_, bytes)), Some((motion, of_motion))) = (self.code(covets), self.motion_code()) else {
             return Ok(());
         };
@@ -410,8 +438,10 @@ impl<'s> Reader<'s> {
             let found = table.iter().find(|(t, _)| *t == tenths).map(|(_, c)| *c);
             found.filter(|c| *c != Code::FeedPerRevolution || self.dialect.per_revolution)
         };
-        find(COMMON_G).or_else(|| find(self.dialect.g_codes)).or_else(|| {
-            WorkOffset::from_tenths(tenths).filter(|o| (self.dialect.has_offset)(*o)).map(Code::Work)
+        let own = || find(self.dialect.g_codes).or_else(|| find(self.dialect.further_codes()));
+        find(COMMON_G).or_else(own).or_else(|| {
+            let offset = WorkOffset::from_tenths(tenths).or_else(|| self.offset_by_code(tenths));
+            offset.filter(|o| (self.dialect.has_offset)(*o)).map(Code::Work)
         })
     }
 
@@ -483,7 +513,7 @@ impl<'s> Reader<'s> {
             spindle: self.modal.spindle,
             blend: self.modal.blend,
             tcp: self.modal.rotary_axes.tcp,
-            comp: self.modal.comp,
+            comp: self.scaling.map.map_or(self.modal.comp, |map| map.side(self.modal.comp)),
             coolant: self.modal.coolant,
         }
     }

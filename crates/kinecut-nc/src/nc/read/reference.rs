@@ -1,4 +1,5 @@
-//! The way to the reference point: `G28` with the axes that go there, over the point that their words say.
+//! The way to the reference point: `G28` with the axes that go there, over the point that their words say; `G30 P2` to `P4`
+//! likewise to the further ones, whose places are parameters of the machine (FANUC 1241 to 1243) too.
 //!
 //! `G91 G28 Z0.` goes there straight, for an increment of zero leaves the axis where it is. The reference point is a
 //! parameter of the machine (FANUC 1240), or was stored by the operator (`G28.1`): it is read as machine zero, and that is
@@ -6,7 +7,7 @@
 
 use glam::DVec3;
 
-use crate::base::Result;
+use crate::base::{Code as FindingCode, Finding, Result};
 use crate::nc::dialect::{AXES, Code};
 use crate::nc::multi_axis::ROTARY;
 use crate::program::{Move, Path, Speed, Target, Tcp, ToolAxis};
@@ -16,8 +17,9 @@ use super::place::Bytes;
 use super::reader::{Kind, Reader, take, take_way};
 
 impl<'s> Reader<'s> {
-    /// Executes `G28`.
-    pub(super) fn reference_move(&mut self, words: &mut [Word<'s>], bytes: &Bytes) -> Result<()> {
+    /// Executes `G28` and `G30`.
+    pub(super) fn reference_move(&mut self, words: &mut [Word<'s>], code: Code, bytes: &Bytes) -> Result<()> {
+        let point = self.reference_point(words, code)?;
         let speed = Speed::Rapid { linear: self.dialect.straight_rapid };
         let mut joints = [None; 6];
         let mut over = self.modal.position;
@@ -52,8 +54,7 @@ impl<'s> Reader<'s> {
             }
             joints[3 + axis] = Some(0.0);
         }
-        let second = self.code(|c| c == Code::SecondReference).is_some();
-        let stored = self.stored_places[usize::from(second)];
+        let stored = self.stored_places[usize::from(point.is_some())];
         if joints == [None; 6] {
             if self.dialect.point {
                 return Err(self.lacks(bytes, "the way to the reference point without an axis").into());
@@ -92,10 +93,40 @@ impl<'s> Reader<'s> {
         self.flush(Kind::Other);
         let motion = Move { end: Target::Joints(joints), path: Path::Line };
         self.program.push_move(motion, &self.state(speed), self.origin);
-        self.note(match second {
-            true => "the second reference point (G30) is taken to be machine zero",
-            false => "the reference point (G28) is taken to be machine zero",
-        });
+        // A Haas forgets the tool length there (96-8000, `G49`).
+        if self.dialect.haas && self.modal.tool.length.take().is_some() {
+            self.length_lost = true;
+            self.modal.position[2] = None;
+        }
+        match point {
+            None => self.note("the reference point (G28) is taken to be machine zero"),
+            Some(point) => self.say_further_reference(point, bytes),
+        }
         Ok(())
+    }
+
+    /// The reference point that `G30 P` names: the second where there is no P.
+    fn reference_point(&self, words: &mut [Word<'s>], code: Code) -> Result<Option<u32>> {
+        if code != Code::FurtherReference {
+            return Ok(None);
+        }
+        let Some(word) = take(words, "P") else { return Ok(Some(2)) };
+        match self.count(&word, "a reference point")? {
+            point @ 2..=4 => Ok(Some(point)),
+            _ => Err(self.place.malformed(&word.bytes, "the reference points of G30 are P2 to P4").into()),
+        }
+    }
+
+    /// Says that the place of a further reference point is not known.
+    fn say_further_reference(&mut self, point: u32, bytes: &Bytes) {
+        let parameter = if self.dialect.point { (1239 + point).to_string() } else { "G30.1".to_owned() };
+        let message = format!(
+            "the place of reference point {point} (G30) is a parameter of the machine ({parameter}): machine zero is assumed"
+        );
+        if self.findings.iter().all(|f| f.message != message) {
+            let place = self.place.sources.locate(self.place.span(bytes));
+            let finding = Finding::doubt(FindingCode::NC_ASSUMED, message).at(place);
+            self.findings.push(finding.help("see that the way there is free"));
+        }
     }
 }

@@ -34,6 +34,8 @@ pub(super) struct Frame<'s> {
     /// The block that calls.
     pub(super) called: Bytes,
     pub(super) parent: Option<OriginId>,
+    /// The modal macro that is called.
+    pub(super) modal_macro: Option<usize>,
 }
 
 /// Turns of a `repeat` that are left.
@@ -216,10 +218,12 @@ impl<'s> Run<'s> {
             }
             self.started = !number;
         }
+        let before = self.reader.program.items.len();
         self.reader.block(block)?;
         match self.reader.jump.take() {
-            None => Ok(true),
+            None => self.call_modal_macro(before),
             Some(jump) => {
+                self.no_modal_macro(before)?;
                 self.in_flow = true;
                 self.jump(jump)
             }
@@ -228,7 +232,7 @@ impl<'s> Run<'s> {
 
     fn end_of_text(&mut self, at: usize) -> Result<bool> {
         if self.frames.is_empty() {
-            return Ok(false);
+            return self.reader.corner_without_move().map(|()| false);
         }
         let bytes = at.saturating_sub(1) as u32..at as u32;
         let word = if self.reader.dialect.flow == FlowWords::MacroB { "M99" } else { "endsub or M99" };
@@ -252,7 +256,7 @@ impl<'s> Run<'s> {
         match jump {
             Jump::Return { to, bytes } => self.back(to, &bytes),
             Jump::Program { number, times, bytes } => {
-                let begin = self.program(number, &bytes)?;
+                let begin = self.called_program(number, &bytes)?;
                 self.call(begin, times, None, bytes)
             }
             Jump::Block { number, times, bytes } => {
@@ -264,7 +268,7 @@ impl<'s> Run<'s> {
                 self.call((place, line), times, None, bytes)
             }
             Jump::Macro { number, times, locals, bytes } => {
-                let begin = self.program(number, &bytes)?;
+                let begin = self.called_program(number, &bytes)?;
                 self.call(begin, times, Some(locals), bytes)
             }
         }
@@ -290,7 +294,7 @@ impl<'s> Run<'s> {
     }
 
     /// First line of the program of a number.
-    fn program(&mut self, number: u32, bytes: &Bytes) -> Result<(SourceText<'s>, usize)> {
+    pub(super) fn called_program(&mut self, number: u32, bytes: &Bytes) -> Result<(SourceText<'s>, usize)> {
         let place = self.reader.place;
         let macro_b = self.reader.dialect.flow == FlowWords::MacroB;
         let find = |run: &mut Run<'s>, place: SourceText<'s>| {
@@ -335,7 +339,8 @@ impl<'s> Run<'s> {
         let back = (place, self.at);
         // A Haas begins each further call with what the one before has left.
         let arguments = arguments.filter(|_| !self.reader.dialect.haas);
-        self.frames.push(Frame { back, level, loops, again: times - 1, begin, arguments, called, parent });
+        let (again, modal_macro) = (times - 1, None);
+        self.frames.push(Frame { back, level, loops, again, begin, arguments, called, parent, modal_macro });
         self.go(begin);
         Ok(true)
     }
@@ -344,12 +349,14 @@ impl<'s> Run<'s> {
         self.again = true;
         self.reader.place = place;
         self.reader.depth = self.frames.len();
+        self.reader.modal_macros.in_macro = self.frames.iter().any(|f| f.level.is_some());
         self.at = at;
     }
 
     /// Returns from a call, to a block number of the caller where one is given.
     pub(super) fn back(&mut self, to: Option<u32>, bytes: &Bytes) -> Result<bool> {
         let depth = self.frames.len();
+        self.leave_modal_macro();
         let Some(frame) = self.frames.last_mut() else { return self.main_returns(to, bytes) };
         self.reader.returned(depth, bytes)?;
         if frame.again > 0 {
@@ -365,6 +372,9 @@ impl<'s> Run<'s> {
         let Some(frame) = self.frames.pop() else { return Ok(false) };
         if let Some(level) = frame.level {
             self.reader.variables.enter(level);
+        }
+        if let Some(reach) = frame.modal_macro {
+            self.reader.modal_macros.reach = reach;
         }
         self.loops = frame.loops;
         self.reader.parent = frame.parent;
@@ -463,6 +473,8 @@ impl Reader<'_> {
             .chain([
                 u64::from(modal.chosen.unwrap_or(u32::MAX)),
                 u64::from(modal.radius.unwrap_or(u32::MAX)),
+                self.modal_macros.state(),
+                self.scaling.state(),
             ]);
         let all = places.chain(shift).chain(numbers).chain(words).enumerate();
         all.fold(self.variables.state(), |state, (i, value)| state ^ mixed(i as u64 | 1 << 63, value))

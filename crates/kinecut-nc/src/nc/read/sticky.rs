@@ -10,6 +10,10 @@ pub(super) struct Sticky {
     pub(super) bottom: Option<f64>,
     pub(super) step: Option<f64>,
     pub(super) dwell: Option<f64>,
+    /// Step aside in the plane (`G76`, `G87` with I and J).
+    pub(super) shift: Option<[f64; 2]>,
+    /// First step, by how much each is shorter, and the least (Haas `G73`, `G83` with I, J, K).
+    pub(super) pecks: Option<[f64; 3]>,
     /// Threads are rigid (`M29`).
     pub(super) rigid: bool,
 }

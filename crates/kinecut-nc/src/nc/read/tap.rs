@@ -26,7 +26,8 @@ impl<'s> Reader<'s> {
                 .help("program S")
                 .into());
         };
-        if !self.modal.sticky.rigid {
+        // A Haas taps rigidly by itself.
+        if !self.modal.sticky.rigid && !self.dialect.haas {
             self.note(BY_PARAMETER);
         }
         let pitch = match speed {

@@ -74,7 +74,8 @@ impl<'s> Reader<'s> {
         }
         let ends = self.code(|c| c == Code::Rotation { on: false }).is_some();
         let forbidden = |c: Code| match c {
-            Code::MachineFrame | Code::Reference | Code::Work(_) | Code::LocalShift => !ends,
+            Code::MachineFrame | Code::Reference | Code::FurtherReference => !ends,
+            Code::Work(_) | Code::LocalShift => !ends,
             Code::Plane(plane) => plane != Plane::Xy,
             _ => false,
         };
@@ -103,7 +104,8 @@ impl<'s> Reader<'s> {
         if before == motion {
             return;
         }
-        self.modal.position = turn::restated(self.modal.position, &before, &motion);
+        let place = turn::restated(self.mapped(self.modal.position), &before, &motion);
+        self.modal.position = self.programmed(place);
         let raised = before.translation.z != motion.translation.z;
         self.modal.turned.fresh = [true, true, raised];
         self.modal.cubic_end = None;
@@ -134,9 +136,16 @@ impl<'s> Reader<'s> {
             );
             return Err(finding.help("program G69 first, or G90").into());
         }
-        let centre = match (x, y, self.modal.position) {
+        let [mapped_x, mapped_y, _] = self.mapped([x, y, None]);
+        let centre = match (mapped_x, mapped_y, self.mapped(self.modal.position)) {
             (Some(x), Some(y), _) => DVec2::new(x, y),
-            (None, None, [Some(x), Some(y), _]) if degrees == 0.0 => DVec2::new(x, y),
+            (None, None, [Some(x), Some(y), _]) if degrees == 0.0 => {
+                if self.dialect.haas {
+                    let message = "a rotation without X and Y is about the present position, or by another reading about the zero of the work";
+                    self.warn(bytes, message);
+                }
+                DVec2::new(x, y)
+            }
             (None, None, _) if degrees == 0.0 => {
                 let finding =
                     self.lacks(bytes, "a rotation about the present place, which the program has not set");
@@ -150,7 +159,8 @@ impl<'s> Reader<'s> {
             return Err(finding.help("program G69 first").into());
         }
         self.modal.turned.centre = centre;
-        self.modal.turned.degrees = angle.value;
+        let mirrored = self.scaling.map.is_some_and(|map| map.mirrors(Plane::Xy));
+        self.modal.turned.degrees = if mirrored { -angle.value } else { angle.value };
         Ok(())
     }
 

@@ -72,6 +72,9 @@ impl Reader<'_> {
 
     /// A coordinate of the tip in the coordinates and the unit of the program.
     fn coordinate(&self, axis: usize) -> Known {
+        if axis < 3 && self.scaling.map.is_some_and(|map| !map.keeps(axis)) {
+            return Known::Unknown("what it holds while coordinates are scaled or mirrored is not known");
+        }
         match self.modal.position.get(axis) {
             Some(Some(place)) => number(place / self.modal.length_unit),
             Some(None) => Known::Unknown(PLACE),
@@ -198,7 +201,11 @@ impl Reader<'_> {
             }),
             4008 => number(if modal.tool.length.is_some() { 43.0 } else { 49.0 }),
             4010 => number(if modal.return_to_start { 98.0 } else { 99.0 }),
-            4014 => number(f64::from(modal.offset.unwrap_or(WorkOffset::G54).tenths()) / 10.0),
+            4014 => number(match modal.offset.unwrap_or(WorkOffset::G54) {
+                offset if offset.extension().is_some() => 54.1,
+                offset => f64::from(offset.tenths()) / 10.0,
+            }),
+            4130 => number(modal.offset.and_then(WorkOffset::extension).map_or(0.0, f64::from)),
             4107 => number(modal.radius.map_or(0.0, f64::from)),
             4109 => match (modal.feed_mode, modal.feed) {
                 (FeedMode::PerMinute, Some(feed)) => number(feed * 60.0 / modal.feed_unit),

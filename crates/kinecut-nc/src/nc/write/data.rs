@@ -19,6 +19,10 @@ impl Writer<'_> {
             matches!(control, Control::Grbl | Control::GrblHal),
         ];
         let block = match *data {
+            ControlData::Zero { offset: Some(offset), place } if fanuc && offset.extension().is_some() => {
+                let number = offset.extension().unwrap_or_default();
+                format!("G10 L20 P{number}{}", self.axis_words(place)?)
+            }
             ControlData::Zero { offset, place } if linuxcnc || fanuc || grbl => {
                 let number = match offset {
                     None if fanuc => 0,

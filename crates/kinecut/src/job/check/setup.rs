@@ -109,7 +109,7 @@ pub(super) fn setup(
 fn work_offset(name: &str, key: &str) -> Result<WorkOffset> {
     WorkOffset::parse(name).ok_or_else(|| {
         Finding::error(Code::JOB_VALUE, format!("`{}` is no work offset", name.escape_default()))
-            .help("write \"G54\" to \"G59\", \"G59.1\" to \"G59.3\" or \"G505\" to \"G599\"")
+            .help("write \"G54\" to \"G59\", \"G59.1\" to \"G59.3\", \"G505\" to \"G599\" or \"G54.1 P1\" to \"G54.1 P300\"")
             .key(key)
             .into()
     })

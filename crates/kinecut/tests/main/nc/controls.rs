@@ -163,7 +163,7 @@ fn fanuc_involutes_keep_off_the_base_circle_and_below_a_hundred_turns() {
 fn fanuc_refusals_point_at_the_word() {
     let head = "%\nO1\nG21 G90 G94 G54\nG0 X0. Y0. Z0.\n";
     for (block, code) in [
-        ("G30 Z0.", Code::NC_WORD),
+        ("G27 Z0.", Code::NC_WORD),
         ("G68.2 P2 X0. Y0. Z0.", Code::NC_WORD),
         ("#1000=3", Code::NC_WORD),
         ("G4 P1.5", Code::NC_SYNTAX),

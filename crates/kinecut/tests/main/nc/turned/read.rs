@@ -115,7 +115,7 @@ fn fanuc_refuses_what_its_manual_forbids_or_leaves_open() {
     for (block, code) in [
         ("G68 X0. Y0. Z0. I0. J0. K1 R30.", Code::NC_WORD),
         ("G68.2 P2 Q0 X0. Y0. Z0.", Code::NC_WORD),
-        ("G51 X0. Y0. P2.", Code::NC_WORD),
+        ("G51 X0. Y0.", Code::NC_STATE),
         ("G18\nG68 X0. Z0. R30.", Code::NC_WORD),
         ("G68 X0. Y0. R30. G52 X1.", Code::NC_SYNTAX),
     ] {
