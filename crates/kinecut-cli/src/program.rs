@@ -11,6 +11,7 @@ use kinecut::job::{
 use kinecut::nc::{Control, NumberInput, PostSettings};
 use kinecut::operations::OrientationName;
 use kinecut::verbs::check::program_sheet;
+use kinecut::verbs::guess::Guess;
 use kinecut::verbs::post::translate;
 use kinecut::verbs::run::{self, MeshForm, ResultFiles};
 
@@ -183,6 +184,7 @@ impl ProgramOf {
         control: Option<&String>,
         stock: Option<&RawStock>,
         cut: bool,
+        save: Option<&Path>,
     ) -> Result<GivenJob, Error> {
         let name = self.program.display().to_string();
         let bytes = files::bytes(&self.program, FileKind::Program)?;
@@ -210,6 +212,16 @@ impl ProgramOf {
         }
         wants.machine = self.machine.as_deref().map(machine::of_name).transpose()?;
         wants.tools = self.tools.as_deref().map(named).transpose()?;
+        let lacks = cut && (wants.stock.is_none() || wants.tools.is_none());
+        if lacks || save.is_some() {
+            let guess = Guess::of(program, &wants)?;
+            if let Some(file) = save {
+                files::write_one(file, &guess.job())?;
+            }
+            if cut {
+                guess.complete(&mut wants);
+            }
+        }
         given_alone(program, &wants, cut)
     }
 }
@@ -267,6 +279,14 @@ pub(crate) struct RunBy {
     pub(crate) control: Option<String>,
 }
 
+/// File of a job that is made of a program alone.
+#[derive(Debug, clap::Args)]
+pub(crate) struct WriteJob {
+    /// Save stock and tools, guessed from the comments and the moves of the program, as a job file to correct
+    #[arg(long, value_name = "FILE", conflicts_with = "job")]
+    write_job: Option<PathBuf>,
+}
+
 /// Coordinates without a decimal point.
 #[derive(Clone, Copy, Debug, clap::ValueEnum)]
 pub(crate) enum Input {
@@ -300,6 +320,8 @@ pub(crate) struct Simulate {
     #[arg(long, value_name = "X0,Y0,Z0,X1,Y1,Z1|FILE.stl", value_parser = RawStock::parse, allow_hyphen_values = true, conflicts_with = "job")]
     stock: Option<RawStock>,
     #[command(flatten)]
+    save: WriteJob,
+    #[command(flatten)]
     cut: Stock,
     #[command(flatten)]
     results: Results,
@@ -312,7 +334,12 @@ impl Simulate {
         let done = if is_job(path) {
             run::simulate_job(path, &self.cut.wants(), &self.results.files(), files::read(), &Bar::new())?
         } else {
-            let mut given = self.of.given(self.by.control.as_ref(), self.stock.as_ref(), true)?;
+            let mut given = self.of.given(
+                self.by.control.as_ref(),
+                self.stock.as_ref(),
+                true,
+                self.save.write_job.as_deref(),
+            )?;
             given.simulated(&self.cut.wants())?;
             run::simulate_given(given, &self.results.files(), &Bar::new())?
         };
@@ -331,12 +358,14 @@ pub(crate) struct Check {
     of: ProgramOf,
     #[command(flatten)]
     by: RunBy,
+    #[command(flatten)]
+    save: WriteJob,
 }
 
 impl Check {
     /// Reads a program of others and says what is wrong with it.
     pub(crate) fn answer(&self, args: &Printing) -> Result<u8, Error> {
-        let given = self.of.given(self.by.control.as_ref(), None, false)?;
+        let given = self.of.given(self.by.control.as_ref(), None, false, self.save.write_job.as_deref())?;
         let sheet = program_sheet(&given)?;
         let wrong = sheet.errors > 0;
         let code = answer(args, To::default(), sheet)?;
@@ -383,7 +412,7 @@ enum Orientation {
 impl Post {
     /// Writes a program of others for another control.
     pub(crate) fn answer(&self, args: &Printing) -> Result<u8, Error> {
-        let given = self.of.given(self.from.as_ref(), None, false)?;
+        let given = self.of.given(self.from.as_ref(), None, false, None)?;
         let mut post = PostSettings::new(Control::parse(&self.to)?);
         post.program_name = program_name(&self.of.program);
         post.decimals = self.decimals.unwrap_or(post.decimals);

@@ -45,7 +45,7 @@ impl Time {
         let timed = if is_job(&self.of.program) {
             time_of_job(&self.of.program, files::read(), &bar)?
         } else {
-            time_of_program(&self.of.given(self.by.control.as_ref(), None, false)?, &bar)?
+            time_of_program(&self.of.given(self.by.control.as_ref(), None, false, None)?, &bar)?
         };
         let mut sheet = match self.out {
             Some(_) => timed.sheet_with_graphs(self.slowest, &bar)?,

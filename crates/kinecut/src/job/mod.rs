@@ -47,8 +47,8 @@ mod wrong_type;
 pub use budget::Budget;
 pub use check::{Design, Job, JobProgram, JobSetup, Subprogram, check, subprograms};
 pub use external::{
-    ExternalProgram, GivenFile, GivenJob, GivenStock, ProgramWants, Unfollowed, control_of, control_of_name,
-    given_alone, given_with_job,
+    Carried, CarriedStock, CarriedTool, ExternalProgram, GivenFile, GivenJob, GivenStock, ProgramWants,
+    Unfollowed, carried, control_of, control_of_name, given_alone, given_with_job,
 };
 pub use inspect::{InspectWants, Inspection, SectionPlane};
 pub use items::TextItems;

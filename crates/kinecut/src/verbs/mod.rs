@@ -7,6 +7,7 @@ pub mod explain;
 pub mod face;
 pub mod fk;
 pub mod grazing;
+pub mod guess;
 pub mod hole;
 pub mod ik;
 pub mod layouts;

@@ -74,7 +74,10 @@ impl<'s> Reader<'s> {
         let says = |name: &str| self.modal.absolute && words.iter().any(|w| w.is(name));
         let placed = |axis: usize| at[axis].is_some() || says(AXES[axis]);
         // From a height that is not known the tool goes to R, and with G98 back to it: the rest is known.
-        let unknown = self.modal.absolute && self.modal.plane == Plane::Xy;
+        let counts_from_there = |name: &str| !self.modal.absolute && words.iter().any(|w| w.is(name));
+        let kept = self.dialect.series == SeriesRule::Fanuc
+            && !(counts_from_there("R") || counts_from_there(AXES[n]));
+        let unknown = self.modal.plane == Plane::Xy && (self.modal.absolute || kept);
         let Some(z) = at[n].or(unknown.then_some(f64::NAN)).filter(|_| placed(a) && placed(b)) else {
             self.start()?;
             return Ok(());

@@ -34,6 +34,8 @@ pub struct JobProgram {
     pub start: Option<[f64; 3]>,
     /// Words of its text that told the control, where nobody said it.
     pub detected: Option<String>,
+    /// What of its stock and tools is a guess, in words.
+    pub guessed: Vec<String>,
     /// Files beside it with programs that it calls.
     pub beside: Vec<Subprogram>,
 }
@@ -54,6 +56,7 @@ impl JobProgram {
             blocks: ReadSettings::BLOCKS,
             start: None,
             detected: None,
+            guessed: Vec::new(),
             beside: Vec::new(),
         }
     }

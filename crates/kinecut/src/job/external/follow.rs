@@ -59,6 +59,12 @@ pub(crate) fn at_block(mut error: Error, program: &JobProgram, lines: &[Option<u
     error
 }
 
+/// A guess on which the rest depends.
+fn guessed(what: &str) -> Finding {
+    let finding = Finding::doubt(Code::NC_ASSUMED, what.to_owned());
+    finding.help("save the guess as a job (--write-job job.toml), correct it there, and simulate that")
+}
+
 /// Reads the program of a job's setup and follows it.
 ///
 /// # Errors
@@ -181,6 +187,7 @@ pub(crate) fn follow(
         .iter()
         .cloned()
         .chain(registers.findings)
+        .chain(program.guessed.iter().map(|what| guessed(what)))
         .partition(|f| f.severity == Severity::Note);
     let unfollowed = notes
         .into_iter()

@@ -58,6 +58,8 @@ pub struct ProgramWants {
     pub start: Option<[f64; 3]>,
     /// Files beside the program with programs that it calls: names and bytes, in its folder.
     pub beside: Vec<(String, Vec<u8>)>,
+    /// What of stock and tools is a guess, in words.
+    pub guessed: Vec<String>,
     /// Number of the tool in the spindle before the program calls one.
     pub tool: Option<u32>,
     /// Which clamping of the job it runs in, counted from 1; default: the first.
@@ -303,6 +305,7 @@ pub fn given_alone(program: GivenFile<'_>, wants: &ProgramWants, needs_stock: bo
     let mut job = check(&file, "program", &all)?;
     if let Some(program) = job.setups.first_mut().and_then(|setup| setup.program.as_mut()) {
         program.detected = why;
+        program.guessed.clone_from(&wants.guessed);
     }
     subjects.extend(called(&job));
     if let Some(machine) = &wants.machine {

@@ -3,6 +3,7 @@
 //! Nothing is planned and nothing is posted: the text itself is what is simulated, so that every finding is at a block
 //! of the file.
 
+mod carried;
 pub(crate) mod follow;
 pub(crate) mod given;
 mod grouped;
@@ -11,6 +12,7 @@ pub(crate) mod registers;
 mod setup;
 mod shown;
 
+pub use carried::{Carried, CarriedStock, CarriedTool, carried};
 pub(crate) use follow::{Errors, Followed, at_block, follow};
 pub use given::{
     GivenFile, GivenJob, GivenStock, ProgramWants, control_of, control_of_name, given_alone, given_with_job,

@@ -1,0 +1,213 @@
+//! Stock and tools of a program that comes alone: as far as its comments tell them, and otherwise about its moves.
+//!
+//! All of it is a guess, which each answer says; as a job file it is there to be corrected.
+
+use std::fmt::Write as _;
+
+use crate::base::Result;
+use crate::job::{
+    Carried, CarriedTool, GivenFile, GivenStock, ProgramWants, carried, control_of, given_alone,
+};
+use crate::nc::Control;
+use crate::verbs::check::program_sheet;
+
+/// Length of the flutes of a tool of which nothing says it [diameters].
+const FLUTES: f64 = 4.0;
+
+/// Stock and tools that are guessed.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Guess {
+    control: Control,
+    carried: Carried,
+    stock: Option<[f64; 6]>,
+    of_stock: String,
+    program: String,
+}
+
+impl Guess {
+    /// Guesses the stock and the tools of a program.
+    ///
+    /// ```
+    /// use kinecut::job::{GivenFile, ProgramWants};
+    /// use kinecut::verbs::guess::Guess;
+    /// let bytes = b"(T1 D=6. CR=0. - FLAT END MILL)\nG21 G90 G54\nT1 M6\nG43\nG0 X0 Y0 Z5\nG1 Z-1 F300\nX30\nM2\n";
+    /// let program = GivenFile { name: "slot.ngc", bytes };
+    /// let guess = Guess::of(program, &ProgramWants::default()).unwrap();
+    /// // The feed moves and the radius of the tool about them.
+    /// assert_eq!(guess.stock(), Some([-3.0, -3.0, -1.0, 33.0, 3.0, 0.0]));
+    /// assert!(guess.job().contains("type = \"end-mill\""));
+    /// ```
+    ///
+    /// # Errors
+    /// `KC0301` when nothing tells the control; a program that cannot be read has no box of its moves.
+    pub fn of(program: GivenFile<'_>, wants: &ProgramWants) -> Result<Guess> {
+        let (control, _) = control_of(wants.control.as_deref(), None, program.name, program.bytes)?;
+        let text = String::from_utf8_lossy(program.bytes);
+        let carried = carried(&text, control);
+        let (stock, of_stock) = match &carried.stock {
+            Some(block) => {
+                let [a, b, c] = block.min;
+                let [d, e, f] = block.max;
+                let assumed = block.assumed.map_or_else(String::new, |what| format!("; {what}"));
+                let said = format!("as line {} says{assumed}", block.line);
+                (Some([a, b, c, d, e, f]), said)
+            }
+            None => (about_moves(program, wants, &carried.tools), "the box of the feed moves and the radius of the largest tool about it, up to Z0 where they are below".to_owned()),
+        };
+        Ok(Guess { control, carried, stock, of_stock, program: program.name.to_owned() })
+    }
+
+    /// The block of the stock: its least and its greatest corner [mm]; none where the program cuts nothing.
+    pub fn stock(&self) -> Option<[f64; 6]> {
+        self.stock
+    }
+
+    /// Takes what the user has not given from the guess, and says so.
+    pub fn complete(&self, wants: &mut ProgramWants) {
+        if let (None, Some(corners)) = (&wants.stock, self.stock) {
+            wants.stock = Some(GivenStock::Block(corners));
+            let [a, b, c, d, e, f] = corners.map(shown);
+            wants
+                .guessed
+                .push(format!("the raw stock is a guess, {a},{b},{c} to {d},{e},{f}: {}", self.of_stock));
+        }
+        if wants.tools.is_none() && !self.carried.tools.is_empty() {
+            wants.tools = Some((format!("comments of {}", self.program), self.tools()));
+            let tools: Vec<String> = self.carried.tools.iter().map(described).collect();
+            wants.guessed.push(format!("the tools are guessed from comments: {}", tools.join(", ")));
+        }
+    }
+
+    /// The tools as TOML.
+    fn tools(&self) -> String {
+        let mut out = String::new();
+        for tool in &self.carried.tools {
+            let _ = writeln!(out, "[[tool]]                                # from line {}", tool.line);
+            let _ = writeln!(out, "number = {}\ntype = \"{}\"", tool.number, tool.kind);
+            // A conical cutter is given by its tip.
+            let diameter = if tool.kind == "tapered" { 0.0 } else { tool.diameter };
+            let _ = writeln!(out, "diameter = {}", shown(diameter));
+            if tool.kind == "tapered" {
+                let half = 0.5 * tool.point_angle.unwrap_or(90.0);
+                let height = 0.5 * tool.diameter / half.to_radians().tan();
+                let _ = writeln!(
+                    out,
+                    "half_angle = {}\nflute_length = {}  # a sharp tip is taken",
+                    shown(half),
+                    shown(height)
+                );
+            } else {
+                let flutes = shown(FLUTES * tool.diameter);
+                let _ = writeln!(
+                    out,
+                    "flute_length = {flutes}                     # a guess: {FLUTES} diameters"
+                );
+            }
+            if let Some(radius) = tool.corner_radius {
+                let _ = writeln!(out, "corner_radius = {}", shown(radius));
+            }
+            if let Some(angle) = tool.point_angle.filter(|_| tool.kind == "drill") {
+                let _ = writeln!(out, "point_angle = {}", shown(angle));
+            }
+            out.push('\n');
+        }
+        out
+    }
+
+    /// A job file with the guess, to be corrected.
+    pub fn job(&self) -> String {
+        let mut out =
+            format!("# A guess from {}: correct it, then simulate this file.\nformat = 1\n", self.program);
+        let _ = writeln!(out, "post = {{ control = \"{}\" }}", self.control.name());
+        match self.stock {
+            Some(corners) => {
+                let [a, b, c, d, e, f] = corners.map(shown);
+                let _ = writeln!(out, "# {}", self.of_stock);
+                let _ =
+                    writeln!(out, "stock = {{ box = {{ min = [{a}, {b}, {c}], max = [{d}, {e}, {f}] }} }}\n");
+            }
+            None => out.push_str(
+                "stock = { box = { min = [0, 0, -1], max = [1, 1, 0] } }  # the program cuts nothing\n\n",
+            ),
+        }
+        out.push_str(&self.tools());
+        let name = self.program.rsplit(['/', '\\']).next().unwrap_or_default();
+        let _ = writeln!(out, "[[setup]]\noffset = \"G54\"\nprogram = {{ file = {} }}", quoted(name));
+        out
+    }
+}
+
+/// The box of the feed moves, wider by the radius of the largest tool.
+fn about_moves(program: GivenFile<'_>, wants: &ProgramWants, tools: &[CarriedTool]) -> Option<[f64; 6]> {
+    let sheet = given_alone(program, &ProgramWants { stock: None, tools: None, ..wants.clone() }, false)
+        .and_then(|given| program_sheet(&given))
+        .ok()?;
+    let [[a, b, c], [d, e, f]] = sheet.range?;
+    let radius = tools.iter().map(|t| 0.5 * t.diameter).fold(0.0, f64::max);
+    // What is fed above Z0 is air as a rule.
+    let top = if c < 0.0 && f > 0.0 { 0.0 } else { f };
+    let corners = [a - radius, b - radius, c, d + radius, e + radius, top];
+    (0..3).all(|i| corners[i] < corners[3 + i]).then_some(corners)
+}
+
+/// A tool in words.
+fn described(tool: &CarriedTool) -> String {
+    format!("T{} {} {} mm (line {})", tool.number, tool.kind, shown(tool.diameter), tool.line)
+}
+
+/// A length in micrometres at most.
+fn shown(value: f64) -> f64 {
+    (value * 1e3).round() / 1e3 + 0.0
+}
+
+/// A text as a TOML string.
+fn quoted(text: &str) -> String {
+    serde_json::Value::from(text).to_string()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::job::GivenStock;
+
+    const PROGRAM: &[u8] = b"(Material Size)\n(X= 60, Y= 40, Z= 12)\n(T1 D=6. CR=0. - FLAT END MILL)\n(T2 D=5. TAPER=118DEG - DRILL)\n\
+        G21 G90 G54\nT1 M6\nG43\nG0 X0 Y0 Z5\nG1 Z-1 F300\nX30\nM2\n";
+
+    #[test]
+    fn what_the_user_gives_is_no_guess() {
+        let program = GivenFile { name: "a.ngc", bytes: PROGRAM };
+        let mut wants = ProgramWants {
+            stock: Some(GivenStock::Block([0.0, 0.0, -5.0, 9.0, 9.0, 0.0])),
+            ..ProgramWants::default()
+        };
+        Guess::of(program, &wants).unwrap().complete(&mut wants);
+        assert!(matches!(wants.stock, Some(GivenStock::Block([_, _, -5.0, ..]))));
+        assert_eq!(
+            wants.guessed,
+            ["the tools are guessed from comments: T1 end-mill 6 mm (line 3), T2 drill 5 mm (line 4)"]
+        );
+        let mut wants =
+            ProgramWants { tools: Some(("t".to_owned(), String::new())), ..ProgramWants::default() };
+        Guess::of(program, &wants).unwrap().complete(&mut wants);
+        assert_eq!(
+            wants.guessed,
+            [
+                "the raw stock is a guess, 0,0,-12 to 60,40,0: as line 2 says; its zero is taken to be the lower left corner of its upper side"
+            ]
+        );
+    }
+
+    #[test]
+    fn the_job_of_a_guess_is_a_job() {
+        let guess =
+            Guess::of(GivenFile { name: "x/a \"b\".ngc", bytes: PROGRAM }, &ProgramWants::default()).unwrap();
+        let job = guess.job();
+        assert!(
+            job.contains("min = [0, 0, -12], max = [60, 40, 0]") && job.contains("point_angle = 118"),
+            "{job}"
+        );
+        let table: toml::Table = toml::from_str(&job).unwrap();
+        assert_eq!(table["setup"][0]["program"]["file"].as_str(), Some("a \"b\".ngc"));
+        assert_eq!(table["tool"].as_array().map(Vec::len), Some(2));
+    }
+}
