@@ -42,6 +42,8 @@ pub(super) struct Reader<'s> {
     pub(super) points: Points,
     /// The words of the present block.
     pub(super) origin: Origin,
+    /// The present block has no words that nothing has used but ends of X, Y, Z.
+    pub(super) only_axes: bool,
     pub(super) here: Bytes,
     /// The block that last changed tool or length.
     pub(super) tool_origin: Origin,
@@ -99,6 +101,7 @@ impl<'s> Reader<'s> {
             numbered: false,
             points: Points::default(),
             origin: Origin::default(),
+            only_axes: false,
             here: 0..0,
             tool_origin: Origin::default(),
             codes: Vec::new(),
@@ -221,6 +224,7 @@ impl<'s> Reader<'s> {
 
     /// Executes a block.
     pub(super) fn block(&mut self, block: &mut Block<'s>) -> Result<()> {
+        self.only_axes = false;
         self.here = block.bytes();
         self.origin =
             Origin { span: Some(self.place.span(&self.here)), parent: self.parent, ..Origin::default() };
@@ -406,6 +410,7 @@ impl<'s> Reader<'s> {
     }
 
     /// The place of the first code that a test accepts.
+    #[inline]
     pub(super) fn code(&self, test: impl Fn(Code) -> bool) -> Option<(Code, Bytes)> {
         self.codes.iter().find(|(c, _)| test(*c)).cloned()
     }
@@ -466,6 +471,7 @@ fn listed(lines: &[String]) -> String {
 }
 
 /// The value of a word that nothing has used yet.
+#[inline]
 pub(super) fn take(words: &mut [Word<'_>], name: &str) -> Option<Value> {
     let plain = |w: &&mut Word<'_>| !w.used && w.way == WordMode::Plain && w.is(name);
     let word = words.iter_mut().find(plain)?;
@@ -474,6 +480,7 @@ pub(super) fn take(words: &mut [Word<'_>], name: &str) -> Option<Value> {
 }
 
 /// The value of a word that nothing has used yet, and how it counts.
+#[inline]
 pub(super) fn take_way(words: &mut [Word<'_>], name: &str) -> Option<(Value, WordMode)> {
     let word = words.iter_mut().find(|w| !w.used && w.is(name))?;
     word.used = true;
