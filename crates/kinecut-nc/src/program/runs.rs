@@ -38,14 +38,15 @@ impl<T: Advance> Runs<T> {
     #[inline]
     pub(super) fn push(&mut self, value: T) {
         let index = self.len as u32;
-        self.len += 1;
         if let Some(each) = &mut self.each {
             each.push(value);
+            self.len += 1;
             return;
         }
-        if index as usize % MARK == 0 {
+        if self.len.is_multiple_of(MARK) {
             self.marks.push(self.runs.len() as u32);
         }
+        self.len += 1;
         let same = |(first, of_first): &(u32, T)| of_first.advanced(index - first) == value;
         if !self.runs.last().is_some_and(same) {
             self.runs.push((index, value));

@@ -7,7 +7,7 @@ use glam::{DMat3, DVec3};
 
 use super::chain::Chain;
 use super::comp::{Programmed, compensate, refused};
-use super::passing::TOGETHER;
+use super::passing::{TOGETHER, Taker};
 use super::rapids;
 use super::straight::filled;
 use super::turning::AxisTurning;
@@ -57,7 +57,7 @@ pub fn trace(program: &Program, options: &TraceOptions<'_>) -> Result<Trace> {
 pub(super) fn followed<'a>(
     program: &'a Program,
     options: &'a TraceOptions<'a>,
-    mut each: Option<&mut dyn FnMut(&[Segment])>,
+    mut each: Option<&mut Taker<'_>>,
 ) -> Result<Trace> {
     let mut follow = Follow {
         program,

@@ -22,7 +22,7 @@ pub use axis_path::AxisPath;
 pub use chain::{axis_frame, axis_positions, rotary_positions};
 pub use comp::CompStart;
 pub use follow::{TraceOptions, trace};
-pub use passing::trace_passing;
+pub use passing::{Taker, trace_passing};
 pub use register_state::RegisterState;
 pub use segment::{AxisJet, Pose, Segment, SegmentPace, Trace, Untraced};
 pub use stand::{Stand, StandKind};

@@ -5,6 +5,9 @@ use super::{Segment, Trace};
 use crate::base::Result;
 use crate::program::Program;
 
+/// Takes segments as they come.
+pub type Taker<'t> = dyn FnMut(&[Segment]) + 't;
+
 /// Segments that are handed over together: few enough to stay in a cache.
 pub(super) const TOGETHER: usize = 256;
 
@@ -13,17 +16,13 @@ pub(super) const TOGETHER: usize = 256;
 ///
 /// # Errors
 /// Those of [`trace`](super::trace); what was handed over before is not the whole then.
-pub fn trace_passing(
-    program: &Program,
-    options: &TraceOptions<'_>,
-    each: &mut dyn FnMut(&[Segment]),
-) -> Result<Trace> {
+pub fn trace_passing(program: &Program, options: &TraceOptions<'_>, each: &mut Taker<'_>) -> Result<Trace> {
     followed(program, options, Some(each))
 }
 
 impl Follow<'_> {
     /// Hands over the segments so far, but for the last that a rest of the tool or the next segment may look back to.
-    pub(super) fn pass_on(&mut self, each: &mut dyn FnMut(&[Segment])) {
+    pub(super) fn pass_on(&mut self, each: &mut Taker<'_>) {
         let segments = &mut self.trace.segments;
         let kept = segments.iter().rposition(|s| !s.alternative).unwrap_or(0);
         each(&segments[..kept]);

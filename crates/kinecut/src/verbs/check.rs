@@ -13,7 +13,7 @@ use crate::job::time_terms::{at_programmed_feeds, terms};
 use crate::motion::{ProgramTime, program_time};
 use crate::page::{self, Block, Fact, Section};
 use crate::program::{Frame, Item, Program, StopKind};
-use crate::trace::{Segment, travel_findings};
+use crate::trace::{Segment, Taker, travel_findings};
 use crate::verbs::Answer;
 
 /// Result of reading a program; mm, s, degrees.
@@ -83,7 +83,7 @@ pub fn program_sheet(given: &GivenJob) -> Result<ProgramSheet> {
     let mut sums = none.clone();
     // Only the law of the axes needs all segments at once.
     let mut add = |segments: &[Segment]| sums.add(segments);
-    let each: Option<&mut dyn FnMut(&[Segment])> = if job.machine.is_some() { None } else { Some(&mut add) };
+    let each: Option<&mut Taker<'_>> = if job.machine.is_some() { None } else { Some(&mut add) };
     let done = follow_passing(job, 0, program, (Missing::StoodFor, Errors::GoOn), each)?;
     sums.add(&done.trace.segments);
     if !done.followed {

@@ -14,7 +14,7 @@ use crate::base::{Code, Error, FileId, Finding, Result, Severity, Sources, Span}
 use crate::geom::Rigid;
 use crate::nc::{self, Control, ReadSettings, Reading};
 use crate::program::{Blend, Frame, Program, Setup};
-use crate::trace::{RegisterState, Segment, SegmentPace, Trace, TraceOptions, trace, trace_passing};
+use crate::trace::{RegisterState, Segment, SegmentPace, Taker, Trace, TraceOptions, trace, trace_passing};
 
 /// A program of others, read and followed.
 #[derive(Debug)]
@@ -126,7 +126,7 @@ pub(crate) fn follow_passing(
     setup: usize,
     program: &JobProgram,
     (missing, errors): (Missing, Errors),
-    each: Option<&mut dyn FnMut(&[Segment])>,
+    each: Option<&mut Taker<'_>>,
 ) -> Result<Followed> {
     let mut sources = Sources::default();
     let clamped = &job.setups[setup];
