@@ -5,8 +5,8 @@ use std::path::{Path, PathBuf};
 use clap::ValueEnum;
 use kinecut::base::{Error, FileKind};
 use kinecut::job::{
-    GivenFile, GivenJob, GivenStock, InspectWants, JobProgram, ProgramWants, RunWants, SectionPlane,
-    StockWants, control_of, given_alone, given_with_job, subprograms,
+    GivenFile, GivenJob, GivenStock, InspectWants, ProgramWants, RunWants, SectionPlane, StockWants,
+    control_of, given_alone, given_with_job, program_text, subprograms,
 };
 use kinecut::nc::{Control, NumberInput, PostSettings};
 use kinecut::operations::OrientationName;
@@ -234,7 +234,7 @@ impl ProgramOf {
         let said = control.map(String::as_str);
         let Ok((control, _)) = control_of(said, None, &name, bytes) else { return Vec::new() };
         let folder = self.program.parent().map(|p| p.display().to_string()).filter(|p| !p.is_empty());
-        let text = JobProgram::new(&*name, bytes, control).text;
+        let text = program_text(bytes).0;
         let named = |file: String| match &folder {
             Some(folder) => format!("{folder}{}{file}", if folder.ends_with(['/', '\\']) { "" } else { "/" }),
             None => file,

@@ -1,5 +1,6 @@
 //! The only file access below the job layer.
 
+use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::fs::File;
 use std::io::{self, Read};
@@ -21,6 +22,14 @@ pub trait Loader: Sync {
     /// As [`Loader::read_as`].
     fn read(&self, path: &str) -> Result<Vec<u8>> {
         self.read_as(path, FileKind::Bytes)
+    }
+
+    /// As [`Loader::read_as`], without a copy of what is in memory already.
+    ///
+    /// # Errors
+    /// As [`Loader::read_as`].
+    fn lend_as(&self, path: &str, kind: FileKind) -> Result<Cow<'_, [u8]>> {
+        self.read_as(path, kind).map(Cow::Owned)
     }
 
     /// The text of a job file, a machine file and the like.

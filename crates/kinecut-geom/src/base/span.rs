@@ -55,7 +55,38 @@ impl Location {
 struct Source {
     name: String,
     text: Arc<str>,
-    line_starts: Vec<u32>,
+    /// Line ends before each stretch of the text: its lines are counted from there, so that a long text needs no list of them.
+    ends_before: Vec<u32>,
+}
+
+/// Bytes of a stretch.
+const STRETCH: usize = 1024;
+
+/// Line ends in bytes.
+fn ends(bytes: &[u8]) -> u32 {
+    // A sum that wraps is one of many bytes at once.
+    bytes.iter().fold(0, |count: u32, b| count.wrapping_add(u32::from(*b == b'\n')))
+}
+
+impl Source {
+    fn new(name: String, text: Arc<str>) -> Source {
+        let mut ends_before = Vec::with_capacity(text.len() / STRETCH + 1);
+        let mut count = 0;
+        for stretch in text.as_bytes().chunks(STRETCH) {
+            ends_before.push(count);
+            count += ends(stretch);
+        }
+        Source { name, text, ends_before }
+    }
+
+    /// The 0-based line of a byte; one beyond the text is in the last line.
+    fn line(&self, at: usize) -> u32 {
+        let at = at.min(self.text.len());
+        // A stretch that just ends here counts as a whole.
+        let stretch = (at / STRETCH).min(self.ends_before.len().saturating_sub(1));
+        let before = self.ends_before.get(stretch).copied().unwrap_or(0);
+        before + ends(&self.text.as_bytes()[stretch * STRETCH..at])
+    }
 }
 
 /// The source texts of one run; resolves spans to locations.
@@ -76,10 +107,7 @@ pub struct Sources {
 impl Sources {
     /// Adds a text and returns its identifier. Texts over 4 GiB are cut at the span type's limit by the loader.
     pub fn add(&mut self, name: impl Into<String>, text: impl Into<Arc<str>>) -> FileId {
-        let text: Arc<str> = text.into();
-        let mut line_starts = vec![0u32];
-        line_starts.extend(text.match_indices('\n').map(|(i, _)| i as u32 + 1));
-        self.files.push(Source { name: name.into(), text, line_starts });
+        self.files.push(Source::new(name.into(), text.into()));
         FileId(self.files.len() as u32 - 1)
     }
 
@@ -95,26 +123,24 @@ impl Sources {
 
     /// The 1-based line in which a span begins.
     pub fn line(&self, span: Span) -> u32 {
-        let source = &self.files[span.file.0 as usize];
-        source.line_starts.partition_point(|&s| s <= span.start) as u32
+        self.files[span.file.0 as usize].line(span.start as usize) + 1
     }
 
     /// The 1-based line in which each of some spans begins: as [`Sources::line`], and quick where they ascend.
     pub fn lines(&self, spans: impl IntoIterator<Item = Option<Span>>) -> Vec<Option<u32>> {
-        let mut last = 0u32;
+        // File, place and line of the one before.
+        let mut last = (FileId::default(), 0usize, 0u32);
         let mut line = |span: Span| {
-            let starts = &self.files[span.file.0 as usize].line_starts;
-            let begins = |line: u32| starts.get(line as usize).copied();
-            let holds = |line: u32| {
-                begins(line).is_some_and(|s| s <= span.start)
-                    && begins(line + 1).is_none_or(|s| span.start < s)
+            let source = &self.files[span.file.0 as usize];
+            let at = (span.start as usize).min(source.text.len());
+            let (file, from, line) = last;
+            let near = file == span.file && (from..from + STRETCH).contains(&at);
+            let line = match near {
+                true => line + ends(&source.text.as_bytes()[from..at]),
+                false => source.line(at),
             };
-            // Mostly the same line as the one before, or the next.
-            last = match [last, last + 1].into_iter().find(|line| holds(*line)) {
-                Some(line) => line,
-                None => self.line(span) - 1,
-            };
-            last + 1
+            last = (span.file, at, line);
+            line + 1
         };
         spans.into_iter().map(|span| span.map(&mut line)).collect()
     }
@@ -126,13 +152,13 @@ impl Sources {
         while !source.text.is_char_boundary(start) {
             start -= 1;
         }
-        let line = source.line_starts.partition_point(|&s| s as usize <= start).max(1);
-        let line_start = source.line_starts[line - 1] as usize;
+        let line = source.line(start) + 1;
+        let line_start = source.text[..start].rfind('\n').map_or(0, |end| end + 1);
         let text = source.text[line_start..].lines().next().unwrap_or("").to_owned();
         let column = source.text[line_start..start].chars().count() as u32 + 1;
         Location {
             file: source.name.clone(),
-            line: line as u32,
+            line,
             column,
             start: start as u32,
             end: span.end.max(start as u32),
@@ -144,6 +170,35 @@ impl Sources {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_line_is_counted_over_stretches() {
+        // Lines of all lengths, some of them longer than a stretch.
+        let text: String = (0..90).map(|i| format!("{}\n", "x".repeat(i * 31))).collect();
+        let mut sources = Sources::default();
+        let file = sources.add("a", text.as_str());
+        let (mut line, mut begin) = (1, 0);
+        for (at, byte) in text.bytes().enumerate() {
+            let start = at as u32;
+            assert_eq!(sources.line(Span { file, start, end: start + 1 }), line);
+            if byte == b'\n' || at % 97 == 0 {
+                let place = sources.locate(Span { file, start, end: start + 1 });
+                assert_eq!((place.line, place.column as usize), (line, at - begin + 1));
+            }
+            if byte == b'\n' {
+                (line, begin) = (line + 1, at + 1);
+            }
+        }
+        let beyond = text.len() as u32 + 5;
+        assert_eq!(sources.line(Span { file, start: beyond, end: beyond }), line);
+    }
+
+    #[test]
+    fn a_long_text_takes_few_bytes_for_its_lines() {
+        let text = "G1 X1\n".repeat(100_000);
+        let source = Source::new(String::new(), text.as_str().into());
+        assert!(source.ends_before.capacity() * 4 <= text.len() / 200);
+    }
 
     #[test]
     fn the_lines_of_many_spans_are_those_of_each() {

@@ -132,6 +132,7 @@ fn spiral_series<const N: usize>(spiral: &Spiral, rise: &Rise, planar: f64, u: f
 }
 
 impl From<Line> for Curve {
+    #[inline]
     fn from(line: Line) -> Curve {
         Curve { kind: Kept::Line(line), length: line.length() }
     }
@@ -197,6 +198,7 @@ impl Curve {
     }
 
     /// Arc length [mm].
+    #[inline]
     pub fn length(&self) -> f64 {
         self.length
     }

@@ -15,6 +15,7 @@ pub struct Line {
 
 impl Line {
     /// Length [mm].
+    #[inline]
     pub fn length(&self) -> f64 {
         (self.end - self.start).length()
     }

@@ -31,6 +31,7 @@ mod native;
 mod own_cycle;
 mod read;
 mod run;
+mod scan;
 mod settings;
 mod sinumerik;
 mod tilt;

@@ -3,8 +3,10 @@
 use glam::DVec3;
 
 use super::frame_index::FrameIndex;
+use super::runs::{Advance, Runs};
 use super::{
-    ControlData, Cycle, CycleStep, Frame, FrameId, Origin, OriginId, Setup, Speed, State, StateId, ToolNumber,
+    Comp, ControlData, Cycle, CycleStep, Frame, FrameId, Origin, OriginId, Setup, Speed, State, StateId,
+    ToolNumber,
 };
 use crate::base::{Code, CountBound, Span, Sum};
 use crate::geom::{Arc, CubicSpan, Curve, CurveKind, InvoluteRecord, Line, Rise, Spiral};
@@ -184,6 +186,37 @@ enum Slot {
     Data(u32),
 }
 
+impl Advance for Slot {
+    #[inline]
+    fn advanced(self, steps: u32) -> Slot {
+        match self {
+            Slot::Straight(i) => Slot::Straight(i + steps),
+            Slot::Move(i) => Slot::Move(i + steps),
+            Slot::Cycle(i) => Slot::Cycle(i + steps),
+            Slot::Tool(i) => Slot::Tool(i + steps),
+            Slot::Dwell(i) => Slot::Dwell(i + steps),
+            Slot::Stop(kind) => Slot::Stop(kind),
+            Slot::Text(i) => Slot::Text(i + steps),
+            Slot::Message(i) => Slot::Message(i + steps),
+            Slot::Data(i) => Slot::Data(i + steps),
+        }
+    }
+}
+
+impl Advance for StateId {
+    #[inline]
+    fn advanced(self, _steps: u32) -> StateId {
+        self
+    }
+}
+
+impl Advance for OriginId {
+    #[inline]
+    fn advanced(self, _steps: u32) -> OriginId {
+        self
+    }
+}
+
 /// A tool with the registers of its length and radius.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct ToolCall {
@@ -198,12 +231,12 @@ fn straight(point: DVec3) -> Move {
     Move { end: Target::Tip { point, axis: ToolAxis::Fixed }, path: Path::Line }
 }
 
-/// The items of a program: one array for each property.
+/// The items of a program: one array for each property, and what neighbours share once for all of them.
 #[derive(Clone, Debug, Default)]
 pub struct Items {
-    slots: Vec<Slot>,
-    states: Vec<StateId>,
-    origins: Vec<OriginId>,
+    slots: Runs<Slot>,
+    states: Runs<StateId>,
+    origins: Runs<OriginId>,
     /// First and last byte of the place of each, where its origin has one.
     spans: Vec<[u32; 2]>,
     straights: Vec<DVec3>,
@@ -223,12 +256,12 @@ impl Items {
 
     /// True if there are no items.
     pub fn is_empty(&self) -> bool {
-        self.slots.is_empty()
+        self.slots.len() == 0
     }
 
     /// The item at an index.
     pub fn get(&self, index: usize) -> Item<'_> {
-        match self.slots[index] {
+        match self.slots.get(index) {
             Slot::Straight(i) => Item::Move(straight(self.straights[i as usize])),
             Slot::Move(i) => Item::Move(self.moves[i as usize]),
             Slot::Cycle(i) => {
@@ -250,10 +283,28 @@ impl Items {
     /// The end of a straight move of the tip along the tool axis of its frame, which nearly all items of a long program
     /// are; `None` for all others.
     pub(crate) fn straight(&self, index: usize) -> Option<DVec3> {
-        match self.slots[index] {
+        match self.slots.get(index) {
             Slot::Straight(i) => Some(self.straights[i as usize]),
             _ => None,
         }
+    }
+
+    /// Indices of all items but the straight moves of the tip, ascending: few in a long program.
+    pub fn few(&self) -> impl Iterator<Item = usize> + '_ {
+        let mut next = 0;
+        std::iter::from_fn(move || {
+            while next < self.len() && matches!(self.slots.get(next), Slot::Straight(_)) {
+                next = self.slots.end_of_run(next);
+            }
+            next += 1;
+            (next <= self.len()).then_some(next - 1)
+        })
+    }
+
+    /// Makes room for so many straight moves, so that none of them is copied while their number grows.
+    pub(crate) fn reserve(&mut self, moves: usize) {
+        self.straights.reserve_exact(moves);
+        self.spans.reserve_exact(moves);
     }
 
     /// Gives back the memory that was taken for items to come.
@@ -266,14 +317,22 @@ impl Items {
         self.moves.shrink_to_fit();
     }
 
+    /// Bytes that they take, but for cycles and texts.
+    #[cfg(test)]
+    pub(crate) fn bytes(&self) -> usize {
+        let runs = self.slots.bytes() + self.states.bytes() + self.origins.bytes();
+        let straights = self.straights.capacity() * size_of::<DVec3>();
+        runs + self.spans.capacity() * 8 + straights + self.moves.capacity() * size_of::<Move>()
+    }
+
     /// The state of the item at an index.
     pub fn state(&self, index: usize) -> StateId {
-        self.states[index]
+        self.states.get(index)
     }
 
     /// The origin of the item at an index.
     pub fn origin(&self, index: usize) -> OriginId {
-        self.origins[index]
+        self.origins.get(index)
     }
 }
 
@@ -328,7 +387,13 @@ impl Program {
         FrameId(self.index.place(&mut self.frames, frame))
     }
 
+    /// Whether an item runs under a cutter compensation.
+    pub fn compensates(&self) -> bool {
+        self.states.iter().any(|state| state.comp != Comp::Off)
+    }
+
     /// Appends a move.
+    #[inline]
     pub fn push_move(&mut self, motion: Move, state: &State, origin: Origin) {
         let slot = match motion {
             Move { end: Target::Tip { point, axis: ToolAxis::Fixed }, path: Path::Line } => {
@@ -372,15 +437,17 @@ impl Program {
 
     /// Gives the tool item at an index another register of its length; other items stay as they are.
     pub fn set_tool_length(&mut self, index: usize, register: Option<u32>) {
-        if let Some(Slot::Tool(i)) = self.items.slots.get(index) {
-            self.items.tools[*i as usize].length = register;
+        if index < self.items.len()
+            && let Slot::Tool(i) = self.items.slots.get(index)
+        {
+            self.items.tools[i as usize].length = register;
         }
     }
 
     /// Makes the last item, a tool, a change that is called for though that tool is in the spindle already.
     pub fn change_again(&mut self) {
         if let Some(Slot::Tool(i)) = self.items.slots.last() {
-            self.items.tools[*i as usize].again = true;
+            self.items.tools[i as usize].again = true;
         }
     }
 
@@ -388,7 +455,7 @@ impl Program {
     pub fn set_speed(&mut self, index: usize, speed: Speed) {
         if index < self.items.len() && self.state(index).speed != speed {
             self.states.push(State { speed, ..*self.state(index) });
-            self.items.states[index] = StateId(self.states.len() as u32 - 1);
+            self.items.states.set(index, StateId(self.states.len() as u32 - 1));
         }
     }
 
@@ -398,12 +465,15 @@ impl Program {
             Move { end: Target::Tip { point, axis: ToolAxis::Fixed }, path: Path::Line } => Some(point),
             _ => None,
         };
-        match (self.items.slots.get(index).copied(), plain) {
-            (Some(Slot::Straight(i)), Some(point)) => self.items.straights[i as usize] = point,
-            (Some(Slot::Move(i)), _) => self.items.moves[i as usize] = motion,
-            (Some(Slot::Straight(_)), None) => {
+        if index >= self.items.len() {
+            return;
+        }
+        match (self.items.slots.get(index), plain) {
+            (Slot::Straight(i), Some(point)) => self.items.straights[i as usize] = point,
+            (Slot::Move(i), _) => self.items.moves[i as usize] = motion,
+            (Slot::Straight(_), None) => {
                 self.items.moves.push(motion);
-                self.items.slots[index] = Slot::Move(self.items.moves.len() as u32 - 1);
+                self.items.slots.set(index, Slot::Move(self.items.moves.len() as u32 - 1));
             }
             _ => {}
         }
@@ -416,13 +486,13 @@ impl Program {
         for i in 0..self.items.len() {
             let tilted =
                 matches!(self.frames.get(self.state(i).frame.0 as usize), Some(Frame::Tilted { .. }));
-            let index = match self.items.slots[i] {
+            let index = match self.items.slots.get(i) {
                 Slot::Move(index) => index,
                 Slot::Straight(index) if at != [0.0; 3] && !tilted => {
                     // It is no plain one any more.
                     self.items.moves.push(straight(self.items.straights[index as usize]));
                     let index = self.items.moves.len() as u32 - 1;
-                    self.items.slots[i] = Slot::Move(index);
+                    self.items.slots.set(i, Slot::Move(index));
                     index
                 }
                 _ => continue,
@@ -504,13 +574,60 @@ impl Program {
 
     /// The state of the item at an index.
     pub fn state(&self, index: usize) -> &State {
-        &self.states[self.items.states[index].0 as usize]
+        &self.states[self.items.states.get(index).0 as usize]
     }
 
     /// The origin of the item at an index.
     pub fn origin(&self, index: usize) -> Origin {
-        let shared = self.origins[self.items.origins[index].0 as usize];
+        let shared = self.origins[self.items.origins.get(index).0 as usize];
         let [start, end] = self.items.spans[index];
         Origin { span: shared.span.map(|s| Span { start, end, ..s }), ..shared }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::base::FileId;
+
+    /// A program of moves to and fro, its feed said anew in every `feed`-th of them.
+    fn straight_moves(count: u32, feed: u32) -> Program {
+        let mut program = Program::default();
+        let mut state = State::start(super::super::SetupId(0), FrameId(0));
+        for i in 0..count {
+            let point = DVec3::new(f64::from(i), f64::from(i % 7), 0.0);
+            state.speed = Speed::PerMinute(f64::from(i / feed));
+            let span = Some(Span { file: FileId(0), start: i * 20, end: i * 20 + 19 });
+            program.push_move(straight(point), &state, Origin { span, ..Origin::default() });
+        }
+        program.items.shrink_to_fit();
+        program
+    }
+
+    #[test]
+    fn a_straight_move_takes_its_end_and_its_place() {
+        let program = straight_moves(100_000, 100_000);
+        let each = program.items.bytes() as f64 / 100_000.0;
+        assert!(each < 32.5, "{each} bytes a move");
+        // Also where every second block says another feed.
+        let each = straight_moves(100_000, 2).items.bytes() as f64 / 100_000.0;
+        assert!(each < 40.0, "{each} bytes a move");
+    }
+
+    #[test]
+    fn few_items_are_no_straight_moves() {
+        let mut program = straight_moves(100, 30);
+        let state = State::start(super::super::SetupId(0), FrameId(0));
+        program.push_dwell(1.0, &state, Origin::default());
+        program.push_dwell(2.0, &state, Origin::default());
+        program.push_move(straight(DVec3::X), &state, Origin::default());
+        program.push_stop(StopKind::End, &state, Origin::default());
+        assert_eq!(program.items.few().collect::<Vec<_>>(), [100, 101, 103]);
+        assert_eq!(program.items.get(101), Item::Dwell(2.0));
+        assert_eq!(program.state(59).speed, Speed::PerMinute(1.0));
+        assert_eq!(program.origin(59).span.map(|s| s.start), Some(59 * 20));
+        program.set_speed(59, Speed::PerMinute(7.0));
+        assert_eq!([58, 59, 60].map(|i| program.state(i).speed), [1.0, 7.0, 2.0].map(Speed::PerMinute));
+        assert!(Program::default().items.few().next().is_none());
     }
 }

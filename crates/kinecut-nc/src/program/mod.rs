@@ -11,6 +11,7 @@ mod frame_index;
 mod item;
 mod origin;
 mod reframe;
+mod runs;
 mod setup;
 mod state;
 mod tapping;

@@ -1,11 +1,13 @@
 //! Following a program: positions, frames, cycles, speeds.
 
+use std::cell::Cell;
 use std::sync::Arc;
 
 use glam::{DMat3, DVec3};
 
 use super::chain::Chain;
 use super::comp::{Programmed, compensate, refused};
+use super::passing::{TOGETHER, Taker};
 use super::rapids;
 use super::straight::filled;
 use super::turning::AxisTurning;
@@ -49,6 +51,14 @@ pub struct TraceOptions<'a> {
 /// tilted plane before the rotary axes are turned to it, along an arc while rotary axes turn without tool centre point
 /// control. `KC0205` when the control could not compensate the contour, `KC0104` for a radius register without a value.
 pub fn trace(program: &Program, options: &TraceOptions<'_>) -> Result<Trace> {
+    followed(program, options, None)
+}
+
+pub(super) fn followed<'a>(
+    program: &'a Program,
+    options: &'a TraceOptions<'a>,
+    mut each: Option<&mut Taker<'_>>,
+) -> Result<Trace> {
     let mut follow = Follow {
         program,
         options,
@@ -66,15 +76,32 @@ pub fn trace(program: &Program, options: &TraceOptions<'_>) -> Result<Trace> {
         assumed_home: false,
         compensated_to: 0,
         on_leg: false,
+        passed: 0,
+        has_untimed_rapid: false,
+        has_turned: false,
+        last_frame: Cell::new(None),
     };
     if let Some(number) = options.operator.in_spindle {
         follow.tool_call(number, None)?;
         follow.lift = 0.0;
     }
-    // Nearly every item of a long program is a move.
-    follow.trace.segments.reserve_exact(program.items.len());
+    match &mut each {
+        // Nearly every item of a long program is a move.
+        None => follow.trace.segments.reserve_exact(program.items.len()),
+        Some(_) => follow.trace.segments.reserve_exact(TOGETHER),
+    }
     for index in 0..program.items.len() {
+        if let Some(each) = &mut each
+            && follow.trace.segments.len() >= TOGETHER
+            && index >= follow.compensated_to
+        {
+            follow.pass_on(each);
+        }
         follow.item(index)?;
+    }
+    if let Some(each) = each {
+        each(&follow.trace.segments);
+        follow.trace.segments = Vec::new();
     }
     if follow.assumed_retract {
         follow.trace.assumed.push(format!(
@@ -82,13 +109,13 @@ pub fn trace(program: &Program, options: &TraceOptions<'_>) -> Result<Trace> {
             (options.retract_height * 1e3).round() / 1e3
         ));
     }
-    if follow.trace.segments.iter().any(|s| s.motion == SegmentPace::Rapid && s.duration.is_none()) {
+    if follow.has_untimed_rapid {
         follow
             .trace
             .assumed
             .push("rapid moves take no time: the machine's rapid speed is not given".to_owned());
     }
-    if follow.trace.segments.iter().any(|s| s.axis_is_turned()) && follow.assumed_home {
+    if follow.has_turned && follow.assumed_home {
         follow.trace.assumed.push("rotary axes stand at zero before the program moves them".to_owned());
     }
     Ok(follow.trace)
@@ -129,6 +156,13 @@ pub(super) struct Follow<'a> {
     pub(super) compensated_to: usize,
     /// True while a path is followed that the machine may, but need not, take.
     pub(super) on_leg: bool,
+    /// Segments that were handed over and are kept no more.
+    pub(super) passed: usize,
+    /// Whether there was a rapid without a time, and a segment with the tool axis turned.
+    has_untimed_rapid: bool,
+    has_turned: bool,
+    /// The frame of the move before, in the table frame.
+    last_frame: Cell<Option<(SetupId, FrameId, Rigid)>>,
 }
 
 impl<'a> Follow<'a> {
@@ -222,7 +256,7 @@ impl<'a> Follow<'a> {
         };
         if let (Some((tip, axis)), Some(tool)) = (place, self.tool) {
             let (tool, spindle_on) = (tool.number, state.spindle.rate() != 0.0);
-            let item = index as u32;
+            let (item, next) = (index as u32, self.passed + next);
             self.trace.stands.push(Stand { item, kind, tool, tip, axis, spindle_on, next });
         }
     }
@@ -568,6 +602,8 @@ impl<'a> Follow<'a> {
             Segment { curve, alternative: true, ..segment.clone() }
         });
         let legs: Vec<Segment> = legs.collect();
+        self.has_untimed_rapid |= motion == SegmentPace::Rapid && seconds.is_none();
+        self.has_turned |= segment.axis_is_turned();
         self.trace.segments.push(segment);
         self.trace.segments.extend(legs);
         Ok(())
@@ -587,6 +623,18 @@ impl<'a> Follow<'a> {
     }
 
     pub(super) fn frame(&self, id: FrameId, index: usize, state: &State) -> Result<Rigid> {
+        // Nearly always that of the move before.
+        if let Some((setup, last, frame)) = self.last_frame.get()
+            && (setup, last) == (state.setup, id)
+        {
+            return Ok(frame);
+        }
+        let frame = self.found_frame(id, index, state)?;
+        self.last_frame.set(Some((state.setup, id, frame)));
+        Ok(frame)
+    }
+
+    fn found_frame(&self, id: FrameId, index: usize, state: &State) -> Result<Rigid> {
         match self.program.frames[id.0 as usize] {
             Frame::Work(offset) => self.setup_of(state).work_offsets.get(&offset).copied().ok_or_else(|| {
                 let finding =

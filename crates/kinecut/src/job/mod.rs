@@ -45,7 +45,7 @@ mod wants;
 mod wrong_type;
 
 pub use budget::Budget;
-pub use check::{Design, Job, JobProgram, JobSetup, Subprogram, check, subprograms};
+pub use check::{Design, Job, JobProgram, JobSetup, Subprogram, check, program_text, subprograms};
 pub use external::{
     Carried, CarriedStock, CarriedTool, ExternalProgram, GivenFile, GivenJob, GivenStock, ProgramWants,
     Unfollowed, carried, control_of, control_of_name, given_alone, given_with_job,

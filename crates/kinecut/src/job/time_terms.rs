@@ -11,12 +11,14 @@ pub(crate) fn terms(programs: &[(&Trace, Option<&ProgramTime>)], machine: Option
     let laws: Option<Vec<&ProgramTime>> = programs.iter().map(|(_, law)| *law).collect();
     match laws {
         Some(laws) => of_laws(&laws),
-        None => {
-            let complete = programs.iter().all(|(trace, _)| trace.duration().1);
-            let rapids = if complete { "rapids at full speed" } else { "without rapids" };
-            format!("at programmed feeds, {rapids}{}", machine.map(unlimited).unwrap_or_default())
-        }
+        None => at_programmed_feeds(programs.iter().all(|(trace, _)| trace.duration().1), machine),
     }
+}
+
+/// Terms of a time at programmed feeds; `complete`: rapids are in it.
+pub(crate) fn at_programmed_feeds(complete: bool, machine: Option<&Machine>) -> String {
+    let rapids = if complete { "rapids at full speed" } else { "without rapids" };
+    format!("at programmed feeds, {rapids}{}", machine.map(unlimited).unwrap_or_default())
 }
 
 /// The axes of a machine that has some limits and lacks others.

@@ -3,17 +3,17 @@
 use serde::Serialize;
 
 use crate::base::{Code, Finding, Result, Silent};
-use crate::geom::{Aabb, Rigid};
+use crate::geom::Rigid;
 use crate::job::external::given::GivenJob;
-use crate::job::external::{Errors, Followed, Missing, at_block, follow};
+use crate::job::external::{Errors, Missing, MotionSums, at_block, follow_passing};
 use crate::job::facets::facets_note;
 use crate::job::feeds::not_held;
 use crate::job::held_feed::HeldFeed;
-use crate::job::time_terms::terms;
+use crate::job::time_terms::{at_programmed_feeds, terms};
 use crate::motion::{ProgramTime, program_time};
 use crate::page::{self, Block, Fact, Section};
 use crate::program::{Frame, Item, Program, StopKind};
-use crate::trace::{SegmentPace, travel_findings};
+use crate::trace::{Segment, Taker, travel_findings};
 use crate::verbs::Answer;
 
 /// Result of reading a program; mm, s, degrees.
@@ -79,17 +79,28 @@ pub struct ProgramSheet {
 pub fn program_sheet(given: &GivenJob) -> Result<ProgramSheet> {
     let job = given.job();
     let program = given.program()?;
-    let done = follow(job, 0, program, Missing::StoodFor, Errors::GoOn)?;
+    let none = MotionSums::new(to_work(given));
+    let mut sums = none.clone();
+    // Only the law of the axes needs all segments at once.
+    let mut add = |segments: &[Segment]| sums.add(segments);
+    let each: Option<&mut Taker<'_>> = if job.machine.is_some() { None } else { Some(&mut add) };
+    let done = follow_passing(job, 0, program, (Missing::StoodFor, Errors::GoOn), each)?;
+    sums.add(&done.trace.segments);
+    if !done.followed {
+        sums = none;
+    }
+    let line = |item: u32| done.line(item);
     let read = &done.reading.program;
     let mut findings = done.errors.clone();
     findings.extend(done.findings.iter().cloned());
     if let Some(machine) = &job.machine {
         let travel = travel_findings(&done.trace, read, machine).into_iter();
         let found = travel.chain(not_held(&done.trace, machine));
-        findings.extend(found.map(|f| *at_block(f.into(), program, &done.lines).0));
+        findings.extend(found.map(|f| *at_block(f.into(), program, line).0));
     }
-    let items = (0..read.items.len()).map(|i| read.items.get(i));
-    if !items.clone().any(|item| matches!(item, Item::Move(_) | Item::Cycle(..))) {
+    let few = || read.items.few().map(|i| read.items.get(i));
+    let moves = |item| matches!(item, Item::Move(_) | Item::Cycle(..));
+    if !(0..read.items.len()).any(|i| moves(read.items.get(i))) {
         findings.push(
             Finding::warning(Code::NC_STATE, "the program moves nothing").help("is it the right file?"),
         );
@@ -101,38 +112,37 @@ pub fn program_sheet(given: &GivenJob) -> Result<ProgramSheet> {
     let reason = law.as_ref().and_then(|law| law.reason.clone());
     let facets = law.as_ref().zip(job.machine.as_ref());
     let facets = facets.and_then(|(law, machine)| facets_note(&done.trace, law, machine));
-    findings.extend(facets.into_iter().chain(reason).map(|f| *at_block(f.into(), program, &done.lines).0));
+    findings.extend(facets.into_iter().chain(reason).map(|f| *at_block(f.into(), program, line).0));
     findings.sort_by_key(|f| std::cmp::Reverse(f.severity));
-    let (programmed, time_has_rapids) = done.trace.duration();
-    let counted = || done.trace.segments.iter().filter(|s| !s.alternative);
+    let programmed = sums.time + done.trace.dwells.iter().map(|d| d.1).sum::<f64>();
+    let machine = job.machine.as_ref();
     let remarks = done.unfollowed.iter().map(ToString::to_string);
     let remarks = remarks.chain(done.trace.assumed.iter().cloned());
     Ok(ProgramSheet {
         file: program.file.clone(),
         control: program.control.name().to_owned(),
         lines: program.text.lines().count(),
-        feed_moves: counted().filter(|s| s.motion != SegmentPace::Rapid).count(),
-        rapid_moves: counted().filter(|s| s.motion == SegmentPace::Rapid).count(),
-        cycles: items.clone().filter(|item| matches!(item, Item::Cycle(..))).count(),
-        stops: items
+        feed_moves: sums.feed_moves,
+        rapid_moves: sums.rapid_moves,
+        cycles: few().filter(|item| matches!(item, Item::Cycle(..))).count(),
+        stops: few()
             .filter(|item| matches!(item, Item::Stop(StopKind::Program | StopKind::Optional)))
             .count(),
         tools: tools(read),
         offsets: offsets(read),
-        range: range(given, &done),
-        // The sum of nothing is the other zero.
-        feed_length: counted()
-            .filter(|s| s.motion != SegmentPace::Rapid)
-            .fold(0.0, |sum, s| sum + s.curve.length()),
+        range: sums.range.map(|all| [all.min.to_array(), all.max.to_array()]),
+        feed_length: sums.feed_length,
         time: law.as_ref().map_or(programmed, ProgramTime::total),
         time_without_jerk_limit: law.as_ref().map(ProgramTime::total_without_jerk),
-        time_has_rapids: time_has_rapids || law.is_some(),
+        time_has_rapids: sums.is_timed || law.is_some(),
         feed_held: law.as_ref().and_then(|law| {
-            let line = |item: u32| done.lines.get(item as usize).copied().flatten();
             let (held, slowest) = HeldFeed::of(&done.trace, law).words(line)?;
             Some(if slowest.is_empty() { held } else { format!("{held}; {slowest}") })
         }),
-        time_terms: terms(&[(&done.trace, law.as_ref())], job.machine.as_ref()),
+        time_terms: match &law {
+            Some(law) => terms(&[(&done.trace, Some(law))], machine),
+            None => at_programmed_feeds(sums.is_timed, machine),
+        },
         errors: done.errors.len(),
         followed: done.followed,
         findings,
@@ -143,7 +153,7 @@ pub fn program_sheet(given: &GivenJob) -> Result<ProgramSheet> {
 /// The tools that a program calls, in their order.
 fn tools(program: &Program) -> Vec<String> {
     let mut tools = Vec::new();
-    for i in 0..program.items.len() {
+    for i in program.items.few() {
         if let Item::Tool { id, .. } = program.items.get(i) {
             let name = id.to_string();
             if !tools.contains(&name) {
@@ -157,10 +167,14 @@ fn tools(program: &Program) -> Vec<String> {
 /// The work offsets in which a program moves, in their order.
 fn offsets(program: &Program) -> Vec<String> {
     let mut offsets = Vec::new();
+    let mut last = None;
     for i in 0..program.items.len() {
-        if !matches!(program.items.get(i), Item::Move(_)) {
+        // Neighbours of one state have one frame.
+        let state = Some(program.items.state(i));
+        if state == last || !matches!(program.items.get(i), Item::Move(_)) {
             continue;
         }
+        last = state;
         let mut frame = program.state(i).frame;
         while let Some(Frame::Shift { parent, .. } | Frame::Tilted { parent, .. }) =
             program.frames.get(frame.0 as usize)
@@ -177,15 +191,11 @@ fn offsets(program: &Program) -> Vec<String> {
     offsets
 }
 
-/// The range of the tip at feed.
-fn range(given: &GivenJob, done: &Followed) -> Option<[[f64; 3]; 2]> {
-    let setup = given.job().setups.first()?;
+/// Maps part coordinates into those of the first work offset.
+fn to_work(given: &GivenJob) -> Rigid {
+    let Some(setup) = given.job().setups.first() else { return Rigid::IDENTITY };
     let work = setup.setup.work_offsets.get(&setup.offset).copied().unwrap_or(Rigid::IDENTITY);
-    let to_work = work.inverse().after(&setup.setup.part_on_table);
-    let cutting = done.trace.segments.iter().filter(|s| s.motion != SegmentPace::Rapid);
-    let boxes = cutting.map(|s| s.curve.moved(&to_work).bounds());
-    let all = boxes.reduce(|a, b| Aabb { min: a.min.min(b.min), max: a.max.max(b.max) })?;
-    Some([all.min.to_array(), all.max.to_array()])
+    work.inverse().after(&setup.setup.part_on_table)
 }
 
 impl Answer for ProgramSheet {

@@ -5,6 +5,8 @@
 
 use std::collections::HashMap;
 
+use crate::nc::scan::lines_with;
+
 /// The word behind the label.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(in crate::nc) enum OWord {
@@ -146,17 +148,14 @@ impl OLines {
         let mut all = OLines::default();
         // What is open of each label: the line that opened it, and the last that went on with it.
         let mut open: HashMap<String, Vec<[usize; 2]>> = HashMap::new();
-        let mut start = 0;
-        for line in text.split_inclusive('\n') {
-            let after = start + line.len();
-            let bytes = line.as_bytes();
+        for (start, after) in lines_with(text, b'O') {
+            let bytes = &text.as_bytes()[start..after];
             if let Some(at) = label_at(bytes)
                 && let Some((label, end)) = label(bytes, at + 1)
             {
                 let (word, _) = word(bytes, end);
                 all.add(OLine { start, after, word, begin: None, next: None, end: None }, label, &mut open);
             }
-            start = after;
         }
         all
     }

@@ -4,6 +4,7 @@ use crate::nc::Control;
 use crate::nc::dialect::FlowWords;
 use crate::nc::fanuc::statement::Places;
 use crate::nc::linuxcnc::o_word::OLines;
+use crate::nc::scan::lines_with;
 
 /// Names under which programs may be found that a text calls and does not hold: each list is one program, its names in the
 /// order in which they are looked for, in small letters and without ending.
@@ -42,8 +43,9 @@ pub fn called(text: &str, control: Control) -> Vec<Vec<String>> {
             }
         }
         FlowWords::MacroB => {
-            let places = Places::of(text);
-            for number in numbers(text, true) {
+            let asked = numbers(text, true);
+            let places = if asked.is_empty() { Places::default() } else { Places::of(text) };
+            for number in asked {
                 if places.program(number).is_none() {
                     add(names_of(number));
                 }
@@ -64,7 +66,9 @@ pub(super) fn names_of(number: u32) -> Vec<String> {
 /// Numbers of programs behind `M98`, `G65` and `G66`.
 fn numbers(text: &str, macro_b: bool) -> Vec<u32> {
     let mut found = Vec::new();
-    for line in text.lines() {
+    // A number stands behind a P.
+    for (start, after) in lines_with(text, b'P') {
+        let line = &text[start..after];
         let may = line.contains("98") && line.contains(['M', 'm'])
             || macro_b && (line.contains("65") || line.contains("66"));
         if !may {

@@ -25,7 +25,7 @@ pub(super) struct Before {
 impl<'s> Reader<'s> {
     /// The state before a block; refuses a block that may not come while the compensation is on.
     pub(super) fn before(&self) -> Result<Before> {
-        let off = self.code(|c| c == Code::CompOff).is_some();
+        let off = self.modal.comp != Comp::Off && self.code(|c| c == Code::CompOff).is_some();
         let forbidden = |c: Code| match c {
             Code::Units { .. } | Code::ToolChange => true,
             Code::Plane(plane) => plane != Plane::Xy,

@@ -91,16 +91,18 @@ impl<'s> Reader<'s> {
         self.program.push_stop(kind, &self.state(Speed::Rapid { linear: false }), self.origin);
     }
 
-    /// Whether a block has nothing but ends of axes X, Y, Z: nearly all of a long program.
+    /// Whether a block has nothing but a feed, ends of axes X, Y, Z and one of G0 and G1: nearly all of a long program.
     pub(super) fn only_moves(&self, words: &[Word<'s>]) -> bool {
-        self.codes.is_empty()
+        self.codes.iter().all(|(code, _)| matches!(code, Code::Rapid | Code::Feed))
             && self.modal.feed_mode != FeedMode::InverseTime
-            && words.iter().all(|w| w.used || AXES.iter().any(|axis| w.is(axis)))
+            && words.iter().all(|w| w.used || w.is("F") || AXES.iter().any(|axis| w.is(axis)))
     }
 
     /// Executes such a block: what [`Reader::execute`] does of it.
     pub(super) fn go_on(&mut self, words: &mut [Word<'s>]) -> Result<()> {
         let before = self.before()?;
+        self.feed(words)?;
+        self.only_axes = true;
         self.motion_and_corner(words, None)?;
         self.check_compensation(&before)
     }
@@ -410,6 +412,9 @@ impl<'s> Reader<'s> {
 
     /// The motion code of the block.
     pub(super) fn motion_code(&self) -> Option<(Code, Bytes)> {
+        if self.codes.is_empty() {
+            return None;
+        }
         let motion = |c: Code| c.group() == Code::Rapid.group();
         self.code(|c| motion(c) && c != Code::NoMotion).or_else(|| self.code(motion))
     }

@@ -120,8 +120,12 @@ pub(super) struct Block<'t> {
 
 impl Block<'_> {
     fn clear(&mut self) {
-        *self = Block { words: std::mem::take(&mut self.words), ..Block::default() };
+        // The lists keep their memory: a block of a loop takes none anew.
         self.words.clear();
+        self.assignments.clear();
+        self.comments.clear();
+        (self.call, self.message, self.skip, self.torn) = (None, None, None, None);
+        self.tape = false;
     }
 
     /// Whether it says anything.
@@ -129,8 +133,18 @@ impl Block<'_> {
         self.words.is_empty() && self.message.is_none() && self.call.is_none() && self.assignments.is_empty()
     }
 
+    /// Whether it says nothing but words.
+    #[inline]
+    fn only_words(&self) -> bool {
+        self.message.is_none() && self.call.is_none() && self.assignments.is_empty()
+    }
+
     /// From the first to the last word.
     pub(super) fn bytes(&self) -> Bytes {
+        // Words stand in the order of the text.
+        if let (Some(first), Some(last), true) = (self.words.first(), self.words.last(), self.only_words()) {
+            return first.bytes.start..last.bytes.end;
+        }
         let call = self.call.iter().map(|c| &c.bytes);
         let set = self.assignments.iter().map(|a| &a.bytes);
         let words = self.words.iter().map(|w| &w.bytes);
@@ -238,6 +252,7 @@ impl<'s> Lexer<'_, 's> {
         stop.max(at + 1).min(end)
     }
 
+    #[inline]
     fn blanks(&self, mut at: usize, end: usize) -> usize {
         let bytes = self.place.text().as_bytes();
         while at < end && matches!(bytes[at], b' ' | b'\t') {
@@ -683,6 +698,7 @@ impl<'s> Lexer<'_, 's> {
     }
 }
 
+#[inline]
 pub(super) fn range(from: usize, to: usize) -> Bytes {
     // Texts end below 4 GiB.
     from as u32..to as u32

@@ -19,6 +19,9 @@ impl<'s> Reader<'s> {
 
     /// Appends the comments and messages of a block.
     pub(super) fn remarks(&mut self, block: &Block<'s>) {
+        if block.comments.is_empty() && block.message.is_none() {
+            return;
+        }
         let comments = block.comments.iter().map(|(text, bytes)| match self.message_in(text, bytes) {
             Some(message) => (message, true, bytes),
             None => (*text, false, bytes),

@@ -61,7 +61,7 @@ mod turned;
 mod variables;
 mod zeros;
 
-use crate::base::{Code, FileId, Finding, Result, Sources};
+use crate::base::{Code, FileId, Finding, Result, Sources, Span};
 use crate::program::{Item, Program, Setup, Tcp};
 
 use super::Control;
@@ -138,7 +138,7 @@ pub fn read_source(
     setups: &[Setup],
     settings: &ReadSettings,
 ) -> Result<Reading> {
-    let place = SourceText { sources, file };
+    let place = SourceText::new(sources, file);
     let text = place.text();
     if text.len() >= u32::MAX as usize {
         return Err(Finding::error(Code::NC_SYNTAX, format!("`{}` is too large", sources.name(file)))
@@ -153,6 +153,9 @@ pub fn read_source(
     let mut reader = Reader::new(place, dialect, setups);
     reader.points = Points::of(text, dialect, settings.input);
     reader.own_codes = settings.codes.clone();
+    // Nearly every line of a long program is a move.
+    let end = text.len() as u32;
+    reader.program.items.reserve(sources.line(Span { file, start: end, end }) as usize);
     if let Some(start) = settings.start {
         reader.modal.position = start.map(Some);
     }
@@ -182,7 +185,7 @@ pub(super) struct Left {
 pub(super) fn left_by(sources: &mut Sources, name: &str, text: &str, control: Control) -> Result<Left> {
     let dialect = control.dialect();
     let file = sources.add(name, text);
-    let place = SourceText { sources, file };
+    let place = SourceText::new(sources, file);
     let mut reader = Reader::new(place, dialect, &[]);
     let mut block = Block::default();
     let mut at = 0;
@@ -208,4 +211,43 @@ pub(super) fn left_by(sources: &mut Sources, name: &str, text: &str, control: Co
         moves,
         tape,
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Room of the lists of a block after lines.
+    fn room(text: &str) -> [usize; 3] {
+        let mut sources = Sources::default();
+        let file = sources.add("a", text);
+        let place = SourceText::new(&sources, file);
+        let reader = Reader::new(place, Control::LinuxCnc.dialect(), &[]);
+        let lexer = Lexer { place, dialect: reader.dialect, names: &reader };
+        let mut block = Block::default();
+        let mut at = 0;
+        for line in text.split('\n') {
+            lexer.line(at, at + line.len(), &mut block).unwrap();
+            at += line.len() + 1;
+        }
+        [block.words.capacity(), block.assignments.capacity(), block.comments.capacity()]
+    }
+
+    #[test]
+    fn a_block_takes_no_memory_anew() {
+        let turn = "N10 G1 X1.5 Y2 F100\n#1=2 #2=3 (counts)\n(behind it)\nX2\n\n";
+        let once = room(turn);
+        assert!(once.iter().all(|room| *room > 0));
+        assert_eq!(room(&turn.repeat(100)), once);
+    }
+
+    #[test]
+    fn a_program_takes_forty_bytes_a_line() {
+        let line = |i: u32| format!("G1 X{}.5 Y{}\n", i % 97, i % 89);
+        let text: String = (0..20_000).map(line).collect();
+        let text = format!("G21 G90 G94 G54 G64\nG0 X0 Y0 Z0\nG1 Z-1 F300\n{text}M2\n");
+        let reading = read(&mut Sources::default(), "a.ngc", &text, Control::LinuxCnc, &[]).unwrap();
+        let each = reading.program.items.bytes() as f64 / 20_000.0;
+        assert!(each < 40.0, "{each} bytes a line");
+    }
 }

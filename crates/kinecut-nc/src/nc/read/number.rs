@@ -27,9 +27,9 @@ impl Number {
         let mut whole = 0u64;
         let mut number = Number { value: None, end: from, torn: false, point: false };
         let mut blank = false;
-        for (i, byte) in bytes.iter().enumerate().skip(from) {
+        let mut at = from;
+        while let Some(byte) = bytes.get(at) {
             match byte {
-                b'+' | b'-' if i == from => {}
                 b'0'..=b'9' => {
                     digits += 1;
                     decimals += usize::from(number.point);
@@ -38,11 +38,14 @@ impl Number {
                 b'.' if !number.point => number.point = true,
                 b' ' | b'\t' if blanks => {
                     blank = true;
+                    at += 1;
                     continue;
                 }
+                b'+' | b'-' if at == from => {}
                 _ => break,
             }
-            number.end = i + 1;
+            at += 1;
+            number.end = at;
             number.torn = blank;
         }
         let written = &text[from..number.end];
@@ -50,7 +53,8 @@ impl Number {
             (0, _) => None,
             // Both are exact as doubles, so their quotient is the double nearest to what is written.
             (1..=EXACT_DIGITS, _) => {
-                let value = whole as f64 / POWERS[decimals];
+                // At most fifteen digits: a signed number converts in one step.
+                let value = whole as i64 as f64 / POWERS[decimals];
                 Some(if bytes[from] == b'-' { -value } else { value })
             }
             (_, false) => written.parse().ok(),

@@ -33,7 +33,7 @@ impl<'s> Run<'s> {
         let lines = self.o_lines(place);
         let own = lines.at(start);
         if word == OWord::Call {
-            return self.o_call(&label, &bytes, end, block);
+            return self.o_call(&label.text(), &bytes, end, block);
         }
         let Some(own) = own else {
             let why = "only a call has a label that is computed";
@@ -286,11 +286,27 @@ impl<'s> Run<'s> {
     }
 }
 
-/// The label behind an `o`, as it is compared.
-fn label(expression: &mut Expression<'_, '_>) -> Result<String> {
+/// A label: only a call looks for it by its text.
+enum Label {
+    Name(String),
+    Number(u32),
+}
+
+impl Label {
+    /// As it is compared.
+    fn text(self) -> String {
+        match self {
+            Label::Name(name) => name,
+            Label::Number(number) => number.to_string(),
+        }
+    }
+}
+
+/// The label behind an `o`.
+fn label(expression: &mut Expression<'_, '_>) -> Result<Label> {
     if expression.pass("<") {
         expression.at -= 1;
-        return expression.name();
+        return expression.name().map(Label::Name);
     }
-    expression.index().map(|number| number.to_string())
+    expression.index().map(Label::Number)
 }

@@ -9,16 +9,24 @@ use crate::base::{Code, Error, FileId, Finding, Sources, Span};
 pub(in crate::nc) struct SourceText<'s> {
     pub(in crate::nc) sources: &'s Sources,
     pub(in crate::nc) file: FileId,
+    /// The text of the file: looked at for every byte.
+    text: &'s str,
 }
 
 /// Bytes of a word in the text.
 pub(in crate::nc) type Bytes = Range<u32>;
 
 impl<'s> SourceText<'s> {
-    pub(in crate::nc) fn text(&self) -> &'s str {
-        self.sources.text(self.file)
+    pub(in crate::nc) fn new(sources: &'s Sources, file: FileId) -> SourceText<'s> {
+        SourceText { sources, file, text: sources.text(file) }
     }
 
+    #[inline]
+    pub(in crate::nc) fn text(&self) -> &'s str {
+        self.text
+    }
+
+    #[inline]
     pub(in crate::nc) fn span(&self, bytes: &Bytes) -> Span {
         Span { file: self.file, start: bytes.start, end: bytes.end }
     }

@@ -21,6 +21,9 @@ pub(super) struct Polar {
 impl<'s> Reader<'s> {
     /// Puts Cartesian words in the place of polar ones.
     pub(super) fn polar_words(&mut self, words: &mut Vec<Word<'s>>) -> Result<()> {
+        if self.polar.is_none() && self.code(|c| matches!(c, Code::Polar { .. })).is_none() {
+            return Ok(());
+        }
         let absolute = match self.code(|c| matches!(c, Code::Absolute(_))) {
             Some((Code::Absolute(yes), _)) => yes,
             _ => self.modal.absolute,

@@ -50,6 +50,8 @@ pub(super) struct Reader<'s> {
     pub(super) points: Points,
     /// The words of the present block.
     pub(super) origin: Origin,
+    /// The present block has no words that nothing has used but ends of X, Y, Z.
+    pub(super) only_axes: bool,
     pub(super) here: Bytes,
     /// The block that last changed tool or length.
     pub(super) tool_origin: Origin,
@@ -81,6 +83,8 @@ pub(super) struct Reader<'s> {
     pub(super) saved: Vec<Saved>,
     /// Places that `G28` and `G30` go to, where the program has stored them.
     pub(super) stored_places: [Option<Stored>; 2],
+    /// Whether blocks were called by their number (`M97`), which are behind the end as a rule.
+    pub(super) called_blocks: bool,
     /// Length in force without a tool that the program has called [mm].
     pub(super) lift: f64,
     /// Feed moves that start at a place that the program has not set.
@@ -124,6 +128,7 @@ impl<'s> Reader<'s> {
             own_codes: Vec::new(),
             points: Points::default(),
             origin: Origin::default(),
+            only_axes: false,
             here: 0..0,
             tool_origin: Origin::default(),
             codes: Vec::new(),
@@ -142,6 +147,7 @@ impl<'s> Reader<'s> {
             lengths_set: Vec::new(),
             saved: Vec::new(),
             stored_places: [None; 2],
+            called_blocks: false,
             lift: 0.0,
             from_nowhere: Vec::new(),
             jump: None,
@@ -175,7 +181,7 @@ impl<'s> Reader<'s> {
         if !self.ended {
             let end = text.len() as u32;
             self.warn(&(end..end), "the program has no end (M30)");
-        } else if !rest.is_empty() && !other_programs {
+        } else if !rest.is_empty() && !other_programs && !self.called_blocks {
             let start = (rest.as_ptr() as usize - text.as_ptr() as usize) as u32;
             self.warn(&(start..start + 1), "text after the end of the program is not run");
         }
@@ -255,6 +261,7 @@ impl<'s> Reader<'s> {
 
     /// Executes a block.
     pub(super) fn block(&mut self, block: &mut Block<'s>) -> Result<()> {
+        self.only_axes = false;
         self.here = block.bytes();
         self.origin =
             Origin { span: Some(self.place.span(&self.here)), parent: self.parent, ..Origin::default() };
@@ -473,6 +480,7 @@ impl<'s> Reader<'s> {
     }
 
     /// The place of the first code that a test accepts.
+    #[inline]
     pub(super) fn code(&self, test: impl Fn(Code) -> bool) -> Option<(Code, Bytes)> {
         self.codes.iter().find(|(c, _)| test(*c)).cloned()
     }
@@ -549,6 +557,7 @@ fn listed(lines: &[String]) -> String {
 }
 
 /// The value of a word that nothing has used yet.
+#[inline]
 pub(super) fn take(words: &mut [Word<'_>], name: &str) -> Option<Value> {
     let plain = |w: &&mut Word<'_>| !w.used && w.way == WordMode::Plain && w.is(name);
     let word = words.iter_mut().find(plain)?;
@@ -557,6 +566,7 @@ pub(super) fn take(words: &mut [Word<'_>], name: &str) -> Option<Value> {
 }
 
 /// The value of a word that nothing has used yet, and how it counts.
+#[inline]
 pub(super) fn take_way(words: &mut [Word<'_>], name: &str) -> Option<(Value, WordMode)> {
     let word = words.iter_mut().find(|w| !w.used && w.is(name))?;
     word.used = true;

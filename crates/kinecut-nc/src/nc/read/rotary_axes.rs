@@ -31,6 +31,9 @@ impl<'s> Reader<'s> {
 
     /// Whether the block has a word of a rotary axis or of a tool axis.
     pub(super) fn has_rotary(&self, words: &[Word<'s>]) -> bool {
+        if self.only_axes {
+            return false;
+        }
         let says = |names: [&str; 3]| words.iter().any(|w| !w.used && names.iter().any(|n| w.is(n)));
         self.dialect.axes.rotary.is_some() && says(ROTARY) || self.vector_words().is_some_and(says)
     }
@@ -80,6 +83,9 @@ impl<'s> Reader<'s> {
 
     /// The tool axis of a move, from the words of its block.
     pub(super) fn tool_axis(&mut self, words: &mut [Word<'s>]) -> Result<ToolAxis> {
+        if self.only_axes {
+            return Ok(self.modal.rotary_axes.kept());
+        }
         let turned = self.rotary_end(words)?;
         let said = match self.vector_words() {
             Some(names) => {

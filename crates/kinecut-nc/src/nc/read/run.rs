@@ -162,7 +162,8 @@ impl<'s> Run<'s> {
         if start >= text.len() {
             return self.end_of_text(start);
         }
-        let end = text[start..].find('\n').map_or(text.len(), |n| start + n);
+        // Lines are short: a search by many bytes at once would not pay.
+        let end = text.as_bytes()[start..].iter().position(|b| *b == b'\n').map_or(text.len(), |n| start + n);
         self.at = end + 1;
         if self.again {
             self.in_flow = true;
@@ -265,6 +266,7 @@ impl<'s> Run<'s> {
                     let message = format!("the block N{number} that is called is not in this program");
                     return Err(self.reader.lacks(&bytes, &message).into());
                 };
+                self.reader.called_blocks = true;
                 self.call((place, line), times, None, bytes)
             }
             Jump::Macro { number, times, locals, bytes } => {
@@ -290,7 +292,7 @@ impl<'s> Run<'s> {
     /// The file beside the program that holds what is called.
     pub(super) fn beside(&self, name: &str) -> Option<SourceText<'s>> {
         let file = self.files.iter().find(|(called, _)| called == name)?.1;
-        Some(SourceText { file, ..self.main })
+        Some(SourceText::new(self.main.sources, file))
     }
 
     /// First line of the program of a number.

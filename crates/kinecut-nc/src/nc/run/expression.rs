@@ -41,6 +41,7 @@ impl<'a, 's> Expression<'a, 's> {
         Expression { place, bytes: place.text().as_bytes(), at, end, arithmetic, names, depth: 0 }
     }
 
+    #[inline]
     fn skip(&mut self) {
         while self.at < self.end && matches!(self.bytes[self.at], b' ' | b'\t' | b'\r') {
             self.at += 1;
@@ -48,12 +49,14 @@ impl<'a, 's> Expression<'a, 's> {
     }
 
     /// The next byte that is no blank, in capitals.
+    #[inline]
     fn peek(&mut self) -> Option<u8> {
         self.skip();
         (self.at < self.end).then(|| self.bytes[self.at].to_ascii_uppercase())
     }
 
     /// Whether this sign or word comes next; it is passed.
+    #[inline]
     pub(in crate::nc) fn pass(&mut self, word: &str) -> bool {
         let before = self.at;
         for byte in word.bytes() {
@@ -380,7 +383,7 @@ mod tests {
     fn evaluated(text: &str, arithmetic: Arithmetic) -> Result<Value> {
         let mut sources = Sources::default();
         let file = sources.add("a", text);
-        let place = SourceText { sources: &sources, file };
+        let place = SourceText::new(&sources, file);
         Expression::new(place, 0, text.len(), arithmetic, &Few).value()
     }
 

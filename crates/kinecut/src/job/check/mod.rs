@@ -12,7 +12,7 @@ mod program;
 mod setup;
 pub(in crate::job) mod step;
 
-pub use program::{JobProgram, Subprogram, subprograms};
+pub use program::{JobProgram, Subprogram, program_text, subprograms};
 
 use std::ops::Deref;
 

@@ -1,5 +1,6 @@
 //! Programs that others wrote, checked: the text, its control, the values of the registers.
 
+use std::borrow::Cow;
 use std::sync::Arc;
 
 use super::super::file::ProgramTable;
@@ -43,11 +44,11 @@ pub struct JobProgram {
 impl JobProgram {
     /// A program from the bytes of its file.
     pub fn new(file: impl Into<String>, bytes: &[u8], control: Control) -> JobProgram {
-        let (text, is_latin) = text_of(bytes);
+        let (text, is_latin) = program_text(bytes);
         JobProgram {
             file: file.into(),
             control,
-            text,
+            text: text.into(),
             is_latin,
             in_spindle: None,
             lengths: Vec::new(),
@@ -106,7 +107,7 @@ pub fn subprograms(
                 _ => format!("{folder}{name}.{ending}"),
             };
             let bytes = loader.read_as(&file, FileKind::Program).ok()?;
-            Some(Subprogram { name, file, text: text_of(&bytes).0 })
+            Some(Subprogram { name, file, text: program_text(&bytes).0.into() })
         });
         let Some(there) = there else { continue };
         for further in nc::called(&there.text, control) {
@@ -128,11 +129,11 @@ fn within(folder: &str, of: &str) -> String {
 /// Most programs that one program and what it calls may call in files of their own.
 const MOST_CALLED: usize = 1000;
 
-/// The text of a program: UTF-8, and otherwise Latin-1, which older controls and post-processors write.
-fn text_of(bytes: &[u8]) -> (Arc<str>, bool) {
+/// The text of a program, and whether it is Latin-1, which older controls and post-processors write, and no UTF-8.
+pub fn program_text(bytes: &[u8]) -> (Cow<'_, str>, bool) {
     match std::str::from_utf8(bytes) {
-        Ok(text) => (text.trim_start_matches('\u{feff}').into(), false),
-        Err(_) => (bytes.iter().map(|b| char::from(*b)).collect::<String>().into(), true),
+        Ok(text) => (Cow::Borrowed(text.trim_start_matches('\u{feff}')), false),
+        Err(_) => (bytes.iter().map(|b| char::from(*b)).collect(), true),
     }
 }
 
@@ -146,7 +147,7 @@ pub(super) fn program(
         Some(name) => Control::parse(name).map_err(|e| e.under("control"))?,
         None => post,
     };
-    let bytes = loader.read_as(&t.file, FileKind::Program).map_err(|e| e.under("file"))?;
+    let bytes = loader.lend_as(&t.file, FileKind::Program).map_err(|e| e.under("file"))?;
     let mut program = JobProgram::new(t.file.clone(), &bytes, control);
     program.input = t.input;
     program.blocks = t.blocks.unwrap_or(program.blocks);

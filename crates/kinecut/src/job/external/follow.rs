@@ -14,7 +14,7 @@ use crate::base::{Code, Error, FileId, Finding, Result, Severity, Sources, Span}
 use crate::geom::Rigid;
 use crate::nc::{self, Control, ReadSettings, Reading};
 use crate::program::{Blend, Frame, Program, Setup};
-use crate::trace::{RegisterState, Trace, TraceOptions, trace};
+use crate::trace::{RegisterState, Segment, SegmentPace, Taker, Trace, TraceOptions, trace, trace_passing};
 
 /// A program of others, read and followed.
 #[derive(Debug)]
@@ -25,10 +25,8 @@ pub(crate) struct Followed {
     pub(crate) followed: bool,
     /// The program as read.
     pub(crate) reading: Reading,
-    /// Its motion.
+    /// Its motion; without segments where they were handed over.
     pub(crate) trace: Trace,
-    /// For each item its line, 0-based.
-    pub(crate) lines: Vec<Option<u32>>,
     /// Warnings of the reader, and registers that are not the tools' own.
     pub(crate) findings: Vec<Finding>,
     /// Parts that were read and are not followed.
@@ -39,6 +37,29 @@ pub(crate) struct Followed {
     pub(crate) radii: Vec<(u32, f64)>,
     /// The text with its lines.
     pub(crate) sources: Sources,
+    /// The program among the texts.
+    file: FileId,
+}
+
+impl Followed {
+    /// The line of an item, 0-based.
+    pub(crate) fn line(&self, item: u32) -> Option<u32> {
+        line_of(&self.reading.program, &self.sources, self.file, item)
+    }
+
+    /// For each item its line, 0-based.
+    pub(crate) fn lines(&self) -> Vec<Option<u32>> {
+        let read = &self.reading.program;
+        let mut lines = self.sources.lines((0..read.items.len()).map(|i| in_file(read, i, self.file)));
+        lines.iter_mut().flatten().for_each(|line| *line -= 1);
+        lines
+    }
+}
+
+/// The line of an item, 0-based.
+fn line_of(read: &Program, sources: &Sources, file: FileId, item: u32) -> Option<u32> {
+    let item = Some(item as usize).filter(|item| *item < read.items.len())?;
+    in_file(read, item, file).map(|span| sources.line(span) - 1)
 }
 
 /// What a block that is wrong or not understood ends.
@@ -51,10 +72,9 @@ pub(crate) enum Errors {
 }
 
 /// An error or finding about an item, at the place of its block.
-pub(crate) fn at_block(mut error: Error, program: &JobProgram, lines: &[Option<u32>]) -> Error {
+pub(crate) fn at_block(mut error: Error, program: &JobProgram, line: impl Fn(u32) -> Option<u32>) -> Error {
     if let Some(item) = error.0.item.take() {
-        let line = lines.get(item as usize).copied().flatten();
-        error.0.place = line_place(&program.file, &program.text, line);
+        error.0.place = line_place(&program.file, &program.text, line(item));
     }
     error
 }
@@ -63,6 +83,29 @@ pub(crate) fn at_block(mut error: Error, program: &JobProgram, lines: &[Option<u
 fn guessed(what: &str) -> Finding {
     let finding = Finding::doubt(Code::NC_ASSUMED, what.to_owned());
     finding.help("save the guess as a job (--write-job job.toml), correct it there, and simulate that")
+}
+
+/// The first segments of a trace that are remarked on.
+#[derive(Clone, Copy, Debug, Default)]
+struct Remarked {
+    /// Item of the first without a tool.
+    without_tool: Option<u32>,
+    /// Item of the first at feed whose corners the control rounds as it likes.
+    rounds: Option<u32>,
+}
+
+impl Remarked {
+    fn look(&mut self, segments: &[Segment], read: &Program) {
+        if self.without_tool.is_none() {
+            self.without_tool = segments.iter().find(|s| s.tool.is_none()).map(|s| s.item);
+        }
+        if self.rounds.is_none() {
+            let rounds = |s: &&Segment| {
+                s.motion != SegmentPace::Rapid && read.state(s.item as usize).blend == Blend::Continuous
+            };
+            self.rounds = segments.iter().find(rounds).map(|s| s.item);
+        }
+    }
 }
 
 /// Reads the program of a job's setup and follows it.
@@ -75,6 +118,21 @@ pub(crate) fn follow(
     program: &JobProgram,
     missing: Missing,
     errors: Errors,
+) -> Result<Followed> {
+    follow_passing(job, setup, program, (missing, errors), None)
+}
+
+/// As [`follow`]; the segments of its motion are handed over and not kept where somebody takes them. What was handed over
+/// does not count where the program was not followed.
+///
+/// # Errors
+/// Those of [`follow`].
+pub(crate) fn follow_passing(
+    job: &Job,
+    setup: usize,
+    program: &JobProgram,
+    (missing, errors): (Missing, Errors),
+    each: Option<&mut Taker<'_>>,
 ) -> Result<Followed> {
     let mut sources = Sources::default();
     let clamped = &job.setups[setup];
@@ -104,8 +162,7 @@ pub(crate) fn follow(
     }
     let read_radii = reading.radii.clone();
     let read = &reading.program;
-    let mut lines = sources.lines((0..read.items.len()).map(|i| in_file(read, i, file)));
-    lines.iter_mut().flatten().for_each(|line| *line -= 1);
+    let line = |item: u32| line_of(&reading.program, &sources, file, item);
     let registers = Registers::of(job, clamped, program, read, |item| {
         read.origin(item as usize).span.map(|s| sources.locate(s))
     });
@@ -131,28 +188,34 @@ pub(crate) fn follow(
         comp_start: program.control.comp_start(),
     };
     let mut followed = true;
-    let mut trace = match trace(read, &options) {
+    let mut remarked = Remarked::default();
+    let traced = match each {
+        None => trace(read, &options).inspect(|trace| remarked.look(&trace.segments, read)),
+        Some(each) => trace_passing(read, &options, &mut |segments| {
+            remarked.look(segments, read);
+            each(segments);
+        }),
+    };
+    let mut trace = match traced {
         Ok(trace) => trace,
         // A part of a program need not make sense alone: nothing of it is followed, and that is said beside the rest.
         Err(error) if !reading.errors.is_empty() => {
-            followed = false;
-            reading.errors.push(*at_block(error, program, &lines).0);
+            (followed, remarked) = (false, Remarked::default());
+            let error = at_block(error, program, line);
+            reading.errors.push(*error.0);
             Trace::default()
         }
-        Err(error) => return Err(at_block(error, program, &lines)),
+        Err(error) => return Err(at_block(error, program, line)),
     };
     let errors = grouped(std::mem::take(&mut reading.errors));
-    if let Some(segment) = trace.segments.iter().find(|s| s.tool.is_none()).filter(|_| errors.is_empty()) {
-        let error = without_tool().item(segment.item).into();
-        return Err(at_block(error, program, &lines));
+    if let Some(item) = remarked.without_tool.filter(|_| errors.is_empty()) {
+        let line = |item: u32| line_of(&reading.program, &sources, file, item);
+        return Err(at_block(without_tool().item(item).into(), program, line));
     }
     if let Some(why) = &program.detected {
         trace.assumed.push(format!("the text is read as one for {}: {why}", program.control.title()));
     }
     trace.assumed.extend(assumed);
-    let rounds = |s: &&crate::trace::Segment| {
-        s.motion != crate::trace::SegmentPace::Rapid && read.state(s.item as usize).blend == Blend::Continuous
-    };
     // The control starts so, too: that would come in every program and says nothing.
     let said = |line: &str| {
         if !line.bytes().any(|b| b.eq_ignore_ascii_case(&b'g')) {
@@ -170,10 +233,10 @@ pub(crate) fn follow(
         without
     };
     if program.control == Control::LinuxCnc
+        && let Some(first) = remarked.rounds
         && program.text.lines().any(said)
-        && let Some(first) = trace.segments.iter().find(rounds)
     {
-        let line = lines.get(first.item as usize).copied().flatten().map_or(0, |l| l + 1);
+        let line = line_of(&reading.program, &sources, file, first).map_or(0, |l| l + 1);
         trace.assumed.push(format!(
             "the path is followed exactly, and from line {line} on the control rounds corners as far as its acceleration asks: G64 has no tolerance (P)"
         ));
@@ -193,7 +256,7 @@ pub(crate) fn follow(
         .into_iter()
         .map(|note| Unfollowed { line: note.place.map(|p| p.line).filter(|l| *l > 0), what: note.message })
         .collect();
-    Ok(Followed { errors, followed, trace, lines, findings, unfollowed, magazine, radii, reading, sources })
+    Ok(Followed { errors, followed, trace, findings, unfollowed, magazine, radii, reading, sources, file })
 }
 
 /// The place of an item in a file: of one that another file says, the call that led there.

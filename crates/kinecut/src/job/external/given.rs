@@ -1,6 +1,8 @@
 //! A program that is given by itself: the job about it, from a job file whose operations do not count, or from the few things
 //! that are said beside it.
 
+use std::borrow::Cow;
+
 use serde::Deserialize;
 
 use super::super::check::{Job, JobProgram, check};
@@ -141,6 +143,13 @@ impl Loader for With<'_> {
         match self.files.iter().find(|file| file.name == path) {
             Some(file) => Ok(file.bytes.to_vec()),
             None => self.others.read_as(path, kind),
+        }
+    }
+
+    fn lend_as(&self, path: &str, kind: FileKind) -> Result<Cow<'_, [u8]>> {
+        match self.files.iter().find(|file| file.name == path) {
+            Some(file) => Ok(Cow::Borrowed(file.bytes)),
+            None => self.others.lend_as(path, kind),
         }
     }
 }

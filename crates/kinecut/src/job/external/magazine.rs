@@ -37,7 +37,8 @@ impl Magazine {
         missing: Missing,
     ) -> Magazine {
         let mut magazine = Magazine { tools: given.to_vec(), in_spindle, ..Magazine::default() };
-        let mut called: Vec<ToolNumber> = (0..program.items.len())
+        let items = program.items.few();
+        let mut called: Vec<ToolNumber> = items
             .filter_map(|i| if let Item::Tool { id, .. } = program.items.get(i) { Some(id) } else { None })
             .collect();
         called.sort_unstable();

@@ -8,15 +8,17 @@ pub(crate) mod follow;
 pub(crate) mod given;
 mod grouped;
 mod magazine;
+mod motion_sums;
 pub(crate) mod registers;
 mod setup;
 mod shown;
 
 pub use carried::{Carried, CarriedStock, CarriedTool, carried};
-pub(crate) use follow::{Errors, Followed, at_block, follow};
+pub(crate) use follow::{Errors, Followed, at_block, follow, follow_passing};
 pub use given::{
     GivenFile, GivenJob, GivenStock, ProgramWants, control_of, control_of_name, given_alone, given_with_job,
 };
 pub(crate) use magazine::Missing;
+pub(crate) use motion_sums::MotionSums;
 pub(crate) use setup::external_setup;
 pub use shown::{ExternalProgram, Unfollowed};

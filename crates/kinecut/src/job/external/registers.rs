@@ -35,7 +35,10 @@ impl Registers {
         let mut found = Registers { radii: given.radii.clone(), ..Registers::default() };
         let mut seen: Vec<(ToolNumber, Option<u32>)> = Vec::new();
         let mut tool = None;
-        for index in 0..program.items.len() {
+        // Straight moves have no register but that of a compensation.
+        let every = if program.compensates() { program.items.len() } else { 0 };
+        let few = program.items.few().take(if every > 0 { 0 } else { usize::MAX });
+        for index in few.chain(0..every) {
             match program.items.get(index) {
                 Item::Tool { id, length, .. } => {
                     tool = job.tools.iter().find(|t| t.number == id);

@@ -34,8 +34,9 @@ pub(crate) fn external_setup(
     program: &JobProgram,
     planned: SetupPlan,
 ) -> Result<SetupOutcome> {
-    let Followed { reading, trace, lines, findings, unfollowed, .. } =
-        follow(job, setup, program, Missing::Refused, Errors::Stop)?;
+    let done = follow(job, setup, program, Missing::Refused, Errors::Stop)?;
+    let lines = done.lines();
+    let Followed { reading, trace, findings, unfollowed, .. } = done;
     let posted = Posted { text: Arc::clone(&program.text), lines: Vec::new(), notes: PostNotes::default() };
     Ok(SetupOutcome {
         file: program.file.clone(),

@@ -33,8 +33,10 @@ impl MovingProgram {
     /// Those of the reader and of the trace, each at its place in the program.
     pub(super) fn of_given(given: &GivenJob) -> Result<MovingProgram> {
         let program = given.program()?;
-        let Followed { reading, trace, lines, findings, unfollowed, .. } =
-            follow(given.job(), 0, program, Missing::StoodFor, Errors::Stop)?;
+        let done = follow(given.job(), 0, program, Missing::StoodFor, Errors::Stop)?;
+        let lines = done.lines();
+        let Followed { reading, trace, findings, unfollowed, .. } = done;
+        let line = |item: u32| lines.get(item as usize).copied().flatten();
         let remarks = unfollowed.iter().map(ToString::to_string);
         Ok(MovingProgram {
             file: program.file.clone(),
@@ -42,7 +44,7 @@ impl MovingProgram {
             text: Arc::clone(&program.text),
             remarks: remarks.chain(trace.assumed.iter().cloned()).collect(),
             program: reading.program,
-            findings: findings.into_iter().map(|f| *at_block(f.into(), program, &lines).0).collect(),
+            findings: findings.into_iter().map(|f| *at_block(f.into(), program, line).0).collect(),
             trace,
             lines,
         })
