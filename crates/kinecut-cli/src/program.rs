@@ -219,7 +219,7 @@ impl ProgramOf {
                 files::write_one(file, &guess.job())?;
             }
             if cut {
-                guess.complete(&mut wants);
+                guess.complete(&mut wants)?;
             }
         }
         given_alone(program, &wants, cut)

@@ -112,7 +112,8 @@ fn wrong_input_exits_2_and_says_what_to_do() {
         (&["check", "P.nc"], "--control"),
         (&["check", "P.nc", "--control", "fanuk"], "did you mean `fanuc`"),
         (&["check", "bad.nc", "--control", "fanuc"], "bad.nc:2:4"),
-        (&["simulate", "P.nc", "--control", "fanuc", "--tools", "tools.toml"], "--stock"),
+        (&["simulate", "P.nc", "--control", "fanuc"], "--stock"),
+        (&["simulate", "bad.nc", "--control", "fanuc"], "bad.nc:2:4"),
         (&["simulate", "P.nc", "--control", "fanuc", "--stock", STOCK], "not among the tools"),
         (&["simulate", "P.nc", "--control", "fanuc", "--stock", "0,0,0,1,nan,1"], "six numbers"),
         (&["simulate", "P.nc", "--control", "fanuc", "--stock", "blank.step"], "STL file"),
@@ -172,5 +173,46 @@ fn a_program_is_checked_and_translated() {
         done["text"].as_str().unwrap().contains("G1 Z-3 F200")
             && done["read_back"]["moves"].as_u64() > Some(3)
     );
+    std::fs::remove_dir_all(folder).unwrap();
+}
+
+#[test]
+fn a_program_alone_is_simulated_with_a_guess_that_is_saved_as_a_job() {
+    let folder = folder("guess");
+    let own = "(T1 D=8. CR=0. - FLAT END MILL)\n";
+    std::fs::write(folder.join("alone.nc"), PROGRAM.replacen("%\n", &format!("%\n{own}"), 1)).unwrap();
+    let args = ["simulate", "alone.nc", "--control", "fanuc", "--step", "1", "--write-job", "guess.toml"];
+    let run = kinecut(&folder, &args);
+    assert_eq!(run.status.code(), Some(1), "{}", text(&run.stderr));
+    let said = text(&run.stdout);
+    // The feed moves go from (15, 20) to (45, 20), down to -3, with a mill of 8 mm.
+    let flat = said.split_whitespace().collect::<Vec<_>>().join(" ");
+    assert!(
+        flat.contains("NOT PROVEN, 2 doubts") && flat.contains("is a guess, 11,16,-3 to 49,24,0"),
+        "{said}"
+    );
+    assert!(flat.contains("T1 end-mill 8 mm (line 2)"), "{said}");
+    let job = kinecut(&folder, &["simulate", "guess.toml", "--step", "1"]);
+    assert_eq!(job.status.code(), Some(0), "{}{}", text(&job.stdout), text(&job.stderr));
+    assert!(!text(&job.stdout).contains("guess,"), "{}", text(&job.stdout));
+    let check = kinecut(&folder, &["check", "alone.nc", "--control", "fanuc", "--write-job", "again.toml"]);
+    assert_eq!(check.status.code(), Some(0), "{}", text(&check.stderr));
+    let read = |name: &str| std::fs::read_to_string(folder.join(name)).unwrap();
+    assert_eq!(read("guess.toml"), read("again.toml"));
+    std::fs::remove_dir_all(folder).unwrap();
+}
+
+#[test]
+fn subprograms_are_looked_for_in_folders_that_are_named() {
+    let folder = folder("subprograms");
+    std::fs::create_dir_all(folder.join("subs")).unwrap();
+    std::fs::write(folder.join("main.ngc"), "G21 G54 G0 X0 Y0 Z5\no<step> call [7]\nM2\n").unwrap();
+    std::fs::write(folder.join("subs/step.ngc"), "o<step> sub\nG1 X#1 F100\no<step> endsub\n").unwrap();
+    let alone = kinecut(&folder, &["check", "main.ngc"]);
+    assert_eq!(alone.status.code(), Some(2));
+    assert!(text(&alone.stderr).contains("the subprogram `step` that is called"), "{}", text(&alone.stderr));
+    let found = kinecut(&folder, &["check", "main.ngc", "--subprograms", "subs"]);
+    assert_eq!(found.status.code(), Some(0), "{}", text(&found.stderr));
+    assert!(text(&found.stdout).contains("X 0.000 to 7.000"), "{}", text(&found.stdout));
     std::fs::remove_dir_all(folder).unwrap();
 }

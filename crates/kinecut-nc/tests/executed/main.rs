@@ -16,6 +16,7 @@ mod fanuc_scaling;
 mod haas_patterns;
 mod linuxcnc;
 mod macro_b;
+mod passing;
 mod state;
 
 /// Reads a program; the error as it is shown.

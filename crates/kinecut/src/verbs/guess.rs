@@ -4,7 +4,7 @@
 
 use std::fmt::Write as _;
 
-use crate::base::Result;
+use crate::base::{Error, Result};
 use crate::job::{
     Carried, CarriedTool, GivenFile, GivenStock, ProgramWants, carried, control_of, given_alone,
 };
@@ -15,12 +15,14 @@ use crate::verbs::check::program_sheet;
 const FLUTES: f64 = 4.0;
 
 /// Stock and tools that are guessed.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug)]
 pub struct Guess {
     control: Control,
     carried: Carried,
     stock: Option<[f64; 6]>,
     of_stock: String,
+    /// The reason why nothing is known of its moves.
+    unread: Option<Error>,
     program: String,
 }
 
@@ -44,6 +46,7 @@ impl Guess {
         let (control, _) = control_of(wants.control.as_deref(), None, program.name, program.bytes)?;
         let text = String::from_utf8_lossy(program.bytes);
         let carried = carried(&text, control);
+        let mut unread = None;
         let (stock, of_stock) = match &carried.stock {
             Some(block) => {
                 let [a, b, c] = block.min;
@@ -52,9 +55,22 @@ impl Guess {
                 let said = format!("as line {} says{assumed}", block.line);
                 (Some([a, b, c, d, e, f]), said)
             }
-            None => (about_moves(program, wants, &carried.tools), "the box of the feed moves and the radius of the largest tool about it, up to Z0 where they are below".to_owned()),
+            None => {
+                let said = "the box of the feed moves and the radius of the largest tool about it, up to Z0 where they are below";
+                let own = wants
+                    .tools
+                    .clone()
+                    .or_else(|| (!carried.tools.is_empty()).then(|| tools_of(program.name, &carried)));
+                match about_moves(program, &ProgramWants { tools: own, ..wants.clone() }) {
+                    Ok(stock) => (stock, said.to_owned()),
+                    Err(error) => {
+                        unread = Some(error);
+                        (None, said.to_owned())
+                    }
+                }
+            }
         };
-        Ok(Guess { control, carried, stock, of_stock, program: program.name.to_owned() })
+        Ok(Guess { control, carried, stock, of_stock, unread, program: program.name.to_owned() })
     }
 
     /// The block of the stock: its least and its greatest corner [mm]; none where the program cuts nothing.
@@ -63,7 +79,13 @@ impl Guess {
     }
 
     /// Takes what the user has not given from the guess, and says so.
-    pub fn complete(&self, wants: &mut ProgramWants) {
+    ///
+    /// # Errors
+    /// That of the program where its moves would tell the stock and cannot be read.
+    pub fn complete(&self, wants: &mut ProgramWants) -> Result<()> {
+        if let (None, None, Some(error)) = (&wants.stock, self.stock, &self.unread) {
+            return Err(error.clone());
+        }
         if let (None, Some(corners)) = (&wants.stock, self.stock) {
             wants.stock = Some(GivenStock::Block(corners));
             let [a, b, c, d, e, f] = corners.map(shown);
@@ -72,46 +94,11 @@ impl Guess {
                 .push(format!("the raw stock is a guess, {a},{b},{c} to {d},{e},{f}: {}", self.of_stock));
         }
         if wants.tools.is_none() && !self.carried.tools.is_empty() {
-            wants.tools = Some((format!("comments of {}", self.program), self.tools()));
+            wants.tools = Some(tools_of(&self.program, &self.carried));
             let tools: Vec<String> = self.carried.tools.iter().map(described).collect();
             wants.guessed.push(format!("the tools are guessed from comments: {}", tools.join(", ")));
         }
-    }
-
-    /// The tools as TOML.
-    fn tools(&self) -> String {
-        let mut out = String::new();
-        for tool in &self.carried.tools {
-            let _ = writeln!(out, "[[tool]]                                # from line {}", tool.line);
-            let _ = writeln!(out, "number = {}\ntype = \"{}\"", tool.number, tool.kind);
-            // A conical cutter is given by its tip.
-            let diameter = if tool.kind == "tapered" { 0.0 } else { tool.diameter };
-            let _ = writeln!(out, "diameter = {}", shown(diameter));
-            if tool.kind == "tapered" {
-                let half = 0.5 * tool.point_angle.unwrap_or(90.0);
-                let height = 0.5 * tool.diameter / half.to_radians().tan();
-                let _ = writeln!(
-                    out,
-                    "half_angle = {}\nflute_length = {}  # a sharp tip is taken",
-                    shown(half),
-                    shown(height)
-                );
-            } else {
-                let flutes = shown(FLUTES * tool.diameter);
-                let _ = writeln!(
-                    out,
-                    "flute_length = {flutes}                     # a guess: {FLUTES} diameters"
-                );
-            }
-            if let Some(radius) = tool.corner_radius {
-                let _ = writeln!(out, "corner_radius = {}", shown(radius));
-            }
-            if let Some(angle) = tool.point_angle.filter(|_| tool.kind == "drill") {
-                let _ = writeln!(out, "point_angle = {}", shown(angle));
-            }
-            out.push('\n');
-        }
-        out
+        Ok(())
     }
 
     /// A job file with the guess, to be corrected.
@@ -130,24 +117,66 @@ impl Guess {
                 "stock = { box = { min = [0, 0, -1], max = [1, 1, 0] } }  # the program cuts nothing\n\n",
             ),
         }
-        out.push_str(&self.tools());
+        out.push_str(&table_of(&self.carried));
         let name = self.program.rsplit(['/', '\\']).next().unwrap_or_default();
         let _ = writeln!(out, "[[setup]]\noffset = \"G54\"\nprogram = {{ file = {} }}", quoted(name));
         out
     }
 }
 
-/// The box of the feed moves, wider by the radius of the largest tool.
-fn about_moves(program: GivenFile<'_>, wants: &ProgramWants, tools: &[CarriedTool]) -> Option<[f64; 6]> {
-    let sheet = given_alone(program, &ProgramWants { stock: None, tools: None, ..wants.clone() }, false)
-        .and_then(|given| program_sheet(&given))
-        .ok()?;
-    let [[a, b, c], [d, e, f]] = sheet.range?;
-    let radius = tools.iter().map(|t| 0.5 * t.diameter).fold(0.0, f64::max);
+/// The box of the feed moves, wider by the radius of the largest tool; none where nothing is cut.
+fn about_moves(program: GivenFile<'_>, wants: &ProgramWants) -> Result<Option<[f64; 6]>> {
+    let given = given_alone(program, &ProgramWants { stock: None, ..wants.clone() }, false)?;
+    let sheet = program_sheet(&given)?;
+    if let Some(wrong) = sheet.findings.iter().find(|_| sheet.errors > 0) {
+        return Err(wrong.clone().into());
+    }
+    let Some([[a, b, c], [d, e, f]]) = sheet.range else { return Ok(None) };
+    let diameters = given.job().tools.iter().map(|t| t.cutter.diameter(t.flute_length));
+    let radius = 0.5 * diameters.fold(0.0, f64::max);
     // What is fed above Z0 is air as a rule.
     let top = if c < 0.0 && f > 0.0 { 0.0 } else { f };
     let corners = [a - radius, b - radius, c, d + radius, e + radius, top];
-    (0..3).all(|i| corners[i] < corners[3 + i]).then_some(corners)
+    Ok((0..3).all(|i| corners[i] < corners[3 + i]).then_some(corners))
+}
+
+/// The tools of comments as a file of tools: its name and its text.
+fn tools_of(program: &str, carried: &Carried) -> (String, String) {
+    (format!("comments of {program}"), table_of(carried))
+}
+
+/// The tools as TOML.
+fn table_of(carried: &Carried) -> String {
+    let mut out = String::new();
+    for tool in &carried.tools {
+        let _ = writeln!(out, "[[tool]]                                # from line {}", tool.line);
+        let _ = writeln!(out, "number = {}\ntype = \"{}\"", tool.number, tool.kind);
+        // A conical cutter is given by its tip.
+        let diameter = if tool.kind == "tapered" { 0.0 } else { tool.diameter };
+        let _ = writeln!(out, "diameter = {}", shown(diameter));
+        if tool.kind == "tapered" {
+            let half = 0.5 * tool.point_angle.unwrap_or(90.0);
+            let height = 0.5 * tool.diameter / half.to_radians().tan();
+            let _ = writeln!(
+                out,
+                "half_angle = {}\nflute_length = {}  # a sharp tip is taken",
+                shown(half),
+                shown(height)
+            );
+        } else {
+            let flutes = shown(FLUTES * tool.diameter);
+            let _ =
+                writeln!(out, "flute_length = {flutes}                     # a guess: {FLUTES} diameters");
+        }
+        if let Some(radius) = tool.corner_radius {
+            let _ = writeln!(out, "corner_radius = {}", shown(radius));
+        }
+        if let Some(angle) = tool.point_angle.filter(|_| tool.kind == "drill") {
+            let _ = writeln!(out, "point_angle = {}", shown(angle));
+        }
+        out.push('\n');
+    }
+    out
 }
 
 /// A tool in words.
@@ -180,7 +209,7 @@ mod tests {
             stock: Some(GivenStock::Block([0.0, 0.0, -5.0, 9.0, 9.0, 0.0])),
             ..ProgramWants::default()
         };
-        Guess::of(program, &wants).unwrap().complete(&mut wants);
+        Guess::of(program, &wants).unwrap().complete(&mut wants).unwrap();
         assert!(matches!(wants.stock, Some(GivenStock::Block([_, _, -5.0, ..]))));
         assert_eq!(
             wants.guessed,
@@ -188,7 +217,7 @@ mod tests {
         );
         let mut wants =
             ProgramWants { tools: Some(("t".to_owned(), String::new())), ..ProgramWants::default() };
-        Guess::of(program, &wants).unwrap().complete(&mut wants);
+        Guess::of(program, &wants).unwrap().complete(&mut wants).unwrap();
         assert_eq!(
             wants.guessed,
             [

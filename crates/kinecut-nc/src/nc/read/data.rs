@@ -221,15 +221,15 @@ impl<'s> Reader<'s> {
             n @ 7..=9 if !fanuc => WorkOffset::from_tenths(584 + n),
             _ => None,
         };
-        let most = match (further, fanuc) {
-            (true, _) if self.dialect.haas => 99,
-            (true, _) => 300,
-            (false, true) => 6,
-            (false, false) => 9,
+        let (least, most) = match (further, fanuc) {
+            (true, _) if self.dialect.haas => (1, 99),
+            (true, _) => (1, 300),
+            (false, true) => (0, 6),
+            (false, false) => (0, 9),
         };
         found.filter(|o| (self.dialect.has_offset)(*o)).map(Some).ok_or_else(|| {
-            let finding =
-                self.place.malformed(&number.bytes, "the number of the work offset is out of range");
+            let message = format!("these work offsets are P{least} to P{most}");
+            let finding = self.place.malformed(&number.bytes, &message);
             finding.value(number.value, "").bound(f64::from(most), "").into()
         })
     }

@@ -74,8 +74,10 @@ fn tool(comment: &str, called: Option<u32>, unit: f64, line: u32) -> Option<Carr
     };
     let kind = KINDS.iter().find(|(word, _)| rest.contains(word)).map(|(_, kind)| *kind);
     let by_letter = behind(rest, "D=").and_then(super::number);
-    let by_word =
-        behind(rest, "DIA").and_then(|t| super::number(t.trim_start_matches(['.', ' ', ':', '=', '-', '|'])));
+    let by_word = behind(rest, "DIA").and_then(|t| {
+        let t = t.strip_prefix("METER").or_else(|| t.strip_prefix('.')).unwrap_or(t);
+        super::number(t.trim_start_matches([' ', ':', '=', '-', '|']))
+    });
     let (diameter, unit_said) = match by_letter.or(by_word) {
         Some((value, behind)) => (value, unit_of(behind)),
         None => size(rest)?,
