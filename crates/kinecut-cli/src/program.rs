@@ -216,7 +216,7 @@ impl ProgramOf {
         if lacks || save.is_some() {
             let guess = Guess::of(program, &wants)?;
             if let Some(file) = save {
-                files::write_one(file, &guess.job())?;
+                files::write_one(file, &guess.job(&seen_from(file, &self.program)))?;
             }
             if cut {
                 guess.complete(&mut wants)?;
@@ -242,6 +242,16 @@ impl ProgramOf {
         let called = subprograms(&name, &text, control, &self.subprograms, &loader);
         called.into_iter().map(|called| (named(called.file), called.text.as_bytes().to_vec())).collect()
     }
+}
+
+/// A program as a job file names it.
+fn seen_from(job: &Path, program: &Path) -> String {
+    let own = match (job.parent(), program.parent()) {
+        (Some(folder), Some(beside)) if folder == beside => program.file_name().map(PathBuf::from),
+        (Some(folder), _) if folder.as_os_str().is_empty() => None,
+        _ => std::path::absolute(program).ok(),
+    };
+    own.unwrap_or_else(|| program.to_owned()).display().to_string()
 }
 
 /// Raw stock as an option names it.

@@ -199,6 +199,11 @@ fn a_program_alone_is_simulated_with_a_guess_that_is_saved_as_a_job() {
     assert_eq!(check.status.code(), Some(0), "{}", text(&check.stderr));
     let read = |name: &str| std::fs::read_to_string(folder.join(name)).unwrap();
     assert_eq!(read("guess.toml"), read("again.toml"));
+    // The job names the program as it is seen from there.
+    std::fs::create_dir_all(folder.join("jobs")).unwrap();
+    let args = ["check", "alone.nc", "--control", "fanuc", "--write-job", "jobs/other.toml"];
+    assert_eq!(kinecut(&folder, &args).status.code(), Some(0));
+    assert_eq!(kinecut(&folder, &["simulate", "jobs/other.toml", "--step", "1"]).status.code(), Some(0));
     std::fs::remove_dir_all(folder).unwrap();
 }
 

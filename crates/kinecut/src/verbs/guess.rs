@@ -37,7 +37,7 @@ impl Guess {
     /// let guess = Guess::of(program, &ProgramWants::default()).unwrap();
     /// // The feed moves and the radius of the tool about them.
     /// assert_eq!(guess.stock(), Some([-3.0, -3.0, -1.0, 33.0, 3.0, 0.0]));
-    /// assert!(guess.job().contains("type = \"end-mill\""));
+    /// assert!(guess.job("slot.ngc").contains("type = \"end-mill\""));
     /// ```
     ///
     /// # Errors
@@ -101,8 +101,8 @@ impl Guess {
         Ok(())
     }
 
-    /// A job file with the guess, to be corrected.
-    pub fn job(&self) -> String {
+    /// A job file with the guess, to be corrected; `file` is the program as seen from there.
+    pub fn job(&self, file: &str) -> String {
         let mut out =
             format!("# A guess from {}: correct it, then simulate this file.\nformat = 1\n", self.program);
         let _ = writeln!(out, "post = {{ control = \"{}\" }}", self.control.name());
@@ -113,13 +113,15 @@ impl Guess {
                 let _ =
                     writeln!(out, "stock = {{ box = {{ min = [{a}, {b}, {c}], max = [{d}, {e}, {f}] }} }}\n");
             }
-            None => out.push_str(
-                "stock = { box = { min = [0, 0, -1], max = [1, 1, 0] } }  # the program cuts nothing\n\n",
-            ),
+            None => {
+                let why =
+                    if self.unread.is_some() { "its moves could not be read" } else { "it cuts nothing" };
+                let _ = writeln!(out, "# The stock is to be filled in: {why}");
+                out.push_str("stock = { box = { min = [0, 0, -1], max = [1, 1, 0] } }\n\n");
+            }
         }
         out.push_str(&table_of(&self.carried));
-        let name = self.program.rsplit(['/', '\\']).next().unwrap_or_default();
-        let _ = writeln!(out, "[[setup]]\noffset = \"G54\"\nprogram = {{ file = {} }}", quoted(name));
+        let _ = writeln!(out, "[[setup]]\noffset = \"G54\"\nprogram = {{ file = {} }}", quoted(file));
         out
     }
 }
@@ -230,7 +232,7 @@ mod tests {
     fn the_job_of_a_guess_is_a_job() {
         let guess =
             Guess::of(GivenFile { name: "x/a \"b\".ngc", bytes: PROGRAM }, &ProgramWants::default()).unwrap();
-        let job = guess.job();
+        let job = guess.job("a \"b\".ngc");
         assert!(
             job.contains("min = [0, 0, -12], max = [60, 40, 0]") && job.contains("point_angle = 118"),
             "{job}"
