@@ -140,7 +140,6 @@ pub enum StopKind {
 
 /// An item, as seen by a reader of the program.
 #[derive(Clone, Debug, PartialEq)]
-#[expect(clippy::large_enum_variant, reason = "an item is shown, not kept")]
 pub enum Item<'a> {
     /// A move.
     Move(Move),

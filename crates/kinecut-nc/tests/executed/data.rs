@@ -15,7 +15,7 @@ fn in_work(reading: &Reading) -> Vec<[f64; 3]> {
     for i in 0..items.len() {
         let Item::Move(motion) = items.get(i) else { continue };
         let Target::Tip { point, .. } = motion.end else { continue };
-        let (_, motion) = program.in_work(program.state(i).frame).unwrap();
+        let Some((_, motion)) = program.in_work(program.state(i).frame) else { panic!("item {i}") };
         places.push((motion.point(point) * 1e6).round().to_array().map(|v| v / 1e6 + 0.0));
     }
     places
@@ -24,7 +24,7 @@ fn in_work(reading: &Reading) -> Vec<[f64; 3]> {
 /// The text that is written of a program, and what is read of that.
 fn again(reading: &Reading, control: Control) -> (String, Reading) {
     let settings = PostSettings { decimals: 6, ..PostSettings::new(control) };
-    let text = nc::write(&reading.program, &[], &settings).unwrap().text;
+    let text = nc::write(&reading.program, &[], &settings).unwrap_or_else(|e| panic!("{e}")).text;
     let second = read(&text, control).unwrap_or_else(|e| panic!("{e}\n{text}"));
     (text.to_string(), second)
 }

@@ -41,9 +41,10 @@ class Kinecut:
         except subprocess.TimeoutExpired:
             raise Refused(f"it does not end within {self.limit} s") from None
 
-    def check(self, path, control):
+    def check(self, path, control, machine=None):
         """What `kinecut check` says of a program."""
-        done = self.run(["--json", "check", path, "--control", control])
+        on = ["--machine", machine, "--position", "0,0,0"] if machine else []
+        done = self.run(["--json", "check", path, "--control", control, *on])
         return answer(done)
 
     def post(self, path, to="linuxcnc", control="linuxcnc", decimals=6, folders=(), machine=None):

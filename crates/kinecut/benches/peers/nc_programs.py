@@ -16,6 +16,7 @@ import os
 import pathlib
 import re
 import sys
+import tempfile
 
 sys.dont_write_bytecode = True
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
@@ -73,7 +74,7 @@ def main():
         count["programs"] += 1
         theirs = {True: "takes it", False: "refuses", "after normalisation": "takes it *"}.get(judge.get("accepted"), "-")
         try:
-            sheet = own(oracle, text) if kinecut.binary == "same" else kinecut.check(path, control)
+            sheet = own(oracle, text) if kinecut.binary == "same" else read(kinecut, path, control)
             sheet = sheet[0] if isinstance(sheet, list) else sheet
             result, details = "reads", ""
             off = compared(sheet, judge)
@@ -119,6 +120,29 @@ def again(path, control, kinecut, oracle, judge):
     length = sum(e["piece"].length for e in events if e["kind"] == "feed")
     want = judge.get("feed_length_mm") or length
     return "" if abs(length - want) < max(2e-3 * want, 0.02) else f"; the post is {length:.2f} mm long by the interpreter"
+
+
+# Machines of programs that turn axes; the last has the codes of LinuxCNC's own five-axis configurations.
+FIVE_AXES = 'preset = "trt_xyzac"\ncodes = { M428 = "tip-control", M429 = "no-tip-control" }\n'
+
+
+def read(kinecut, path, control):
+    """What kinecut says of a program; where it wants a machine, on the first that has its axes."""
+    try:
+        return kinecut.check(path, control)
+    except kinecut_reads.Refused as why:
+        if not any(words in str(why) for words in ("no machine with rotary axes", "M428")):
+            raise
+        first = why
+    with tempfile.NamedTemporaryFile("w", suffix=".toml") as machine:
+        machine.write(FIVE_AXES)
+        machine.flush()
+        for on in ("mill4_xyza", "trt_xyzac", "trt_xyzbc", machine.name):
+            try:
+                return kinecut.check(path, control, machine=on)
+            except kinecut_reads.Refused:
+                continue
+    raise first
 
 
 def own(oracle, text):

@@ -75,7 +75,7 @@ impl<'s> Reader<'s> {
             }
         }
         if let Some(place) = stored.filter(|_| joints[3..] == [None; 3]) {
-            return self.to_stored(place, [0, 1, 2].map(|axis| joints[axis].is_some()), bytes);
+            return self.goes_to_stored(place, [0, 1, 2].map(|axis| joints[axis].is_some()), bytes);
         }
         for axis in 0..3 {
             if joints[axis].is_some() {

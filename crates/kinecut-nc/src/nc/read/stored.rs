@@ -38,7 +38,7 @@ impl<'s> Reader<'s> {
     }
 
     /// Goes to a stored place with the axes that are named.
-    pub(super) fn to_stored(&mut self, place: Stored, axes: [bool; 3], bytes: &Bytes) -> Result<()> {
+    pub(super) fn goes_to_stored(&mut self, place: Stored, axes: [bool; 3], bytes: &Bytes) -> Result<()> {
         let speed = Speed::Rapid { linear: self.dialect.straight_rapid };
         let known = |of: [Option<f64>; 3]| (0..3).all(|axis| !axes[axis] || of[axis].is_some());
         if known(place.machine) {
