@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use clap::ValueEnum;
-use kinecut::base::{Error, FileKind};
+use kinecut::base::{Code, Error, FileKind, Finding};
 use kinecut::job::{
     GivenFile, GivenJob, GivenStock, InspectWants, ProgramWants, RunWants, SectionPlane, StockWants,
     control_of, given_alone, given_with_job, program_text, subprograms,
@@ -216,7 +216,7 @@ impl ProgramOf {
         if lacks || save.is_some() {
             let guess = Guess::of(program, &wants)?;
             if let Some(file) = save {
-                files::write_one(file, &guess.job(&seen_from(file, &self.program)))?;
+                files::write_one(file, &guess.job(&seen_from(file, &self.program)?))?;
             }
             if cut {
                 guess.complete(&mut wants)?;
@@ -244,14 +244,22 @@ impl ProgramOf {
     }
 }
 
-/// A program as a job file names it.
-fn seen_from(job: &Path, program: &Path) -> String {
-    let own = match (job.parent(), program.parent()) {
-        (Some(folder), Some(beside)) if folder == beside => program.file_name().map(PathBuf::from),
-        (Some(folder), _) if folder.as_os_str().is_empty() => None,
-        _ => std::path::absolute(program).ok(),
-    };
-    own.unwrap_or_else(|| program.to_owned()).display().to_string()
+/// A program as a job file names it: from the folder of the job, beside which or below which it lies.
+fn seen_from(job: &Path, program: &Path) -> Result<String, Error> {
+    let whole = |path: &Path| std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
+    let (own, program) = (whole(job), whole(program));
+    let folder = own.parent().unwrap_or(Path::new(""));
+    match program.strip_prefix(folder) {
+        Ok(file) => Ok(file.display().to_string()),
+        Err(_) => {
+            let message =
+                format!("the job `{}` would lie neither beside its program nor above it", job.display());
+            let beside = program.with_file_name("job.toml");
+            Err(Finding::error(Code::OUTPUT_NOT_WRITTEN, message)
+                .help(format!("write it to {}", beside.display()))
+                .into())
+        }
+    }
 }
 
 /// Raw stock as an option names it.

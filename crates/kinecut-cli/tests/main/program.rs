@@ -199,11 +199,20 @@ fn a_program_alone_is_simulated_with_a_guess_that_is_saved_as_a_job() {
     assert_eq!(check.status.code(), Some(0), "{}", text(&check.stderr));
     let read = |name: &str| std::fs::read_to_string(folder.join(name)).unwrap();
     assert_eq!(read("guess.toml"), read("again.toml"));
-    // The job names the program as it is seen from there.
+    // The job names the program as it is seen from there, and lies beside it or above it.
     std::fs::create_dir_all(folder.join("jobs")).unwrap();
-    let args = ["check", "alone.nc", "--control", "fanuc", "--write-job", "jobs/other.toml"];
+    let below =
+        kinecut(&folder, &["check", "alone.nc", "--control", "fanuc", "--write-job", "jobs/other.toml"]);
+    assert_eq!(below.status.code(), Some(2));
+    assert!(
+        text(&below.stderr).contains("neither beside its program nor above it"),
+        "{}",
+        text(&below.stderr)
+    );
+    std::fs::rename(folder.join("alone.nc"), folder.join("jobs/alone.nc")).unwrap();
+    let args = ["check", "jobs/alone.nc", "--control", "fanuc", "--write-job", "above.toml"];
     assert_eq!(kinecut(&folder, &args).status.code(), Some(0));
-    assert_eq!(kinecut(&folder, &["simulate", "jobs/other.toml", "--step", "1"]).status.code(), Some(0));
+    assert_eq!(kinecut(&folder, &["simulate", "above.toml", "--step", "1"]).status.code(), Some(0));
     std::fs::remove_dir_all(folder).unwrap();
 }
 
