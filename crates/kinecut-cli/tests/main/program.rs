@@ -230,3 +230,38 @@ fn subprograms_are_looked_for_in_folders_that_are_named() {
     assert!(text(&found.stdout).contains("X 0.000 to 7.000"), "{}", text(&found.stdout));
     std::fs::remove_dir_all(folder).unwrap();
 }
+
+#[test]
+fn a_length_that_the_program_sets_is_compared_with_the_tool() {
+    let folder = folder("lengths");
+    let with = |by: &str| PROGRAM.replacen("T1 M6\n", &format!("T1 M6\nG90 G10 L10 P1 R{by}\n"), 1);
+    for (by, code) in [("100.", 0), ("98.5", 1)] {
+        std::fs::write(folder.join("P.nc"), with(by)).unwrap();
+        let run = kinecut(&folder, &["simulate", "job.toml"]);
+        assert_eq!(run.status.code(), Some(code), "{by}: {}{}", text(&run.stdout), text(&run.stderr));
+    }
+    let said = text(&kinecut(&folder, &["simulate", "job.toml"]).stderr);
+    assert!(said.contains("the length register of T1 does not hold the length of the tool"), "{said}");
+    let ngc = "G21 G17 G40 G49 G80 G90 G94 G54\nT1 M6\nG43.1 Z{}\nG0 X15 Y20 S3000 M3\nZ20\nG1 Z-3 F200\nX45 F400\nG0 Z20\nM2\n";
+    for (by, code, says) in
+        [("100", 0, ""), ("99", 1, "is called with a length that the program gives as a number")]
+    {
+        std::fs::write(folder.join("P.ngc"), ngc.replace("{}", by)).unwrap();
+        let args = ["simulate", "P.ngc", "--stock", STOCK, "--tools", "tools.toml", "--step", "1"];
+        let run = kinecut(&folder, &args);
+        assert_eq!(run.status.code(), Some(code), "{by}: {}{}", text(&run.stdout), text(&run.stderr));
+        assert!(text(&run.stderr).contains(says), "{}", text(&run.stderr));
+    }
+    // The tool is in the spindle already, and the length of another is called.
+    let own = ngc.replace("T1 M6\n", "").replace("G43.1 Z{}", "G43 H2");
+    std::fs::write(folder.join("P.ngc"), own).unwrap();
+    let args = ["simulate", "P.ngc", "--stock", STOCK, "--tools", "tools.toml", "--tool", "1", "--step", "1"];
+    let run = kinecut(&folder, &args);
+    assert_eq!(run.status.code(), Some(1), "{}{}", text(&run.stdout), text(&run.stderr));
+    assert!(
+        text(&run.stderr).contains("T1 is called with the length of register 2"),
+        "{}",
+        text(&run.stderr)
+    );
+    std::fs::remove_dir_all(folder).unwrap();
+}

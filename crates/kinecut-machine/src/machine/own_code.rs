@@ -25,6 +25,7 @@ pub enum CodeEffect {
 /// let code = OwnCode::parse("m428", CodeEffect::TipControl).unwrap();
 /// assert_eq!((code.letter, code.tenths, code.to_string().as_str()), ('M', 4280, "M428"));
 /// assert!(OwnCode::parse("X1", CodeEffect::NoMotion).is_err());
+/// assert!(OwnCode::parse("M4.5", CodeEffect::NoMotion).is_err());
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct OwnCode {
@@ -40,7 +41,7 @@ impl OwnCode {
     /// The code of a name such as `M428` or `G68.2`.
     ///
     /// # Errors
-    /// `KC0703` when it is none.
+    /// `KC0703` when the name is no G or M code.
     pub fn parse(name: &str, effect: CodeEffect) -> Result<OwnCode> {
         let wrong = || {
             Finding::error(Code::MACHINE_AXIS, format!("`{}` is no G or M code", name.escape_default()))
@@ -56,6 +57,9 @@ impl OwnCode {
         let (Some(whole), Some(part)) = (digits(whole, 5), digits(part, 1)) else {
             return Err(wrong().into());
         };
+        if letter == 'M' && part != 0 {
+            return Err(wrong().into());
+        }
         Ok(OwnCode { letter, tenths: whole * 10 + part, effect })
     }
 }

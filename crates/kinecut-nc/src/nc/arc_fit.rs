@@ -26,6 +26,12 @@ pub(super) fn fit(start: DVec2, end: DVec2, centre: DVec2, ccw: bool) -> (DVec2,
     (middle + left * distance, sign * 2.0 * (0.5 * length).atan2(sign * distance))
 }
 
+/// Angle from one direction to another, in -pi to pi, positive counter-clockwise [rad]: to the last bits for small angles too, where an
+/// arc cosine has half the digits.
+pub(super) fn angle_between(from: DVec2, to: DVec2) -> f64 {
+    from.perp_dot(to).atan2(from.dot(to))
+}
+
 /// Largest distance by which the centre of an arc of more than half a turn is moved onto the bisector of its ends
 /// [mm]; beyond it the arc is read in parts. Our own rounding to three decimals leaves 0.0008 mm.
 const SHIFT: f64 = 0.002;

@@ -8,6 +8,8 @@ use glam::DVec2;
 use crate::base::Result;
 use crate::geom::{Spiral, SpiralLaw};
 
+use super::arc_fit::angle_between;
+
 /// Difference of radius from which an arc is followed as a spiral [mm]: below it the arc through both ends is within half of this of the
 /// control's path, as rounded words make nearly all arcs of a program.
 pub(super) const APPARENT: f64 = 0.005;
@@ -19,7 +21,7 @@ pub(super) const APPARENT: f64 = 0.005;
 pub(super) fn spiral(from: DVec2, to: DVec2, centre: DVec2, ccw: bool, turns: u32) -> Result<Spiral> {
     let (begin, end) = (from - centre, to - centre);
     let (first, last) = (begin.length(), end.length());
-    let between = begin.perp_dot(end).atan2(begin.dot(end));
+    let between = angle_between(begin, end);
     let swept = (if ccw { between } else { -between }).rem_euclid(TAU) + TAU * f64::from(turns);
     let growth = (last - first).abs() / swept;
     let part = Spiral::new(SpiralLaw::Archimedes { growth }, first / growth, last / growth)?;

@@ -7,6 +7,8 @@ use std::f64::consts::TAU;
 
 use glam::DVec2;
 
+use super::arc_fit::angle_between;
+
 /// Lengths that are equal but for rounding [mm].
 const SAME: f64 = 1e-9;
 
@@ -19,7 +21,7 @@ pub(super) struct Leg {
     pub(super) arc: Option<(DVec2, f64)>,
 }
 
-/// What joins two moves at their corner.
+/// Joint of two moves at their corner.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Joint {
     /// An arc of this radius [mm].
@@ -46,7 +48,7 @@ impl Leg {
 
     /// Angle from its start to a point of its circle, in its sense.
     fn swept(centre: DVec2, from: DVec2, to: DVec2, sense: f64) -> f64 {
-        let angle = (from - centre).angle_to(to - centre) * sense;
+        let angle = angle_between(from - centre, to - centre) * sense;
         let way = angle.rem_euclid(TAU);
         // Rounding at the start itself is no whole turn.
         if way > TAU - SAME { 0.0 } else { way }
@@ -176,7 +178,7 @@ impl Track {
 /// none where the moves go straight on.
 pub(super) fn joined(first: &Leg, second: &Leg, joint: Joint) -> Option<(Leg, Option<Leg>, Leg)> {
     let (before, behind) = (first.direction(true)?, second.direction(false)?);
-    let turn = before.angle_to(behind);
+    let turn = angle_between(before, behind);
     if turn.abs() < SAME {
         return Some((*first, None, *second));
     }

@@ -484,11 +484,12 @@ impl Dialect {
         self.dwell_words.iter().any(|w| w.0 == "F")
     }
 
-    /// Further codes of the control, which move no axis or are refused.
+    /// Further codes of the control.
     pub(super) fn further_codes(&self) -> &'static [(u32, Code)] {
         match (self.flow, self.haas) {
             (FlowWords::MacroB, true) => modes::HAAS,
             (FlowWords::MacroB, false) => modes::FANUC,
+            _ if matches!(self.mismatch, Mismatch::Ngc | Mismatch::Grbl) => modes::NGC,
             _ => &[],
         }
     }

@@ -1,4 +1,5 @@
-//! Words of FANUC and Haas that move no axis by themselves and have words of their own, and words that are known and not read.
+//! Codes that several controls share, or that a control has beyond its everyday ones: modes that move no axis, places and probes, and
+//! codes that are known and not read.
 
 use super::dialect::Code;
 use super::read::bolt_holes::Pattern;
@@ -6,7 +7,7 @@ use super::read::bolt_holes::Pattern;
 /// A mode of a control that is not followed: what it does, and the words that belong to it.
 #[derive(Debug, PartialEq)]
 pub(super) struct Mode {
-    /// What it does, for a message.
+    /// Its effect, for a message.
     pub(super) what: &'static str,
     /// Its words.
     pub(super) words: &'static [&'static str],
@@ -36,6 +37,21 @@ const SPINDLE_WATCH: Mode = mode("watches the speed of the spindle", &["P", "Q",
 const SPINDLE_FREE: Mode = mode("watches the speed of the spindle no more", &[]);
 const SMOOTHNESS: Mode = Mode { tolerance: Some("E"), ..mode("how far corners are rounded", &["P", "E"]) };
 const BLOCKS_AHEAD: Mode = mode("number of blocks that are read ahead", &["P"]);
+
+/// Further codes of LinuxCNC, GRBL and grblHAL (times ten).
+pub(super) const NGC: &[(u32, Code)] = &[
+    (100, Code::SetData),
+    (280, Code::Reference),
+    (281, Code::StorePlace { second: false }),
+    (300, Code::FurtherReference),
+    (301, Code::StorePlace { second: true }),
+    (382, Code::Probe { kind: 2 }),
+    (383, Code::Probe { kind: 3 }),
+    (384, Code::Probe { kind: 4 }),
+    (385, Code::Probe { kind: 5 }),
+    (920, Code::PresetShift),
+    (921, Code::ShiftOff { keep: false }),
+];
 
 /// Further codes of FANUC (times ten).
 pub(super) const FANUC: &[(u32, Code)] = &[

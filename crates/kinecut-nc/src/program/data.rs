@@ -7,8 +7,8 @@ pub const OWN_REGISTERS: u32 = 1 << 30;
 
 /// Data that a program sets at the control, in millimetres; no axis moves.
 ///
-/// Where the zero of a work offset lies on the part is known from the setup, and its place in the machine is not: a program that sets
-/// it for the first time is taken to set it where the setup has it. Another zero later is a shifted frame of the program.
+/// The zero of a work offset has a place on the part, which the setup tells, and a place in the machine, which it does not: a program
+/// that sets it for the first time is taken to set it where the setup has it. Another zero later is a shifted frame of the program.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum ControlData {
     /// Machine coordinates of the zero of a work offset, of the axes that are said (`G10 L2`); `None` is the offset that is added
@@ -34,7 +34,12 @@ pub enum ControlData {
         /// The length.
         length: f64,
     },
-    /// A length without a tool that the program has called (`G43.1`); zero is none.
+    /// A length register that is called before the program has called a tool: that of the tool in the spindle. `None` is off.
+    LengthCall {
+        /// The register.
+        register: Option<u32>,
+    },
+    /// A length before the program has called a tool (`G43.1`); zero switches it off.
     Lift {
         /// The length.
         length: f64,

@@ -134,6 +134,8 @@ pub enum StopKind {
     Program,
     /// `M1`.
     Optional,
+    /// `M60`: the pallets are exchanged, then a stop.
+    Pallet,
     /// `M2`, `M30`.
     End,
 }

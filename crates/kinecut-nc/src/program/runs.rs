@@ -79,7 +79,7 @@ impl<T: Advance> Runs<T> {
         Some(self.get(self.len.checked_sub(1)?))
     }
 
-    /// The first item from `index` on that is not of the same run as the one at `index`; the number of items if there is none.
+    /// The first item behind the run of the one at `index`; the number of items where the run is the last.
     pub(super) fn end_of_run(&self, index: usize) -> usize {
         if self.each.is_some() {
             return index + 1;

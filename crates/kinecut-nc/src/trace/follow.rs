@@ -215,6 +215,12 @@ impl<'a> Follow<'a> {
                 }
                 Ok(())
             }
+            Item::Data(ControlData::LengthCall { register }) => {
+                if let Some(tool) = self.tool {
+                    self.lift = self.options.operator.lift(tool, register);
+                }
+                Ok(())
+            }
             Item::Data(ControlData::Lift { .. }) => {
                 self.tip[2] = None;
                 Ok(())
@@ -326,8 +332,9 @@ impl<'a> Follow<'a> {
         let path = match motion.path {
             // A helix whose start the program has not set.
             Path::Arc { centre, axis, sweep, rise } if rise.is_nan() => {
-                let up = start * axis.abs();
-                let centre = centre * (DVec3::ONE - axis.abs()) + up;
+                let along = |i: usize| axis[i] != 0.0;
+                let centre =
+                    DVec3::from_array([0, 1, 2].map(|i| if along(i) { start[i] } else { centre[i] }));
                 Path::Arc { centre, axis, sweep, rise: (point - start).dot(axis) }
             }
             path => path,

@@ -118,7 +118,7 @@ fn coordinates_are_given_to_the_place_where_the_program_begins() {
     assert_eq!(in_work(&reading), [[5.0, 0.0, 10.0], [6.0, 0.0, 10.0]]);
     assert!(reading.findings.iter().any(|f| {
         f.message
-            == "the program gives coordinates to the place where it begins: the setup is taken to have that zero"
+            == "the program gives coordinates to a place that it has not set: the setup is taken to have that zero"
     }));
     // No feed move starts at a place that is not known.
     assert!(reading.findings.iter().all(|f| f.code.to_string() != "KC0529"));
@@ -218,4 +218,15 @@ fn a_wrong_first_move_behind_a_switch_is_said_where_it_is() {
         "{error}"
     );
     assert!(error.contains("it is switched in line 4"), "{error}");
+}
+
+#[test]
+fn a_length_is_called_for_the_tool_that_is_in_the_spindle() {
+    let reading = read("G21 G54 G43 H4\nG0 X1 Y2 Z3\nG49\nG0 Z5\nM2\n", LinuxCnc).unwrap();
+    let call = |register| ControlData::LengthCall { register };
+    assert!(has(&reading, call(Some(4))) && has(&reading, call(None)));
+    let (text, second) = again(&reading, LinuxCnc);
+    assert!(text.contains("G43 H4\n") && text.contains("\nG49\nG0 Z5"), "{text}");
+    assert_eq!(in_work(&second), in_work(&reading));
+    assert!(again(&reading, Fanuc).0.contains("G43 H4"));
 }

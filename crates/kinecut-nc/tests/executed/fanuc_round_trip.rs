@@ -1,4 +1,4 @@
-//! What is read of a FANUC program is written for a FANUC and read again: the same path, and the same text from then on.
+//! A FANUC program that is read is written for a FANUC and read again: the same path, and the same text from then on.
 
 use crate::read;
 use kinecut_nc::nc::Control::Fanuc;

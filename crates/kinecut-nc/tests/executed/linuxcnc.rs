@@ -275,3 +275,17 @@ fn a_file_beside_calls_what_the_program_holds() {
     assert!(found.message.ends_with("line 2 of row.ngc"), "{found}");
     assert_eq!(found.place.as_ref().unwrap().file, "row.ngc");
 }
+
+#[test]
+fn a_name_is_made_as_soon_as_its_block_names_it() {
+    // The interpreter has `#<a>` with 0 while it reads the value, so that EXISTS is 1, and 0 is what the same block reads of it.
+    assert_eq!(run("#<a>=[5+EXISTS[#<a>]]\nX#<a>", LinuxCnc), ["R 6 0 0"]);
+    assert_eq!(run("#<b>=3 #<c>=#<b> X#<b>\nX#<b> Y#<c>", LinuxCnc), ["R 0 0 0", "R 3 0 0"]);
+    assert!(refused("#<c>=#<b> #<b>=3", LinuxCnc).contains("`#<b>` has no value"));
+}
+
+#[test]
+fn m98_shares_numbers_and_has_names_of_its_own() {
+    let body = "#<a>=1 #1=2\nM98 P7 L2\nX#1 Y#<a>\nM2\nO7\nX[10*EXISTS[#<a>]+#1]\n#<a>=5 #1=[#1+1]\nM99";
+    assert_eq!(run(body, LinuxCnc), ["R 2 0 0", "R 3 0 0", "R 4 1 0"]);
+}

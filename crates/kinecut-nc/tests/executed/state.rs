@@ -1,11 +1,13 @@
 //! Saved states and places, probes, codes of the machine, splines with knots, and what begins at a height that is not known.
 
 use crate::{moves, read, refused, run};
-use kinecut_nc::base::Sources;
+use kinecut_nc::base::{Severity, Sources};
+use kinecut_nc::geom::Rigid;
 use kinecut_nc::machine::{CodeEffect, OwnCode};
 use kinecut_nc::nc::Control::{Fanuc, Grbl, LinuxCnc};
 use kinecut_nc::nc::{self, PostSettings, ReadSettings, Reading};
-use kinecut_nc::program::{ControlData, Item, Path, Tcp};
+use kinecut_nc::program::{ControlData, Item, Path, Setup, Tcp, WorkOffset};
+use kinecut_nc::trace::{CompStart, RegisterState, TraceOptions, trace};
 
 fn written(reading: &Reading) -> Result<String, String> {
     let settings = PostSettings { decimals: 6, ..PostSettings::new(LinuxCnc) };
@@ -37,6 +39,11 @@ fn a_place_is_stored_for_the_reference_move() {
         run("X1 Y2 Z3\nG28.1\nX9 Y9 Z9\nG28 Z7\nG30.1\nX0\nG30 X5", LinuxCnc),
         ["R 1 2 3", "R 9 9 9", "R 9 9 7", "R 9 9 3", "R 0 9 3", "R 5 9 3", "R 9 9 3"]
     );
+    // A shift moves no axis: the place has other coordinates then.
+    assert_eq!(
+        run("X1 Y2 Z3\nG28.1\nG52 X10\nX0\nG28 X5", LinuxCnc),
+        ["R 1 2 3", "R 0 2 3", "R 5 2 3", "R -9 2 3"]
+    );
     // Known in the machine: the move is one of its axes.
     let reading =
         read("G21\nG10 L2 P1 X10 Y20 Z30\nG53 G0 X11 Y22 Z33\nG28.1\nG0 X5 Y5 Z5\nG28\nM2\n", LinuxCnc);
@@ -54,7 +61,8 @@ fn a_probe_ends_nobody_knows_where() {
     let probe = ControlData::Probe { kind: 2, place: [None, None, Some(-20.0)] };
     assert!((0..items.len()).any(|i| items.get(i) == Item::Data(probe)));
     assert!(written(&reading).unwrap().contains("F100 G38.2 Z-20"));
-    assert!(reading.findings.iter().any(|f| f.message.starts_with("a probe stops where it touches")));
+    let said = reading.findings.iter().find(|f| f.message.starts_with("a probe stops where it touches"));
+    assert_eq!(said.map(|f| f.severity), Some(Severity::Doubt));
     assert_eq!(run("G38.3 Z-1 F10\nG0 Z5", Grbl), ["R 0 0 5"]);
     assert!(refused("G38.2 F1", LinuxCnc).contains("a probe without an axis"));
     assert!(refused("G38.2 Z-1", LinuxCnc).contains("without a feed"));
@@ -81,6 +89,15 @@ fn a_machine_has_codes_of_its_own() {
     let reading = nc::read_source(&sources, file, LinuxCnc, &[], &settings).unwrap();
     assert_eq!(reading.program.state(0).tcp, Tcp::Axes);
     assert!(read(text, LinuxCnc).unwrap_err().contains("`M428` is not understood"));
+    for own in ["G1", "M3", "G54", "G10"] {
+        let codes = vec![OwnCode::parse(own, CodeEffect::NoMotion).unwrap()];
+        let settings = ReadSettings { codes, ..ReadSettings::default() };
+        let error = nc::read_source(&sources, file, LinuxCnc, &[], &settings).unwrap_err().to_string();
+        assert!(
+            error.contains(&format!("gives `{own}` an effect, and the language of its control has it")),
+            "{error}"
+        );
+    }
 }
 
 #[test]
@@ -122,6 +139,12 @@ fn a_cycle_begins_at_a_height_that_is_not_known() {
             "H 2 -5 2", "R 40 1 2", "H 2 -5 2"
         ]
     );
+    let said = "a cycle returns to a height that the program has not set: the ways between its holes are not followed";
+    let said: Vec<_> = reading.findings.iter().filter(|f| f.message == said).collect();
+    assert_eq!((said.len(), said[0].severity), (1, Severity::Doubt));
+    // Down to R and out to R, all but the first way is known.
+    let known = read(&text.replace("G98", "G99"), Fanuc).unwrap();
+    assert!(known.findings.iter().all(|f| f.severity != Severity::Doubt), "{:?}", known.findings);
     let error = written(&reading).unwrap_err();
     assert!(error.contains("a cycle returns to a height that the program has not set"), "{error}");
     let increment = read("G21 G54 G0 X0. Y0.\nG91 G81 Z-5. R-2. F100.\nM30\n", Fanuc).unwrap_err();
@@ -135,4 +158,43 @@ fn a_helix_begins_at_a_height_that_is_not_known() {
     assert!(reading.findings.iter().any(|f| f.code.to_string() == "KC0529" && f.message.ends_with("line 2")));
     let increment = read("G21 G54 G0 X-1 Y0\nG91 G2 X2 Z1 R1 F100\nM2\n", LinuxCnc).unwrap_err();
     assert!(increment.contains("the program has not set Z"), "{increment}");
+}
+
+#[test]
+fn a_helix_is_followed_where_the_machine_is_known_to_stand() {
+    // Another work offset leaves the tip where it was; the text alone does not tell that height any more.
+    let text = "G21 G17 G54 G0 X-1 Y0 Z5\nG55 G0 X-1 Y0\nG2 X1 Y0 Z1 R1 F100\nM2\n";
+    let offsets = [WorkOffset::G54, WorkOffset::parse("G55").unwrap()];
+    let setup = Setup {
+        name: "setup 1".to_owned(),
+        part_on_table: Rigid::IDENTITY,
+        work_offsets: offsets.map(|offset| (offset, Rigid::IDENTITY)).into(),
+        located: false,
+        stock: None,
+        fixtures: Vec::new(),
+    };
+    let reading = nc::read(&mut Sources::default(), "a.ngc", text, LinuxCnc, &[setup]).unwrap();
+    let options = TraceOptions {
+        machine: None,
+        tools: &[],
+        retract_height: 0.0,
+        radii: &[],
+        operator: RegisterState::default(),
+        comp_start: CompStart::default(),
+        chord: 1e-3,
+    };
+    let trace = trace(&reading.program, &options).unwrap();
+    let helix = &trace.segments.last().unwrap().curve;
+    assert!((helix.start().z - 5.0).abs() < 1e-12 && (helix.end().z - 1.0).abs() < 1e-12, "{helix:?}");
+    // Half a turn of radius 1, down by 4.
+    assert!((helix.length() - std::f64::consts::PI.hypot(4.0)).abs() < 1e-9, "{}", helix.length());
+}
+
+#[test]
+fn an_exchange_of_pallets_stays_one_and_is_not_proven_beyond() {
+    let reading = read("G21 G54 G0 X1 Y2 Z3\nM60\nX2\nM2\n", LinuxCnc).unwrap();
+    assert!(written(&reading).unwrap().contains("\nM60\n"));
+    assert!(reading.findings.iter().any(|f| f.severity == Severity::Doubt && f.message.contains("M60")));
+    let other = nc::write(&reading.program, &[], &PostSettings::new(Fanuc)).unwrap_err().to_string();
+    assert!(other.contains("an exchange of pallets (M60) is not written"), "{other}");
 }

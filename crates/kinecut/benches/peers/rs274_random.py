@@ -40,7 +40,7 @@ def options():
     ask.add_argument("--oracle", default=os.environ.get("RS274_ROOT"), help="folder with the unpacked packages; default: $RS274_ROOT")
     ask.add_argument("--features", default="all", help="groups with commas between them; `all` and then -group leaves groups out")
     ask.add_argument("--jobs", type=int, default=1, help="processes")
-    ask.add_argument("--keep", type=pathlib.Path, default=pathlib.Path("rs274_failing"), help="folder for failing programs")
+    ask.add_argument("--keep", type=pathlib.Path, default=pathlib.Path("out/rs274_failing"), help="folder for failing programs")
     ask.add_argument("--shrink", type=int, default=0, help="how many failing programs, each of another kind, are made short")
     ask.add_argument("--tolerance", type=float, default=1e-4, help="of places, mm")
     ask.add_argument("--path-mode", action="store_true", help="count other G61 and G64 as a failure")

@@ -125,9 +125,7 @@ pub fn program_sheet(given: &GivenJob) -> Result<ProgramSheet> {
         feed_moves: sums.feed_moves,
         rapid_moves: sums.rapid_moves,
         cycles: few().filter(|item| matches!(item, Item::Cycle(..))).count(),
-        stops: few()
-            .filter(|item| matches!(item, Item::Stop(StopKind::Program | StopKind::Optional)))
-            .count(),
+        stops: few().filter(|item| matches!(item, Item::Stop(kind) if *kind != StopKind::End)).count(),
         tools: tools(read),
         offsets: offsets(read),
         range: sums.range.map(|all| [all.min.to_array(), all.max.to_array()]),

@@ -9,7 +9,7 @@ use crate::nc::arc_spiral::{APPARENT, spiral};
 use crate::nc::dialect::{AXES, Mismatch, OFFSETS, Plane};
 use crate::program::{Comp, Path};
 
-use super::lex::Word;
+use super::block::Word;
 use super::place::Bytes;
 use super::reader::{Reader, Value, take};
 

@@ -13,7 +13,7 @@ use crate::base::Result;
 use crate::nc::dialect::{AXES, Code, Plane};
 use crate::nc::turn;
 
-use super::lex::{Word, WordMode};
+use super::block::{Word, WordMode};
 use super::place::Bytes;
 use super::reader::{Reader, Value, take};
 

@@ -10,12 +10,12 @@
 //!
 //! Source: operator's manual of the 15i (`G76`, I J, Q), fixed cycles of the 9/Series (`G87`), pages of the Haas manual 96-8000.
 
-use crate::base::{Code, Finding, Result};
+use crate::base::Result;
 use crate::nc::dialect::{CycleKind, Plane, SeriesRule};
 use crate::program::{Between, Cycle, DeepHole, Path, Shortening, Speed, Spindle, StopKind};
 
+use super::block::Word;
 use super::hole::Hole;
-use super::lex::Word;
 use super::reader::{Reader, take};
 use super::sticky::Sticky;
 
@@ -121,11 +121,7 @@ impl<'s> Reader<'s> {
                 let message = format!(
                     "the direction of the step aside in a boring cycle is a parameter of the machine ({parameter}): {axis}+ is assumed"
                 );
-                if self.findings.iter().all(|f| f.message != message) {
-                    let place = self.place.sources.locate(self.place.span(&here));
-                    let finding = Finding::doubt(Code::NC_ASSUMED, message).at(place);
-                    self.findings.push(finding.help("see that the tool is free on all sides"));
-                }
+                self.doubt(&here, &message, "see that the tool is free on all sides");
                 Ok(Some(Shift { by: [q, 0.0], at_feed: false }))
             }
             (None, None) => {
@@ -144,63 +140,52 @@ impl<'s> Reader<'s> {
         self.push_tip(at, Path::Line, if shift.at_feed { feed } else { rapid });
     }
 
-    /// The moves of `G76`, from above the hole.
-    pub(super) fn fine_bored(&mut self, hole: &Hole, shift: Shift) {
-        let rapid = Speed::Rapid { linear: self.dialect.straight_rapid };
-        let [reference, bottom, retract] = hole.cycle.heights();
-        let turning = self.modal.spindle;
+    /// Aside with the spindle at its angle, to a height in rapid, and back; the spindle turns again.
+    fn aside_to(&mut self, height: f64, shift: Shift, feed: Speed) {
+        let (turning, place) = (self.modal.spindle, self.modal.position);
+        self.modal.spindle = Spindle::Off;
+        self.step_aside(shift, false, feed);
+        self.go_to_height(height, Speed::Rapid { linear: self.dialect.straight_rapid });
+        self.step_aside(shift, true, feed);
+        self.placed_as(place);
+        self.modal.spindle = turning;
+    }
+
+    /// Down to R in rapid, to the bottom at feed, and the wait there.
+    fn bored_to_bottom(&mut self, hole: &Hole) {
+        let [reference, bottom, _] = hole.cycle.heights();
         if self.height() != reference {
-            self.go_to_height(reference, rapid);
+            self.go_to_height(reference, Speed::Rapid { linear: self.dialect.straight_rapid });
         }
         self.go_to_height(bottom, hole.speed);
         self.wait(hole.dwell);
-        self.modal.spindle = Spindle::Off;
-        let place = self.modal.position;
-        self.step_aside(shift, false, hole.speed);
-        self.go_to_height(retract, rapid);
-        self.step_aside(shift, true, hole.speed);
-        self.placed_as(place);
-        self.modal.spindle = turning;
+    }
+
+    /// The moves of `G76`, from above the hole.
+    pub(super) fn fine_bored(&mut self, hole: &Hole, shift: Shift) {
+        self.bored_to_bottom(hole);
+        self.aside_to(hole.cycle.heights()[2], shift, hole.speed);
     }
 
     /// The moves of `G87` of FANUC, from above the hole.
     pub(super) fn back_bored(&mut self, hole: &Hole, shift: Shift) {
-        let rapid = Speed::Rapid { linear: self.dialect.straight_rapid };
         let [reference, bottom, retract] = hole.cycle.heights();
-        let turning = self.modal.spindle;
-        let place = self.modal.position;
-        self.modal.spindle = Spindle::Off;
-        self.step_aside(shift, false, hole.speed);
-        self.go_to_height(reference, rapid);
-        self.step_aside(shift, true, hole.speed);
-        self.placed_as(place);
-        self.modal.spindle = turning;
+        self.aside_to(reference, shift, hole.speed);
         self.go_to_height(bottom, hole.speed);
         self.wait(hole.dwell);
-        self.modal.spindle = Spindle::Off;
-        self.step_aside(shift, false, hole.speed);
-        self.go_to_height(retract, rapid);
-        self.step_aside(shift, true, hole.speed);
-        self.placed_as(place);
-        self.modal.spindle = turning;
+        self.aside_to(retract, shift, hole.speed);
     }
 
     /// The moves of `G88`, and of `G87` of Haas, from above the hole: the operator takes the tool out.
     pub(super) fn left_by_hand(&mut self, hole: &Hole) {
-        let rapid = Speed::Rapid { linear: self.dialect.straight_rapid };
-        let [reference, bottom, retract] = hole.cycle.heights();
         let turning = self.modal.spindle;
-        if self.height() != reference {
-            self.go_to_height(reference, rapid);
-        }
-        self.go_to_height(bottom, hole.speed);
-        self.wait(hole.dwell);
+        self.bored_to_bottom(hole);
         self.modal.spindle = Spindle::Off;
         self.push_stop(StopKind::Program);
         let message = "the tool leaves the hole by hand after a boring cycle stops: a rapid out is assumed";
         let here = self.here.clone();
         self.warn(&here, message);
-        self.go_to_height(retract, rapid);
+        self.go_to_height(hole.cycle.heights()[2], Speed::Rapid { linear: self.dialect.straight_rapid });
         self.modal.spindle = turning;
     }
 

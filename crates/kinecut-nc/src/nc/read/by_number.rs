@@ -7,7 +7,7 @@ use crate::base::Result;
 use crate::nc::dialect::AXES;
 use crate::program::{ControlData, OWN_REGISTERS};
 
-use super::lex::Word;
+use super::block::Word;
 use super::place::Bytes;
 use super::reader::{Reader, take};
 

@@ -9,7 +9,7 @@ use crate::nc::dialect::Plane;
 use crate::nc::sinumerik::{cycle, swivel};
 use crate::program::{Cycle, Item, Speed, State, Tapping, Tcp};
 
-use super::lex::Call;
+use super::block::Call;
 use super::reader::{Kind, Reader};
 
 impl<'s> Reader<'s> {

@@ -5,8 +5,8 @@ use crate::nc::dialect::{Code, FlowWords};
 use crate::nc::fanuc::arguments::Arguments;
 use crate::nc::run::Level;
 
+use super::block::Word;
 use super::jump::Jump;
-use super::lex::Word;
 use super::place::Bytes;
 use super::reader::{Reader, take};
 

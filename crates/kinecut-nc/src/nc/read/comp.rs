@@ -10,7 +10,7 @@ use crate::base::{Code as FindingCode, Finding, Result};
 use crate::nc::dialect::{AXES, Code, CompWord, Plane};
 use crate::program::{Comp, Item, Move, Path, Target, Tcp};
 
-use super::lex::Word;
+use super::block::Word;
 use super::place::Bytes;
 use super::reader::{Reader, take};
 

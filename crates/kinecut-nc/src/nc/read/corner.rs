@@ -18,7 +18,8 @@ use crate::nc::corner_fit::{Joint, Leg, joined};
 use crate::nc::dialect::{Code, FlowWords, Plane};
 use crate::program::{Item, Move, Origin, Path, Speed, Target, Tcp, ToolAxis};
 
-use super::lex::{Block, Lexer, Word, range};
+use super::block::{Block, Word};
+use super::lex::{Lexer, range};
 use super::place::Bytes;
 use super::reader::{Reader, take};
 

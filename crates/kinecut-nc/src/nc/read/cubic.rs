@@ -12,7 +12,7 @@ use crate::geom::CubicSpan;
 use crate::nc::dialect::{Code, OFFSETS, Plane};
 use crate::program::{Comp, Path};
 
-use super::lex::Word;
+use super::block::Word;
 use super::reader::{Reader, take};
 
 /// Biarcs of equal steps of the parameter as which the control runs a cubic (its `NURBS_FEED`: four to a control point).

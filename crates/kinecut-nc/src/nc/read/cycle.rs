@@ -16,8 +16,8 @@ use crate::nc::dialect::{AXES, CycleKind, Plane, SeriesRule};
 use crate::nc::native::Native;
 use crate::program::{Cycle, Speed, Tapping, Tcp};
 
+use super::block::{Word, WordMode};
 use super::hole::Hole;
-use super::lex::{Word, WordMode};
 use super::reader::{Reader, Value, take, take_way};
 
 /// Said of the cycles whose short distance a program does not know.
@@ -174,6 +174,10 @@ impl<'s> Reader<'s> {
         // A height that is not known stays so.
         let higher = begun > reference || begun.is_nan();
         let retract = if self.modal.return_to_start && higher { begun } else { reference };
+        if retract.is_nan() {
+            let message = "a cycle returns to a height that the program has not set: the ways between its holes are not followed";
+            self.doubt(&here, message, "move Z to a height before the cycle");
+        }
         self.repeated.add(&REPEATS, f64::from(repeats - 1)).map_err(|e| self.place.located(&here, e))?;
         let cycle = match kind {
             CycleKind::Drill | CycleKind::DrillDwell => Cycle::Drill { reference, bottom, retract, dwell },

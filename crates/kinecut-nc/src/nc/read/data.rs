@@ -7,19 +7,19 @@
 //!   FANUC sets the work offsets beyond G59 by `L20 P`.
 //! - `L20 P` (LinuxCNC, GRBL): the zero is put where the present place gets the coordinates that are said.
 //! - `L1 P` (LinuxCNC), `L10 P` and `L12 P` (FANUC): length and radius in the tool table. A radius counts from there on; the first length
-//!   is taken to be that of the tool, another one later is refused, and so are lengths that the control finds from the present place.
+//!   is what the register holds, another one later is refused, and so are lengths that the control finds from the present place.
 //!
 //! Once the zero of a work offset is known in the machine, so is the place behind a move in machine coordinates, and the
 //! place in another work offset whose zero is known.
 
 use glam::DVec3;
 
-use crate::base::{Code as FindingCode, Finding, Result};
+use crate::base::Result;
 use crate::nc::dialect::{AXES, FlowWords, TurnWord};
 use crate::nc::multi_axis::ROTARY;
 use crate::program::{ControlData, Item, Program, Speed, WorkOffset, moved};
 
-use super::lex::Word;
+use super::block::Word;
 use super::place::Bytes;
 use super::reader::{Kind, Reader, Value, take};
 use super::zeros::vector;
@@ -198,10 +198,6 @@ impl<'s> Reader<'s> {
             None => {
                 self.lengths_set.push((register, length));
                 self.data(ControlData::Length { register, length });
-                self.assume(
-                    bytes,
-                    "the program sets the length of a tool (G10): it is taken to be that of the tool",
-                );
                 Ok(())
             }
         }
@@ -253,15 +249,6 @@ impl<'s> Reader<'s> {
     pub(super) fn data(&mut self, data: ControlData) {
         self.flush(Kind::Other);
         self.program.push_data(data, &self.state(Speed::Rapid { linear: false }), self.origin);
-    }
-
-    /// Says what is assumed, once.
-    pub(super) fn assume(&mut self, bytes: &Bytes, message: &str) {
-        if self.findings.iter().all(|f| f.message != message) {
-            let place = self.place.sources.locate(self.place.span(bytes));
-            let finding = Finding::warning(FindingCode::NC_ASSUMED, message).at(place);
-            self.findings.push(finding.help("compare it with the setup"));
-        }
     }
 
     /// Machine coordinates of the place, where the zero of the work offset in force is known there [mm].

@@ -7,7 +7,7 @@ use crate::base::{Code as FindingCode, Finding, Result};
 use crate::nc::dialect::{AXES, Code};
 use crate::program::{Coolant, SetupId, Speed, Spindle, StopKind, Tcp, ToolNumber, WorkOffset};
 
-use super::lex::Word;
+use super::block::Word;
 use super::modal::FeedMode;
 use super::place::Bytes;
 use super::reader::{Kind, Reader, take};
@@ -75,7 +75,11 @@ impl<'s> Reader<'s> {
         self.motion_and_corner(words, machine)?;
         self.check_compensation(&before)?;
         self.jumping(words)?;
-        if let Some((Code::Stop(kind), _)) = self.code(|c| matches!(c, Code::Stop(_))) {
+        if let Some((Code::Stop(kind), bytes)) = self.code(|c| matches!(c, Code::Stop(_))) {
+            if kind == StopKind::Pallet {
+                let message = "the pallets are exchanged (M60): from here on another part may lie there";
+                self.doubt(&bytes, message, "write the program of each part by itself");
+            }
             if kind == StopKind::End {
                 self.modal.spindle = Spindle::Off;
                 self.modal.coolant = Coolant::Off;

@@ -6,7 +6,7 @@ use crate::base::Result;
 use crate::nc::dialect::{Code, FlowWords};
 use crate::program::WorkOffset;
 
-use super::lex::Word;
+use super::block::Word;
 use super::reader::{Reader, take};
 
 /// Codes times ten of the first twenty further work offsets of a Haas.

@@ -9,7 +9,7 @@ use glam::DVec2;
 use crate::base::Result;
 use crate::nc::dialect::AXES;
 
-use super::lex::Word;
+use super::block::Word;
 use super::nurbs::{LARGEST_ORDER, Nurbs};
 use super::place::Bytes;
 use super::reader::{Reader, take};

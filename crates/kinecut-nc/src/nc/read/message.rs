@@ -4,7 +4,7 @@
 
 use crate::program::{Origin, Speed};
 
-use super::lex::Block;
+use super::block::Block;
 use super::place::Bytes;
 use super::reader::{Kind, Reader};
 

@@ -11,6 +11,7 @@
 //! stay at the height that is not known.
 
 mod arc;
+mod block;
 pub(super) mod bolt_holes;
 mod boring;
 mod by_number;
@@ -28,6 +29,7 @@ mod hole;
 mod jump;
 mod knots;
 mod lex;
+mod long_words;
 mod message;
 mod modal;
 mod modal_macro;
@@ -65,7 +67,8 @@ use crate::base::{Code, FileId, Finding, Result, Sources, Span};
 use crate::program::{Item, Program, Setup, Tcp};
 
 use super::Control;
-use lex::{Block, Lexer};
+use block::Block;
+use lex::Lexer;
 use place::SourceText;
 use points::Points;
 use reader::Reader;
@@ -91,6 +94,8 @@ pub struct Reading {
     pub errors: Vec<Finding>,
     /// Radius registers that the program itself sets: number and radius [mm].
     pub radii: Vec<(u32, f64)>,
+    /// Length registers that the program itself sets: number and length [mm].
+    pub lengths: Vec<(u32, f64)>,
 }
 
 /// Reads a program. The text is added to `sources` under `name`; `setups` are the clampings it runs on: a work
@@ -153,6 +158,7 @@ pub fn read_source(
     let mut reader = Reader::new(place, dialect, setups);
     reader.points = Points::of(text, dialect, settings.input);
     reader.own_codes = settings.codes.clone();
+    reader.check_own_codes()?;
     // Nearly every line of a long program is a move.
     let end = text.len() as u32;
     reader.program.items.reserve(sources.line(Span { file, start: end, end }) as usize);

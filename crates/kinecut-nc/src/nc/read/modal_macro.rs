@@ -14,7 +14,7 @@ use crate::base::{Code as FindingCode, Finding, Result};
 use crate::nc::run::{Level, Value};
 use crate::program::Item;
 
-use super::lex::Word;
+use super::block::Word;
 use super::place::Bytes;
 use super::reader::Reader;
 use super::run::Run;
@@ -23,7 +23,7 @@ use super::run::Run;
 #[derive(Clone, Debug, Default)]
 pub(super) struct ModalMacros {
     all: Vec<ModalMacro>,
-    /// How many of them a move calls here: all, or within one of them those before it.
+    /// Number of them that a move calls here: all, or within one of them those before it.
     pub(super) reach: usize,
     /// Whether a macro with variables of its own runs.
     pub(super) in_macro: bool,

@@ -4,7 +4,7 @@ use crate::base::{Code as FindingCode, Finding, Result};
 use crate::nc::dialect::Code;
 use crate::nc::modes::Mode;
 
-use super::lex::Word;
+use super::block::Word;
 use super::place::Bytes;
 use super::reader::{Reader, take};
 
@@ -53,10 +53,7 @@ impl<'s> Reader<'s> {
             let message = format!(
                 "`{said}`: the control lays curves through the lines that follow, within parameters of the machine: the lines are followed"
             );
-            if self.findings.iter().all(|f| f.message != message) {
-                let place = self.place.sources.locate(self.place.span(&bytes));
-                self.findings.push(Finding::doubt(FindingCode::NC_ASSUMED, message).at(place));
-            }
+            self.doubt(&bytes, &message, "write the curves as arcs where they matter");
         }
         Ok(())
     }

@@ -6,7 +6,7 @@ use crate::base::{Code as FindingCode, Result};
 use crate::nc::dialect::{AXES, Code, OFFSETS, SeriesRule, TurnWord};
 use crate::program::{Comp, Move, Path, Speed, Target, Tcp};
 
-use super::lex::{Word, WordMode};
+use super::block::{Word, WordMode};
 use super::modal::FeedMode;
 use super::place::Bytes;
 use super::reader::{Kind, Reader, take, take_way};

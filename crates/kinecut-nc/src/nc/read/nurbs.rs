@@ -14,7 +14,7 @@ use crate::geom::CubicSpan;
 use crate::nc::dialect::{AXES, Code, OFFSETS, Plane};
 use crate::program::{Comp, Path, Speed};
 
-use super::lex::Word;
+use super::block::Word;
 use super::place::Bytes;
 use super::reader::{Reader, take};
 

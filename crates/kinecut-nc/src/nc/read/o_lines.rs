@@ -6,7 +6,8 @@ use crate::base::{Finding, Result};
 use crate::nc::linuxcnc::o_word::{self, OLine, OLines, OWord};
 use crate::nc::run::{Expression, Level};
 
-use super::lex::{Block, range};
+use super::block::Block;
+use super::lex::range;
 use super::place::Bytes;
 use super::run::{Run, Turns, nothing_else};
 

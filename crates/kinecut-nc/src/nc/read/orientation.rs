@@ -4,7 +4,7 @@ use crate::base::Result;
 use crate::nc::dialect::Code;
 use crate::program::{ControlData, Spindle};
 
-use super::lex::Word;
+use super::block::Word;
 use super::reader::{Reader, Value, take};
 
 impl<'s> Reader<'s> {

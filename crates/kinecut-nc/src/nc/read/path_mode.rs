@@ -8,7 +8,7 @@ use crate::base::{Code as FindingCode, Finding, Result};
 use crate::nc::dialect::Code;
 use crate::program::Blend;
 
-use super::lex::Word;
+use super::block::Word;
 use super::reader::{Reader, Value, take};
 
 impl<'s> Reader<'s> {

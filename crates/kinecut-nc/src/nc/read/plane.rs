@@ -17,7 +17,7 @@ use crate::nc::sinumerik::swivel;
 use crate::nc::tilt::{self, XYZ, ZXZ};
 use crate::program::{Comp, Frame, FrameId, Move, Path, RotarySolution, Speed, Target, Tcp, WorkOffset};
 
-use super::lex::{Call, Word};
+use super::block::{Call, Word};
 use super::place::Bytes;
 use super::reader::{Kind, Reader, take};
 use super::rotary_state::Along;

@@ -4,7 +4,7 @@ use crate::base::{Code as FindingCode, Finding, Result};
 use crate::nc::NumberInput;
 use crate::nc::dialect::{Code, Dialect};
 
-use super::lex::Word;
+use super::block::Word;
 use super::modal::FeedMode;
 use super::reader::Reader;
 

@@ -7,7 +7,7 @@
 use crate::base::Result;
 use crate::nc::dialect::{AXES, Code};
 
-use super::lex::{Word, WordMode};
+use super::block::{Word, WordMode};
 use super::reader::Reader;
 
 /// Polar coordinates in force; mm, degrees.

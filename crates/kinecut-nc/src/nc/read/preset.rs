@@ -13,7 +13,7 @@ use crate::geom::Rigid;
 use crate::nc::dialect::{AXES, Code};
 use crate::program::{ControlData, WorkOffset};
 
-use super::lex::Word;
+use super::block::Word;
 use super::place::Bytes;
 use super::reader::Reader;
 
@@ -88,7 +88,7 @@ impl<'s> Reader<'s> {
             self.modal.turned.given[axis] = offset.is_none();
         }
         self.data(ControlData::Here { offset, place });
-        self.assume(bytes, "the program gives coordinates to the place where it begins: the setup is taken to have that zero");
+        self.assume(bytes, "the program gives coordinates to a place that it has not set: the setup is taken to have that zero");
         Ok(())
     }
 }

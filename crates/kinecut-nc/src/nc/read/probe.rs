@@ -8,7 +8,7 @@ use crate::geom::Rigid;
 use crate::nc::dialect::Code;
 use crate::program::{Comp, ControlData};
 
-use super::lex::Word;
+use super::block::Word;
 use super::reader::{Kind, Reader};
 
 impl<'s> Reader<'s> {
@@ -37,9 +37,11 @@ impl<'s> Reader<'s> {
             self.modal.position[axis] = None;
         }
         self.modal.tool_item = None;
-        let message =
-            "a probe stops where it touches: its way is not followed, and the place behind it is not known";
-        self.assume(&bytes, message);
+        self.doubt(
+            &bytes,
+            "a probe stops where it touches: its way is not followed, and the place behind it is not known",
+            "prove the rest from a known place behind it",
+        );
         Ok(())
     }
 }

@@ -7,12 +7,12 @@ use crate::machine::{CodeEffect, OwnCode};
 use crate::nc::dialect::{AXES, COMMON_G, COMMON_M, Code, Dialect, FlowWords, Mismatch, TurnWord};
 use crate::nc::multi_axis::ROTARY;
 use crate::nc::run::Variables;
-use crate::program::{Comp, Frame, Origin, OriginId, Program, Setup, Speed, State, WorkOffset};
+use crate::program::{Comp, ControlData, Frame, Origin, OriginId, Program, Setup, Speed, State, WorkOffset};
 
 use super::Reading;
+use super::block::{Block, Word, WordMode};
 use super::corner::Corner;
 use super::jump::Jump;
-use super::lex::{Block, Word, WordMode};
 use super::modal::Modal;
 use super::modal_macro::ModalMacros;
 use super::nurbs::Nurbs;
@@ -77,7 +77,7 @@ pub(super) struct Reader<'s> {
     pub(super) stored_shift: glam::DVec3,
     /// Radius registers that the program sets [mm].
     pub(super) radii: Vec<(u32, f64)>,
-    /// Lengths of tools that the program sets [mm].
+    /// Lengths of tools that the program sets: register and length [mm].
     pub(super) lengths_set: Vec<(u32, f64)>,
     /// Modal states that were saved (`M70`, `M73`).
     pub(super) saved: Vec<Saved>,
@@ -194,6 +194,7 @@ impl<'s> Reader<'s> {
             involute_difference: self.involute_difference,
             errors: Vec::new(),
             radii: self.radii,
+            lengths: self.lengths_set,
         })
     }
 
@@ -241,6 +242,23 @@ impl<'s> Reader<'s> {
         if self.findings.iter().all(|f| f.message != message) {
             let place = self.place.sources.locate(self.place.span(&self.here));
             self.findings.push(Finding::note(FindingCode::NC_STATE, message).at(place));
+        }
+    }
+
+    /// Says what cannot be proven, once.
+    pub(super) fn doubt(&mut self, bytes: &Bytes, message: &str, help: &str) {
+        if self.findings.iter().all(|f| f.message != message) {
+            let place = self.place.sources.locate(self.place.span(bytes));
+            self.findings.push(Finding::doubt(FindingCode::NC_ASSUMED, message).at(place).help(help));
+        }
+    }
+
+    /// Says what is assumed, once.
+    pub(super) fn assume(&mut self, bytes: &Bytes, message: &str) {
+        if self.findings.iter().all(|f| f.message != message) {
+            let place = self.place.sources.locate(self.place.span(bytes));
+            let finding = Finding::warning(FindingCode::NC_ASSUMED, message).at(place);
+            self.findings.push(finding.help("compare it with the setup"));
         }
     }
 
@@ -438,9 +456,33 @@ impl<'s> Reader<'s> {
 
     fn g_code(&self, value: f64) -> Option<Code> {
         let tenths = whole(value * 10.0)?;
-        if let Some(own) = self.own_code('G', tenths) {
-            return Some(own);
+        self.g_code_of_language(tenths).or_else(|| self.own_code('G', tenths))
+    }
+
+    fn m_code(&self, value: f64) -> Option<Code> {
+        let number = whole(value)?;
+        self.m_code_of_language(number).or_else(|| self.own_code('M', number.saturating_mul(10)))
+    }
+
+    /// Refuses codes of the machine that the language has: their meaning there would be lost.
+    pub(super) fn check_own_codes(&self) -> Result<()> {
+        let known = |c: &&OwnCode| match c.letter {
+            'G' => self.g_code_of_language(c.tenths).is_some(),
+            _ => self.m_code_of_language(c.tenths / 10).is_some(),
+        };
+        match self.own_codes.iter().find(known) {
+            Some(code) => {
+                let message =
+                    format!("the machine gives `{code}` an effect, and the language of its control has it");
+                Err(Finding::error(FindingCode::MACHINE_AXIS, message)
+                    .help("leave it out of `codes` of the machine")
+                    .into())
+            }
+            None => Ok(()),
         }
+    }
+
+    fn g_code_of_language(&self, tenths: u32) -> Option<Code> {
         let find = |table: &[(u32, Code)]| {
             let found = table.iter().find(|(t, _)| *t == tenths).map(|(_, c)| *c);
             found.filter(|c| *c != Code::FeedPerRevolution || self.dialect.per_revolution)
@@ -462,11 +504,7 @@ impl<'s> Reader<'s> {
         })
     }
 
-    fn m_code(&self, value: f64) -> Option<Code> {
-        let number = whole(value)?;
-        if let Some(own) = self.own_code('M', number.saturating_mul(10)) {
-            return Some(own);
-        }
+    fn m_code_of_language(&self, number: u32) -> Option<Code> {
         let found = COMMON_M.iter().chain(self.dialect.m_codes).find(|(m, _)| *m == number).map(|(_, c)| *c);
         found.filter(|c| match c {
             Code::ToolChange => !self.dialect.hand_change(),
@@ -496,9 +534,16 @@ impl<'s> Reader<'s> {
     /// Adds a tool item, if the state in force is not that of the last one.
     pub(super) fn flush(&mut self, kind: Kind) {
         let (tool, told) = (self.modal.tool, self.modal.told);
-        let Some(id) = tool.id else { return };
         let hidden = self.modal.length_hidden || self.modal.rotary_axes.lapsed;
         let length_told = tool.length == told.length || hidden && kind == Kind::Other;
+        let Some(id) = tool.id else {
+            if !length_told {
+                self.modal.told.length = tool.length;
+                let data = ControlData::LengthCall { register: tool.length };
+                self.program.push_data(data, &self.state(Speed::Rapid { linear: false }), self.origin);
+            }
+            return;
+        };
         if told.id == Some(id) && length_told {
             return;
         }

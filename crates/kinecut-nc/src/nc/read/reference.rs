@@ -7,12 +7,12 @@
 
 use glam::DVec3;
 
-use crate::base::{Code as FindingCode, Finding, Result};
+use crate::base::Result;
 use crate::nc::dialect::{AXES, Code};
 use crate::nc::multi_axis::ROTARY;
 use crate::program::{Move, Path, Speed, Target, Tcp, ToolAxis};
 
-use super::lex::Word;
+use super::block::Word;
 use super::place::Bytes;
 use super::reader::{Kind, Reader, take, take_way};
 
@@ -123,10 +123,6 @@ impl<'s> Reader<'s> {
         let message = format!(
             "the place of reference point {point} (G30) is a parameter of the machine ({parameter}): machine zero is assumed"
         );
-        if self.findings.iter().all(|f| f.message != message) {
-            let place = self.place.sources.locate(self.place.span(bytes));
-            let finding = Finding::doubt(FindingCode::NC_ASSUMED, message).at(place);
-            self.findings.push(finding.help("see that the way there is free"));
-        }
+        self.doubt(bytes, &message, "see that the way there is free");
     }
 }

@@ -13,7 +13,7 @@ use crate::nc::dialect::{Code, OFFSETS};
 use crate::nc::multi_axis::{ROTARY, TcpWord};
 use crate::program::{Comp, Speed, Tcp, ToolAxis};
 
-use super::lex::{Word, WordMode};
+use super::block::{Word, WordMode};
 use super::place::Bytes;
 use super::reader::{Reader, take, take_way};
 use super::rotary_state::ZERO;

@@ -7,12 +7,13 @@ use crate::base::{Error, FileId, Finding, Result};
 use crate::nc::dialect::{Code, FlowWords};
 use crate::nc::fanuc::statement::{self, Places};
 use crate::nc::linuxcnc::o_word::{self, OLines};
-use crate::nc::run::{Budget, Level, Recurrence, mixed};
+use crate::nc::run::{Budget, Level, LocalNames, Recurrence, mixed};
 use crate::program::{Comp, Origin, OriginId, Spindle};
 
+use super::block::Block;
 use super::called::names_of;
 use super::jump::Jump;
-use super::lex::{Block, Lexer};
+use super::lex::Lexer;
 use super::place::{Bytes, SourceText};
 use super::reader::Reader;
 use super::{ReadSettings, Reading};
@@ -31,6 +32,8 @@ pub(super) struct Frame<'s> {
     pub(super) begin: (SourceText<'s>, usize),
     /// Local variables with which each further call begins, where they are not those that the one before has left.
     pub(super) arguments: Option<Level>,
+    /// Names of the caller, where the call has its own names and the caller's numbers (`M98` of LinuxCNC).
+    pub(super) names: Option<LocalNames>,
     /// The block that calls.
     pub(super) called: Bytes,
     pub(super) parent: Option<OriginId>,
@@ -334,6 +337,8 @@ impl<'s> Run<'s> {
         let deep = self.budget.call(self.frames.len());
         deep.map_err(|finding| located(finding, place, called.start as usize, called.end as usize))?;
         let level = arguments.clone().map(|own| self.reader.variables.enter(own));
+        let own_names = level.is_none() && self.reader.dialect.flow == FlowWords::OWords;
+        let names = own_names.then(|| self.reader.variables.enter_names(LocalNames::new()));
         let span = Some(place.span(&called));
         let origin = Origin { span, parent: self.reader.parent, ..Origin::default() };
         let parent = self.reader.parent.replace(self.reader.program.add_origin(origin));
@@ -342,7 +347,18 @@ impl<'s> Run<'s> {
         // A Haas begins each further call with what the one before has left.
         let arguments = arguments.filter(|_| !self.reader.dialect.haas);
         let (again, modal_macro) = (times - 1, None);
-        self.frames.push(Frame { back, level, loops, again, begin, arguments, called, parent, modal_macro });
+        self.frames.push(Frame {
+            back,
+            level,
+            loops,
+            again,
+            begin,
+            arguments,
+            names,
+            called,
+            parent,
+            modal_macro,
+        });
         self.go(begin);
         Ok(true)
     }
@@ -367,6 +383,9 @@ impl<'s> Run<'s> {
             if let Some(own) = frame.arguments.clone() {
                 self.reader.variables.enter(own);
             }
+            if frame.names.is_some() {
+                self.reader.variables.enter_names(LocalNames::new());
+            }
             self.loops.clear();
             self.go(begin);
             return self.came_back(bytes).map(|()| true);
@@ -374,6 +393,9 @@ impl<'s> Run<'s> {
         let Some(frame) = self.frames.pop() else { return Ok(false) };
         if let Some(level) = frame.level {
             self.reader.variables.enter(level);
+        }
+        if let Some(names) = frame.names {
+            self.reader.variables.enter_names(names);
         }
         if let Some(reach) = frame.modal_macro {
             self.reader.modal_macros.reach = reach;

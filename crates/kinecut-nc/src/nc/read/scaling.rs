@@ -22,7 +22,7 @@ use crate::nc::axis_map::AxisMap;
 use crate::nc::dialect::{AXES, Code};
 use crate::program::{Comp, Tcp};
 
-use super::lex::Word;
+use super::block::Word;
 use super::place::Bytes;
 use super::reader::{Reader, Value, take};
 
@@ -31,7 +31,7 @@ use super::reader::{Reader, Value, take};
 pub(super) struct Scaling {
     /// Centre [mm] and factors.
     scale: Option<(DVec3, DVec3)>,
-    /// Where each axis is mirrored [mm].
+    /// Place at which each axis is mirrored [mm].
     mirror: [Option<f64>; 3],
     /// Both together, where there is one.
     pub(super) map: Option<AxisMap>,

@@ -3,7 +3,8 @@
 use crate::base::Result;
 use crate::nc::run::Expression;
 
-use super::lex::{Block, range};
+use super::block::Block;
+use super::lex::range;
 use super::place::Bytes;
 use super::run::{Run, nothing_else};
 

@@ -7,7 +7,7 @@ use crate::base::Result;
 use crate::program::{Cycle, Speed, Spindle, State, Tapping};
 use crate::tool::Hand;
 
-use super::lex::Word;
+use super::block::Word;
 use super::reader::{Kind, Reader, take};
 
 /// Said of `G84` and `G74` without `M29`.

@@ -21,7 +21,7 @@ use crate::nc::dialect::{AXES, Code, Plane, TurnWord};
 use crate::nc::turn;
 use crate::program::{Frame, WorkOffset};
 
-use super::lex::Word;
+use super::block::Word;
 use super::place::Bytes;
 use super::reader::{Reader, Value, take};
 

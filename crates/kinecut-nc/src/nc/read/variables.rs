@@ -9,7 +9,7 @@ use crate::nc::dialect::{Code, FlowWords, Plane};
 use crate::nc::run::{Known, Names, Value};
 use crate::program::{Comp, Coolant, Spindle, StopKind, WorkOffset};
 
-use super::lex::{Assignment, Variable};
+use super::block::{Assignment, Variable};
 use super::modal::FeedMode;
 use super::place::Bytes;
 use super::reader::Reader;

@@ -10,12 +10,15 @@ const LISTED: usize = 6000;
 /// Stands for a variable that holds no value; no program computes it.
 const VACANT: f64 = f64::NAN;
 
+/// Named variables of one call.
+pub(in crate::nc) type LocalNames = HashMap<String, f64>;
+
 /// Variables of one call.
 #[derive(Clone, Debug)]
 pub(in crate::nc) struct Level {
     /// Local variables from `#1` on.
     pub(in crate::nc) locals: Vec<f64>,
-    names: HashMap<String, f64>,
+    names: LocalNames,
 }
 
 impl Level {
@@ -77,7 +80,15 @@ impl Variables {
         before
     }
 
-    /// How many local variables with numbers a call has.
+    /// Begins a call that shares the numbered variables and has these names of its own; the names before.
+    pub(in crate::nc) fn enter_names(&mut self, names: LocalNames) -> LocalNames {
+        self.state ^= self.level_state();
+        let before = std::mem::replace(&mut self.level.names, names);
+        self.state ^= self.level_state();
+        before
+    }
+
+    /// Number of local variables with numbers of a call.
     fn locals(&self) -> u32 {
         self.level.locals.len() as u32
     }

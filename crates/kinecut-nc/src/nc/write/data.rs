@@ -70,6 +70,9 @@ impl Writer<'_> {
                 self.own_registers.push((register, radius));
                 return Ok(());
             }
+            ControlData::LengthCall { register } if self.dialect.has_lengths && !self.klartext() => {
+                return self.length_word(register);
+            }
             ControlData::Lift { length: 0.0 } if linuxcnc => self.dialect.length_off.to_owned(),
             ControlData::Lift { length } if linuxcnc => format!("G43.1 Z{}", plain(length)),
             ControlData::Orient { degrees, way, seconds } if linuxcnc => {
@@ -98,7 +101,9 @@ impl Writer<'_> {
             ControlData::Here { .. } => return Err(cannot("the coordinates of the present place").into()),
             ControlData::Probe { .. } => return Err(cannot("a move of a probe").into()),
             ControlData::Orient { .. } => return Err(cannot("the place where the spindle stands").into()),
-            ControlData::Lift { .. } => return Err(cannot("a length without a tool").into()),
+            ControlData::Lift { .. } | ControlData::LengthCall { .. } => {
+                return Err(cannot("a length without a tool").into());
+            }
             ControlData::Length { .. } | ControlData::Radius { .. } => {
                 return Err(cannot("a line of the tool table").into());
             }

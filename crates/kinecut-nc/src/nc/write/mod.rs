@@ -318,13 +318,23 @@ impl Writer<'_> {
             Item::Stop(kind) => {
                 match kind {
                     StopKind::End => self.end()?,
-                    StopKind::Program | StopKind::Optional => {
+                    StopKind::Program | StopKind::Optional | StopKind::Pallet => {
                         if self.modal.comp.is_none() {
                             self.klartext_tcp_off();
                             self.turn_off()?;
                         }
                         self.state(&state, false)?;
-                        let word = if kind == StopKind::Program { "M0" } else { "M1" };
+                        let word = match kind {
+                            StopKind::Program => "M0",
+                            StopKind::Pallet if self.settings.control == Control::LinuxCnc => "M60",
+                            StopKind::Pallet => {
+                                let finding = unsupported(
+                                    "an exchange of pallets (M60) is not written for this control",
+                                );
+                                return Err(finding.help("leave it out of the program").into());
+                            }
+                            _ => "M1",
+                        };
                         self.page.block(word.to_owned());
                     }
                 }

@@ -35,7 +35,7 @@ pub struct JobProgram {
     pub start: Option<[f64; 3]>,
     /// Words of its text that told the control, where nobody said it.
     pub detected: Option<String>,
-    /// What of its stock and tools is a guess, in words.
+    /// Guesses about its stock and tools, in words.
     pub guessed: Vec<String>,
     /// Files beside it with programs that it calls.
     pub beside: Vec<Subprogram>,

@@ -163,7 +163,8 @@ pub(crate) fn follow_passing(
     let read_radii = reading.radii.clone();
     let read = &reading.program;
     let line = |item: u32| line_of(&reading.program, &sources, file, item);
-    let registers = Registers::of(job, clamped, program, read, |item| {
+    let magazine = Magazine::of(&job.tools, read, program.in_spindle, missing);
+    let registers = Registers::of(job, clamped, program, &reading, magazine.in_spindle, |item| {
         read.origin(item as usize).span.map(|s| sources.locate(s))
     });
     let mut radii = registers.radii.clone();
@@ -171,7 +172,6 @@ pub(crate) fn follow_passing(
         radii.retain(|r| r.0 != *number);
         radii.push((*number, *radius));
     }
-    let magazine = Magazine::of(&job.tools, read, program.in_spindle, missing);
     let options = TraceOptions {
         chord: CHORD,
         machine: job.machine.as_ref(),

@@ -60,7 +60,7 @@ pub struct ProgramWants {
     pub start: Option<[f64; 3]>,
     /// Files beside the program with programs that it calls: names and bytes, in its folder.
     pub beside: Vec<(String, Vec<u8>)>,
-    /// What of stock and tools is a guess, in words.
+    /// Guesses about stock and tools, in words.
     pub guessed: Vec<String>,
     /// Number of the tool in the spindle before the program calls one.
     pub tool: Option<u32>,

@@ -5,8 +5,8 @@
 
 use super::super::check::{Job, JobProgram, JobSetup};
 use crate::base::{Code, Finding, Location};
-use crate::nc::Control;
-use crate::program::{Comp, Item, Program, Target, ToolNumber};
+use crate::nc::{Control, Reading};
+use crate::program::{Comp, ControlData, Item, OWN_REGISTERS, Program, Target, ToolNumber};
 use crate::tool::Tool;
 
 /// Lengths or radii closer than this are equal [mm]: resolution of a tool presetter.
@@ -29,18 +29,30 @@ impl Registers {
         job: &Job,
         setup: &JobSetup,
         given: &JobProgram,
-        program: &Program,
+        reading: &Reading,
+        in_spindle: Option<ToolNumber>,
         place: impl Fn(u32) -> Option<Location>,
     ) -> Registers {
+        let program = &reading.program;
         let mut found = Registers { radii: given.radii.clone(), ..Registers::default() };
+        // What the program sets itself counts.
+        let mut lengths = reading.lengths.clone();
+        lengths.extend(&given.lengths);
         let mut seen: Vec<(ToolNumber, Option<u32>)> = Vec::new();
-        let mut tool = None;
+        // The tool in the spindle: a program may call a length only.
+        let mut tool = job.tools.iter().find(|t| Some(t.number) == in_spindle);
         // Straight moves have no register but that of a compensation.
         let every = if program.compensates() { program.items.len() } else { 0 };
         let few = program.items.few().take(if every > 0 { 0 } else { usize::MAX });
         for index in few.chain(0..every) {
+            let called = match program.items.get(index) {
+                Item::Tool { id, length, .. } => Some((id, length)),
+                Item::Data(ControlData::LengthCall { register }) => tool.map(|t| (t.number, register)),
+                _ => None,
+            };
             match program.items.get(index) {
-                Item::Tool { id, length, .. } => {
+                Item::Tool { .. } | Item::Data(ControlData::LengthCall { .. }) => {
+                    let Some((id, length)) = called else { continue };
                     tool = job.tools.iter().find(|t| t.number == id);
                     let Some(tool) = tool.filter(|_| !seen.contains(&(id, length))) else { continue };
                     // The block that calls a length mostly moves Z, and is what has to be mended.
@@ -49,7 +61,7 @@ impl Registers {
                         continue;
                     }
                     seen.push((id, length));
-                    let held = held(job, setup, given, tool, length);
+                    let held = held(job, setup, (given.control, &lengths), tool, length);
                     if let Some(held) = held {
                         found.lengths.push((id, length, held));
                     }
@@ -114,17 +126,23 @@ pub(crate) fn first_in_z(program: &Program, call: usize) -> Option<usize> {
 }
 
 /// The length that a register holds, where it is known and may differ from the tool's own [mm].
-fn held(job: &Job, setup: &JobSetup, given: &JobProgram, tool: &Tool, length: Option<u32>) -> Option<f64> {
+fn held(
+    job: &Job,
+    setup: &JobSetup,
+    (control, lengths): (Control, &[(u32, f64)]),
+    tool: &Tool,
+    length: Option<u32>,
+) -> Option<f64> {
     let Some(register) = length else {
         // No length is called if the zero was set with the tool itself; length zero counts if the work is located.
         return setup.setup.located.then_some(0.0);
     };
-    if register == 0 && matches!(given.control, Control::Fanuc | Control::Haas) {
+    if register == 0 && matches!(control, Control::Fanuc | Control::Haas) {
         // H0 cannot be set: it is length zero by definition. It counts if the work is located.
         return setup.setup.located.then_some(0.0);
     }
-    let said = given.lengths.iter().find(|(number, _)| *number == register).map(|(_, value)| *value);
-    said.or_else(|| others(job, given.control, tool, register).and_then(|t| t.gauge_length))
+    let said = lengths.iter().find(|(number, _)| *number == register).map(|(_, value)| *value);
+    said.or_else(|| others(job, control, tool, register).and_then(|t| t.gauge_length))
 }
 
 /// Finding about a length that is not the tool's own.
@@ -147,6 +165,10 @@ fn length_finding(control: Control, tool: &Tool, length: Option<u32>, held: Opti
                 "measure the tool again".to_owned(),
             )
         }
+        Some(register) if register >= OWN_REGISTERS => (
+            format!("{number} is called with a length that the program gives as a number"),
+            "give the tool that length: gauge_length".to_owned(),
+        ),
         Some(0) if matches!(control, Control::Fanuc | Control::Haas) => (
             format!("{number} is called with H0, which is length zero"),
             format!("call the register of the tool: G43 H{own}"),

@@ -35,7 +35,7 @@ pub(super) fn dwell(simulated: &Simulated<'_>) -> Vec<Finding> {
                     let message = format!("{} dwells while it touches material", stand.tool);
                     Finding::warning(Code::DWELL_IN_CUT, message).value(seconds, "s")
                 }
-                StandKind::Stop(StopKind::Program | StopKind::Optional) => {
+                StandKind::Stop(StopKind::Program | StopKind::Optional | StopKind::Pallet) => {
                     let message = format!("the program stops while {} touches material", stand.tool);
                     Finding::warning(Code::DWELL_IN_CUT, message)
                 }

@@ -3,7 +3,7 @@
 use crate::base::{Code, Finding, Result};
 use crate::job::external::registers::first_in_z;
 use crate::nc::Control;
-use crate::program::{Blend, Comp, Item, Program, State, ToolNumber};
+use crate::program::{Blend, Comp, ControlData, Item, Program, State, ToolNumber};
 
 /// A program with the registers of another control, and what was found on the way: the item and the finding.
 #[derive(Debug)]
@@ -66,10 +66,7 @@ pub(crate) fn rework(source: &Program, radii: &[(u32, f64)], from: Control, to: 
                 if !to.has_lengths() {
                     if length.is_some() && from.has_lengths() && !without_lengths {
                         without_lengths = true;
-                        let what = format!("{} has no tool lengths to call", to.title());
-                        let finding =
-                            Finding::warning(Code::TRANSLATED, what).help("set the zero of Z with each tool");
-                        done.findings.push((index as u32, finding));
+                        done.findings.push((index as u32, no_lengths(to)));
                     }
                     // Placeholder for the tool itself on that control.
                     length = Some(to.length_register(id));
@@ -83,11 +80,26 @@ pub(crate) fn rework(source: &Program, radii: &[(u32, f64)], from: Control, to: 
             Item::Stop(kind) => program.push_stop(kind, &state, origin),
             Item::Text(text) => program.push_text(text, &state, origin),
             Item::Message(text) => program.push_message(text, &state, origin),
+            Item::Data(ControlData::LengthCall { register }) => {
+                if to.has_lengths() {
+                    let register = register.map(|register| number(register, tool));
+                    program.push_data(ControlData::LengthCall { register }, &state, origin);
+                } else if !without_lengths {
+                    without_lengths = true;
+                    done.findings.push((index as u32, no_lengths(to)));
+                }
+            }
             Item::Data(data) => program.push_data(data, &state, origin),
         }
     }
     done.program = program;
     Ok(done)
+}
+
+/// A program that calls a length, for a control that has none.
+fn no_lengths(to: Control) -> Finding {
+    let what = format!("{} has no tool lengths to call", to.title());
+    Finding::warning(Code::TRANSLATED, what).help("set the zero of Z with each tool")
 }
 
 /// The passage between moves that is written for a control where a program asks for another: klartext has no exact stop.

@@ -202,6 +202,7 @@ impl<'s> Reader<'s> {
             involute_difference: 0.0,
             errors: Vec::new(),
             radii: Vec::new(),
+            lengths: Vec::new(),
         })
     }
 
