@@ -120,7 +120,9 @@ fn number_label(digits: &str) -> String {
 
 /// The word from a byte on, and the byte behind it.
 fn word(line: &[u8], from: usize) -> (OWord, usize) {
-    for (letters, word) in WORDS {
+    let first = line.get(from..).and_then(|rest| rest.iter().find(|b| !matches!(b, b' ' | b'\t')));
+    let first = first.map_or(0, u8::to_ascii_uppercase);
+    for (letters, word) in WORDS.iter().filter(|(letters, _)| letters.as_bytes()[0] == first) {
         let mut at = from;
         let here = letters.bytes().all(|letter| {
             while matches!(line.get(at), Some(b' ' | b'\t')) {
@@ -131,7 +133,7 @@ fn word(line: &[u8], from: usize) -> (OWord, usize) {
             same
         });
         if here {
-            return (word, at);
+            return (*word, at);
         }
     }
     (OWord::Program, from)

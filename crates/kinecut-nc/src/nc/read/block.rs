@@ -120,6 +120,12 @@ impl Block<'_> {
         self.words.is_empty() && self.message.is_none() && self.call.is_none() && self.assignments.is_empty()
     }
 
+    /// Whether nothing is in it, remarks included.
+    #[inline]
+    pub(super) fn is_blank(&self) -> bool {
+        self.is_empty() && self.comments.is_empty() && self.skip.is_none() && !self.tape
+    }
+
     /// Whether it says nothing but words.
     #[inline]
     fn only_words(&self) -> bool {

@@ -100,6 +100,10 @@ impl<'s> Run<'s> {
     fn ends_here(&mut self, from: usize, end: usize, block: &mut Block<'s>) -> Result<()> {
         self.lexer().line(from, end, block)?;
         nothing_else(&self.reader, block)?;
+        // Nothing follows most of them.
+        if block.is_blank() {
+            return Ok(());
+        }
         self.block(block).map(|_| ())
     }
 

@@ -1,6 +1,5 @@
 //! A program run line by line, as its control runs it: in the order of its branches, loops and calls.
 
-use std::collections::HashMap;
 use std::rc::Rc;
 
 use crate::base::{Error, FileId, Finding, Result};
@@ -68,7 +67,8 @@ pub(super) struct Run<'s> {
     /// Whether lines are run that were run before.
     again: bool,
     recurrence: Recurrence,
-    known: HashMap<FileId, Known>,
+    /// By the number of the file.
+    known: Vec<Known>,
     /// Files beside the program: names as they are called, without ending.
     files: Vec<(String, FileId)>,
     /// Errors so far, where reading goes on behind them.
@@ -95,7 +95,7 @@ impl<'s> Run<'s> {
             budget: Budget::new(settings.blocks, depth),
             again: false,
             recurrence: Recurrence::default(),
-            known: HashMap::new(),
+            known: Vec::new(),
             files: settings.files.clone(),
             errors: settings.reads_on.then(Vec::new),
             lost: false,
@@ -279,16 +279,24 @@ impl<'s> Run<'s> {
         }
     }
 
+    fn known(&mut self, file: FileId) -> &mut Known {
+        let index = file.0 as usize;
+        if self.known.len() <= index {
+            self.known.resize_with(index + 1, Known::default);
+        }
+        &mut self.known[index]
+    }
+
     /// The places that `M98` and `GOTO` name in the present file.
     pub(super) fn places(&mut self) -> Rc<Places> {
         let place = self.reader.place;
-        let known = self.known.entry(place.file).or_default();
+        let known = self.known(place.file);
         Rc::clone(known.places.get_or_insert_with(|| Rc::new(Places::of(place.text()))))
     }
 
     /// The o words of a file.
     pub(super) fn o_lines(&mut self, place: SourceText<'s>) -> Rc<OLines> {
-        let known = self.known.entry(place.file).or_default();
+        let known = self.known(place.file);
         Rc::clone(known.o_lines.get_or_insert_with(|| Rc::new(OLines::of(place.text()))))
     }
 
@@ -304,7 +312,7 @@ impl<'s> Run<'s> {
         let macro_b = self.reader.dialect.flow == FlowWords::MacroB;
         let find = |run: &mut Run<'s>, place: SourceText<'s>| {
             if macro_b {
-                let known = run.known.entry(place.file).or_default();
+                let known = run.known(place.file);
                 known.places.get_or_insert_with(|| Rc::new(Places::of(place.text()))).program(number)
             } else {
                 let lines = run.o_lines(place);
@@ -433,14 +441,18 @@ impl<'s> Run<'s> {
     /// After a jump backwards: refuses a program that is where it was before.
     pub(super) fn came_back(&mut self, bytes: &Bytes) -> Result<()> {
         self.again = true;
-        let frames = self.frames.iter().enumerate().map(|(i, f)| {
-            let place = u64::from(f.back.0.file.0) << 40 | f.back.1 as u64;
-            mixed(i as u64 + 1, place) ^ mixed(!(i as u64), u64::from(f.again))
-        });
-        let turns = self.loops.iter().chain(self.frames.iter().flat_map(|f| &f.loops));
-        let turns = turns.enumerate().map(|(i, t)| mixed(t.line as u64 + (i as u64 + 1) * (1 << 32), t.left));
-        let state = frames.chain(turns).fold(self.reader.state_number(), |a, b| a ^ b);
-        if !self.recurrence.is_back(state ^ mixed(0, self.at as u64)) {
+        let part = self.reader.variables.state() ^ mixed(0, self.at as u64);
+        let (frames, loops, reader) = (&self.frames, &self.loops, &self.reader);
+        let whole = || {
+            let calls = frames.iter().enumerate().map(|(i, f)| {
+                let place = u64::from(f.back.0.file.0) << 40 | f.back.1 as u64;
+                mixed(i as u64 + 1, place) ^ mixed(!(i as u64), u64::from(f.again))
+            });
+            let turns = loops.iter().chain(frames.iter().flat_map(|f| &f.loops)).enumerate();
+            let turns = turns.map(|(i, t)| mixed(t.line as u64 + (i as u64 + 1) * (1 << 32), t.left));
+            calls.chain(turns).fold(reader.state_number(), |a, b| a ^ b)
+        };
+        if !self.recurrence.is_back(part, whole) {
             return Ok(());
         }
         let message =

@@ -156,6 +156,10 @@ impl<'a, 's> Expression<'a, 's> {
     /// The operator that comes next; it is not passed.
     fn operator(&mut self) -> Option<(Operator, u8, &'static str)> {
         let first = self.peek()?;
+        // What ends most values is looked for in no table.
+        if !matches!(first, b'*' | b'/' | b'+' | b'-' | b'A'..=b'Z') {
+            return None;
+        }
         let before = self.at;
         let mut table = self.arithmetic.operators().iter().filter(|(word, _, _)| word.as_bytes()[0] == first);
         let found = table.find(|(word, _, _)| self.pass(word));
