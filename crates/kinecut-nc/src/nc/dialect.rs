@@ -484,6 +484,11 @@ impl Dialect {
         self.dwell_words.iter().any(|w| w.0 == "F")
     }
 
+    /// Whether cycles are a group of their own (09 of FANUC and Haas): behind `G80` the motion goes on that was in force before.
+    pub(super) fn cycles_apart(&self) -> bool {
+        self.flow == FlowWords::MacroB
+    }
+
     /// Further codes of the control.
     pub(super) fn further_codes(&self) -> &'static [(u32, Code)] {
         match (self.flow, self.haas) {

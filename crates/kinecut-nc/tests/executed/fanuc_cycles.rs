@@ -4,7 +4,7 @@
 
 use crate::{moves, read, refused, run};
 use kinecut_nc::base::Severity;
-use kinecut_nc::nc::Control::{Fanuc, Haas};
+use kinecut_nc::nc::Control::{Fanuc, Haas, LinuxCnc};
 use kinecut_nc::program::{Cycle, CycleStep, Item, Speed, Spindle, StopKind};
 
 const START: &str = "G21 G54 G0 X0. Y0. Z25.\nS500 M3\n";
@@ -162,4 +162,28 @@ fn a_cycle_with_a_wait_may_have_none() {
     assert!(holes.iter().all(|h| *h == "H 2.54 -4.953 2.54"), "{holes:?}");
     let last = done.iter().rfind(|m| m.starts_with('R')).unwrap();
     assert_eq!(last, "R 87.376 -22.225 2.54");
+}
+
+#[test]
+fn behind_a_cycle_the_motion_before_it_goes_on() {
+    for control in [Fanuc, Haas] {
+        let text = "G21 G17 G90 G94\nG0 X0. Y0. Z9.\nG98 G81 X1. Z-1. R2. F50.\n#1=#4001\nG80 X5. Z[20.+#1]\nG1 Z3.\n\
+                    G98 G82 X6. Z-1. R2. P9.\nG80\nX8.\nM30\n";
+        let reading = read(text, control).unwrap();
+        let ends = moves(&reading);
+        assert_eq!(ends[ends.len() - 3..], ["F 5 0 3", "H 2 -1 3", "F 8 0 3"], "{control:?} {ends:?}");
+        assert!(ends.contains(&"R 5 0 20".to_owned()), "{ends:?}");
+    }
+    let refused = read("G21 G90 G0 X0 Y0 Z9\nG80\nX5\nM2\n", LinuxCnc).unwrap_err();
+    assert!(refused.contains("axis words without a motion code"), "{refused}");
+}
+
+#[test]
+fn a_move_before_any_motion_code_is_a_rapid() {
+    let doubts = |control| {
+        let reading = read("G21 G17 G90\nX5. Y6. Z7.\nG1 X8. F50.\nM30\n", control).unwrap();
+        assert_eq!(moves(&reading), ["R 5 6 7", "F 8 6 7"]);
+        reading.findings.iter().filter(|f| f.message.contains("before any motion code")).count()
+    };
+    assert_eq!((doubts(Fanuc), doubts(Haas)), (1, 0));
 }

@@ -35,7 +35,7 @@ impl<'s> Reader<'s> {
     /// Executes `G70`, `G71` or `G72`.
     pub(super) fn pattern(&mut self, words: &mut [Word<'s>], pattern: Pattern, bytes: &Bytes) -> Result<()> {
         if let Some((code, _)) = self.motion_code() {
-            self.modal.motion = (code != Code::NoMotion).then_some(code);
+            self.puts_in_force(code);
         }
         let Some(Code::Cycle(kind)) = self.modal.motion else {
             let finding = self.lacks(bytes, "a pattern of holes without a cycle in force");

@@ -1,9 +1,9 @@
 //! Cubics: `G5` of LinuxCNC as exact curves.
 //!
 //! X and Y only, in G17, without cutter compensation. P and Q lead from the end to the second control point, I and J
-//! from the start to the first; both may be left out right after another cubic, whose direction then goes on. The
-//! interpreter of LinuxCNC itself takes a first cubic without I and J and uses what a former one left behind: that is
-//! refused here, as its manual says.
+//! from the start to the first, in `G90.1` too; both may be left out right after another cubic, whose direction then
+//! goes on. The interpreter of LinuxCNC itself takes a first cubic without I and J and uses what a former one left
+//! behind: that is refused here, as its manual says.
 
 use glam::DVec2;
 
@@ -31,9 +31,6 @@ impl<'s> Reader<'s> {
         }
         if self.modal.plane != Plane::Xy {
             return Err(self.no_cubic("a cubic runs in G17 only").help("program G17").into());
-        }
-        if self.modal.centre_absolute {
-            return Err(self.place.not_understood(&here, "cubics are read in G91.1 only").into());
         }
         if let Some(z) = words.iter().find(|w| !w.used && w.is("Z")) {
             let finding = self.place.error(FindingCode::NC_ARC, &z.bytes, "a cubic moves X and Y only");

@@ -32,6 +32,10 @@ pub(super) struct ToolState {
 pub(super) struct Modal {
     /// Motion code in force.
     pub(super) motion: Option<Code>,
+    /// The last one that is no cycle, where it goes on behind the end of a cycle (group 01 of FANUC and Haas).
+    pub(super) path_code: Option<Code>,
+    /// Whether the program has said one.
+    pub(super) motion_said: bool,
     pub(super) plane: Plane,
     /// Factors from the program's lengths and feeds to mm.
     pub(super) length_unit: f64,
@@ -93,7 +97,9 @@ pub(super) struct Modal {
 impl Modal {
     pub(super) fn new(dialect: &Dialect) -> Modal {
         Modal {
-            motion: None,
+            motion: dialect.cycles_apart().then_some(Code::Rapid),
+            path_code: dialect.cycles_apart().then_some(Code::Rapid),
+            motion_said: false,
             plane: Plane::Xy,
             length_unit: 1.0,
             feed_unit: 1.0,

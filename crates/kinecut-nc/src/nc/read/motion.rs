@@ -31,7 +31,7 @@ impl<'s> Reader<'s> {
             if interpreter && matches!(code, Code::Cycle(_)) && self.modal.motion != Some(*code) {
                 self.modal.sticky.another();
             }
-            self.modal.motion = (*code != Code::NoMotion).then_some(*code);
+            self.puts_in_force(*code);
             if !matches!(code, Code::Cycle(_)) {
                 self.modal.sticky.end();
             }
@@ -89,8 +89,35 @@ impl<'s> Reader<'s> {
         done
     }
 
+    /// Puts a motion code in force.
+    pub(super) fn puts_in_force(&mut self, code: Code) {
+        self.modal.motion_said |= code != Code::NoMotion;
+        self.modal.motion = match code {
+            Code::NoMotion => self.modal.path_code,
+            _ => Some(code),
+        };
+        if self.dialect.cycles_apart() && !matches!(code, Code::NoMotion | Code::Cycle(_)) {
+            self.modal.path_code = Some(code);
+        }
+    }
+
+    /// Says that a move has no motion code yet, where the control begins with one.
+    fn note_motion(&mut self) {
+        if self.modal.motion_said || self.modal.motion.is_none() {
+            return;
+        }
+        self.modal.motion_said = true;
+        // A Haas begins with G0 whatever its settings are.
+        if !self.dialect.haas {
+            let here = self.here.clone();
+            let message = "a move before any motion code: G0 is assumed, with which the control begins unless parameter 3402#0 says G1";
+            self.doubt(&here, message, "program G0 or G1");
+        }
+    }
+
     fn tip_move(&mut self, words: &mut [Word<'s>]) -> Result<()> {
         self.unit_is_the_same();
+        self.note_motion();
         if self.length_lost
             && let Some(word) = words.iter().find(|w| !w.used && w.is(AXES[2]))
         {

@@ -175,12 +175,12 @@ impl Reader<'_> {
             3001 | 3002 | 3011 | 3012 => Known::Unknown(CLOCK),
             3003 | 3004 => number(0.0),
             3901 | 3902 => Known::Unknown("it counts parts on the machine"),
-            4001 => match modal.motion {
+            4001 => match modal.path_code {
                 Some(Code::Rapid) => number(0.0),
                 Some(Code::Feed) => number(1.0),
                 Some(Code::Arc { ccw: false }) => number(2.0),
                 Some(Code::Arc { ccw: true }) => number(3.0),
-                _ => Known::Unknown("a cycle or no motion code is in force"),
+                _ => Known::Unknown("a motion that no number tells is in force"),
             },
             4002 => number(match modal.plane {
                 Plane::Xy => 17.0,
