@@ -14,6 +14,7 @@ mod fanuc_offsets;
 mod fanuc_round_trip;
 mod fanuc_scaling;
 mod haas_patterns;
+mod hostile;
 mod linuxcnc;
 mod macro_b;
 mod passing;

@@ -163,6 +163,8 @@ impl<'s> Run<'s> {
         let text = place.text();
         let start = self.at;
         if start >= text.len() {
+            // There is nothing to go on with behind an error here.
+            self.in_flow = true;
             return self.end_of_text(start);
         }
         // Lines are short: a search by many bytes at once would not pay.
