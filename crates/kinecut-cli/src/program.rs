@@ -157,9 +157,12 @@ pub(crate) struct ProgramOf {
     /// Machine position of the work zero, mm
     #[arg(long, value_name = "X,Y,Z", value_parser = triple, allow_hyphen_values = true, requires = "machine")]
     position: Option<[f64; 3]>,
-    /// TOML file with the tools ([[tool]], [[holder]]); a job file is one
+    /// TOML file with the tools ([[tool]], [[holder]]), as a job file is one; or a tool table of LinuxCNC (.tbl)
     #[arg(long, value_name = "FILE")]
     tools: Option<PathBuf>,
+    /// The lengths in the tool table are inches; default: mm
+    #[arg(long, requires = "tools")]
+    table_in_inches: bool,
     /// Number of the tool in the spindle before the program calls one
     #[arg(long, value_name = "N")]
     tool: Option<u32>,
@@ -203,6 +206,7 @@ impl ProgramOf {
             stock: stock.map(RawStock::given).transpose()?,
             position: self.position,
             tool: self.tool,
+            table_in_inches: self.table_in_inches,
             setup: self.setup,
             ..ProgramWants::default()
         };

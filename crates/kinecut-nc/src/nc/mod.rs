@@ -40,6 +40,7 @@ mod write;
 
 pub use control::Control;
 pub use detect::{Detected, detect};
+pub use linuxcnc::tool_table::{TableTool, tool_table};
 pub use read::{NumberInput, ReadSettings, Reading, called, read, read_source};
 pub use settings::{PostNotes, PostSettings, Posted};
 pub use write::write;

@@ -293,9 +293,13 @@ fn m98_shares_numbers_and_has_names_of_its_own() {
 #[test]
 fn the_points_of_a_cubic_are_from_its_ends_whatever_centres_are() {
     let spans = |mode: &str| {
-        let text = format!("G21 {mode} G90 G64 G0 X10 Y10 Z0\nG5 X30 Y20 I4 J3 P-5 Q2 F90\nG5.1 X40 Y9 I2 J3\nM2\n");
+        let text =
+            format!("G21 {mode} G90 G64 G0 X10 Y10 Z0\nG5 X30 Y20 I4 J3 P-5 Q2 F90\nG5.1 X40 Y9 I2 J3\nM2\n");
         let reading = read(&text, LinuxCnc).unwrap();
-        format!("{:?}", (0..reading.program.items.len()).map(|i| reading.program.items.get(i)).collect::<Vec<_>>())
+        format!(
+            "{:?}",
+            (0..reading.program.items.len()).map(|i| reading.program.items.get(i)).collect::<Vec<_>>()
+        )
     };
     assert_eq!(spans("G91.1"), spans("G90.1"));
     assert!(spans("G90.1").contains("Bezier"));

@@ -50,6 +50,7 @@ pub use external::{
     Carried, CarriedStock, CarriedTool, ExternalProgram, GivenFile, GivenJob, GivenStock, ProgramWants,
     Unfollowed, carried, control_of, control_of_name, given_alone, given_with_job,
 };
+pub(crate) use external::{in_words, is_tool_table, toml_of, tools_of_table};
 pub use inspect::{InspectWants, Inspection, SectionPlane};
 pub use items::TextItems;
 pub use look::{Looks, StandContact, SteepDescent};

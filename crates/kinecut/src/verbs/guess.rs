@@ -6,13 +6,11 @@ use std::fmt::Write as _;
 
 use crate::base::{Error, Result};
 use crate::job::{
-    Carried, CarriedTool, GivenFile, GivenStock, ProgramWants, carried, control_of, given_alone,
+    Carried, CarriedTool, GivenFile, GivenStock, ProgramWants, carried, control_of, given_alone, in_words,
+    is_tool_table, toml_of, tools_of_table,
 };
 use crate::nc::Control;
 use crate::verbs::check::program_sheet;
-
-/// Length of the flutes of a tool of which nothing says it [diameters].
-const FLUTES: f64 = 4.0;
 
 /// Stock and tools that are guessed.
 #[derive(Clone, Debug)]
@@ -45,7 +43,10 @@ impl Guess {
     pub fn of(program: GivenFile<'_>, wants: &ProgramWants) -> Result<Guess> {
         let (control, _) = control_of(wants.control.as_deref(), None, program.name, program.bytes)?;
         let text = String::from_utf8_lossy(program.bytes);
-        let carried = carried(&text, control);
+        let mut carried = carried(&text, control);
+        if let Some((name, table)) = wants.tools.as_ref().filter(|(name, _)| is_tool_table(name)) {
+            carried.tools = tools_of_table(name, table, wants.table_unit())?;
+        }
         let mut unread = None;
         let (stock, of_stock) = match &carried.stock {
             Some(block) => {
@@ -60,7 +61,7 @@ impl Guess {
                 let own = wants
                     .tools
                     .clone()
-                    .or_else(|| (!carried.tools.is_empty()).then(|| tools_of(program.name, &carried)));
+                    .or_else(|| (!carried.tools.is_empty()).then(|| tools_of(program.name, &carried.tools)));
                 match about_moves(program, &ProgramWants { tools: own, ..wants.clone() }) {
                     Ok(stock) => (stock, said.to_owned()),
                     Err(error) => {
@@ -94,8 +95,8 @@ impl Guess {
                 .push(format!("the raw stock is a guess, {a},{b},{c} to {d},{e},{f}: {}", self.of_stock));
         }
         if wants.tools.is_none() && !self.carried.tools.is_empty() {
-            wants.tools = Some(tools_of(&self.program, &self.carried));
-            let tools: Vec<String> = self.carried.tools.iter().map(described).collect();
+            wants.tools = Some(tools_of(&self.program, &self.carried.tools));
+            let tools: Vec<String> = self.carried.tools.iter().map(in_words).collect();
             wants.guessed.push(format!("the tools are guessed from comments: {}", tools.join(", ")));
         }
         Ok(())
@@ -120,7 +121,7 @@ impl Guess {
                 out.push_str("stock = { box = { min = [0, 0, -1], max = [1, 1, 0] } }\n\n");
             }
         }
-        out.push_str(&table_of(&self.carried));
+        out.push_str(&toml_of(&self.carried.tools));
         let _ = writeln!(out, "[[setup]]\noffset = \"G54\"\nprogram = {{ file = {} }}", quoted(file));
         out
     }
@@ -143,47 +144,8 @@ fn about_moves(program: GivenFile<'_>, wants: &ProgramWants) -> Result<Option<[f
 }
 
 /// The tools of comments as a file of tools: its name and its text.
-fn tools_of(program: &str, carried: &Carried) -> (String, String) {
-    (format!("comments of {program}"), table_of(carried))
-}
-
-/// The tools as TOML.
-fn table_of(carried: &Carried) -> String {
-    let mut out = String::new();
-    for tool in &carried.tools {
-        let _ = writeln!(out, "[[tool]]                                # from line {}", tool.line);
-        let _ = writeln!(out, "number = {}\ntype = \"{}\"", tool.number, tool.kind);
-        // A conical cutter is given by its tip.
-        let diameter = if tool.kind == "tapered" { 0.0 } else { tool.diameter };
-        let _ = writeln!(out, "diameter = {}", shown(diameter));
-        if tool.kind == "tapered" {
-            let half = 0.5 * tool.point_angle.unwrap_or(90.0);
-            let height = 0.5 * tool.diameter / half.to_radians().tan();
-            let _ = writeln!(
-                out,
-                "half_angle = {}\nflute_length = {}  # a sharp tip is taken",
-                shown(half),
-                shown(height)
-            );
-        } else {
-            let flutes = shown(FLUTES * tool.diameter);
-            let _ =
-                writeln!(out, "flute_length = {flutes}                     # a guess: {FLUTES} diameters");
-        }
-        if let Some(radius) = tool.corner_radius {
-            let _ = writeln!(out, "corner_radius = {}", shown(radius));
-        }
-        if let Some(angle) = tool.point_angle.filter(|_| tool.kind == "drill") {
-            let _ = writeln!(out, "point_angle = {}", shown(angle));
-        }
-        out.push('\n');
-    }
-    out
-}
-
-/// A tool in words.
-fn described(tool: &CarriedTool) -> String {
-    format!("T{} {} {} mm (line {})", tool.number, tool.kind, shown(tool.diameter), tool.line)
+fn tools_of(program: &str, tools: &[CarriedTool]) -> (String, String) {
+    (format!("comments of {program}"), toml_of(tools))
 }
 
 /// A length in micrometres at most.

@@ -63,7 +63,11 @@ fn follow(reading: &Reading) {
         tools: &tools,
         retract_height: 50.0,
         radii: &reading.radii,
-        operator: RegisterState { in_spindle: Some(ToolNumber(0)), own_radius: true, ..RegisterState::default() },
+        operator: RegisterState {
+            in_spindle: Some(ToolNumber(0)),
+            own_radius: true,
+            ..RegisterState::default()
+        },
         comp_start: Default::default(),
         chord: 0.1,
     };

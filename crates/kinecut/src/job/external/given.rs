@@ -12,6 +12,7 @@ use super::super::file::{
 use super::super::read::read_table;
 use super::super::wants::StockWants;
 use super::super::{JobText, Subject, json_text, parts, sha256};
+use super::carried::{in_words, is_tool_table, toml_of, tools_of_table};
 use crate::base::{Code, Error, FileId, FileKind, Finding, Loader, MemoryLoader, Result, Sources};
 use crate::machine::Machine;
 use crate::nc::{Control, Detected, NumberInput, detect};
@@ -44,8 +45,10 @@ pub struct ProgramWants {
     pub machine: Option<Machine>,
     /// The raw stock.
     pub stock: Option<GivenStock>,
-    /// Name and text of a file with `[[tool]]` and `[[holder]]`; a job file is one.
+    /// Name and text of a file with `[[tool]]` and `[[holder]]`, as a job file is one, or of a tool table of LinuxCNC (`.tbl`).
     pub tools: Option<(String, String)>,
+    /// Whether the lengths of that tool table are in inches.
+    pub table_in_inches: bool,
     /// Machine position of the work zero [mm].
     pub position: Option<[f64; 3]>,
     /// Distance of the lines of the stock model [mm].
@@ -66,6 +69,13 @@ pub struct ProgramWants {
     pub tool: Option<u32>,
     /// Which clamping of the job it runs in, counted from 1; default: the first.
     pub setup: Option<usize>,
+}
+
+impl ProgramWants {
+    /// The unit of a tool table [mm].
+    pub(crate) fn table_unit(&self) -> f64 {
+        if self.table_in_inches { 25.4 } else { 1.0 }
+    }
 }
 
 /// The job about a program, and what its verdict is about.
@@ -271,12 +281,32 @@ pub fn given_alone(program: GivenFile<'_>, wants: &ProgramWants, needs_stock: bo
         None => block([0.0, 0.0, 0.0, 1.0, 1.0, 1.0]),
     };
     let mut subjects = vec![of_file("given program", program.name, program.bytes)];
+    let table = wants.tools.as_ref().is_some_and(|(name, _)| is_tool_table(name));
+    if wants.table_in_inches && !table {
+        let message = "only the lengths of a tool table (.tbl) may be in inches";
+        let help = "a TOML file of tools is in mm; give the tool table by --tools";
+        return Err(Finding::error(Code::JOB_VALUE, message).help(help).into());
+    }
+    let mut guessed = wants.guessed.clone();
     let tools = match &wants.tools {
         None => ToolsFile { holders: Vec::new(), tools: Vec::new() },
         Some((name, text)) => {
             subjects.push(of_file("tools", name, text.as_bytes()));
             let mut sources = Sources::default();
-            let id = sources.add(name.clone(), text.clone());
+            let text = match table {
+                true => {
+                    let tools = tools_of_table(name, text, wants.table_unit())?;
+                    let all: Vec<String> = tools.iter().map(in_words).collect();
+                    let unit = if wants.table_in_inches { "inches" } else { "mm" };
+                    guessed.push(format!(
+                        "the shapes of the tools and their flutes are guessed, their lengths taken in {unit}, from {name}: {}",
+                        all.join(", ")
+                    ));
+                    toml_of(&tools)
+                }
+                false => text.clone(),
+            };
+            let id = sources.add(name.clone(), text);
             read_table(&sources, id, |t: &ToolsFile| {
                 Ok(ToolsFile { holders: t.holders.clone(), tools: t.tools.clone() })
             })?
@@ -314,7 +344,7 @@ pub fn given_alone(program: GivenFile<'_>, wants: &ProgramWants, needs_stock: bo
     let mut job = check(&file, "program", &all)?;
     if let Some(program) = job.setups.first_mut().and_then(|setup| setup.program.as_mut()) {
         program.detected = why;
-        program.guessed.clone_from(&wants.guessed);
+        program.guessed = guessed;
     }
     subjects.extend(called(&job));
     if let Some(machine) = &wants.machine {

@@ -5,9 +5,11 @@
 //! SINUMERIK `WORKPIECE(..)`, HEIDENHAIN `BLK FORM`. What is taken from there is a guess: it is said, and no proof rests upon it.
 
 mod stock;
+mod table;
 mod tools;
 
 pub use stock::CarriedStock;
+pub(crate) use table::{in_words, is_tool_table, toml_of, tools_of_table};
 pub use tools::CarriedTool;
 
 use crate::nc::Control;

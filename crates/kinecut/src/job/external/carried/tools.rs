@@ -15,7 +15,9 @@ pub struct CarriedTool {
     pub corner_radius: Option<f64>,
     /// Full angle of the point, where it is said.
     pub point_angle: Option<f64>,
-    /// Line of the comment.
+    /// Length from the gauge point of the spindle, where a tool table says it.
+    pub length: Option<f64>,
+    /// Line of the comment, or of the tool table.
     pub line: u32,
 }
 
@@ -45,7 +47,7 @@ pub(super) fn tools(text: &str, unit: f64) -> Vec<CarriedTool> {
         // Tools are told where they are called, or in the head.
         let called = called(code_of(line));
         for comment in comments_of(line) {
-            let Some(tool) = tool(&comment.to_ascii_uppercase(), called, unit, index as u32 + 1) else {
+            let Some(tool) = tool_in(&comment.to_ascii_uppercase(), called, unit, index as u32 + 1) else {
                 continue;
             };
             if found.iter().all(|t| t.number != tool.number) {
@@ -67,12 +69,18 @@ fn called(code: &str) -> Option<u32> {
     })
 }
 
-fn tool(comment: &str, called: Option<u32>, unit: f64, line: u32) -> Option<CarriedTool> {
+/// The kind that a comment in capitals names.
+pub(super) fn kind_in(comment: &str) -> Option<&'static str> {
+    KINDS.iter().find(|(word, _)| comment.contains(word)).map(|(_, kind)| *kind)
+}
+
+/// The tool of a comment in capitals.
+pub(super) fn tool_in(comment: &str, called: Option<u32>, unit: f64, line: u32) -> Option<CarriedTool> {
     let (number, rest) = match named(comment) {
         Some((number, rest)) => (number, rest),
         None => (called?, comment),
     };
-    let kind = KINDS.iter().find(|(word, _)| rest.contains(word)).map(|(_, kind)| *kind);
+    let kind = kind_in(rest);
     let by_letter = behind(rest, "D=").and_then(super::number);
     let by_word = behind(rest, "DIA").and_then(|t| {
         let t = t.strip_prefix("METER").or_else(|| t.strip_prefix('.')).unwrap_or(t);
@@ -100,7 +108,7 @@ fn tool(comment: &str, called: Option<u32>, unit: f64, line: u32) -> Option<Carr
     let corner_radius = corner.filter(|r| kind == "bull-nose" && 2.0 * r < diameter);
     let angle = behind(rest, "TAPER=").and_then(super::number).map(|(v, _)| v);
     let point_angle = angle.filter(|a| (1.0..180.0).contains(a)).or(rest.contains("SPOT").then_some(90.0));
-    Some(CarriedTool { number, kind, diameter, corner_radius, point_angle, line })
+    Some(CarriedTool { number, kind, diameter, corner_radius, point_angle, length: None, line })
 }
 
 /// The tool number that a comment begins with, and what is behind it.
