@@ -168,10 +168,10 @@ fn a_cycle_with_a_wait_may_have_none() {
 fn behind_a_cycle_the_motion_before_it_goes_on() {
     for control in [Fanuc, Haas] {
         let text = "G21 G17 G90 G94\nG0 X0. Y0. Z9.\nG98 G81 X1. Z-1. R2. F50.\n#1=#4001\nG80 X5. Z[20.+#1]\nG1 Z3.\n\
-                    G98 G82 X6. Z-1. R2. P9.\nG80\nX8.\nM30\n";
+                    G98 G82 X6. Z-1. R2. P900\nG80\nX8.\nM30\n";
         let reading = read(text, control).unwrap();
         let ends = moves(&reading);
-        assert_eq!(ends[ends.len() - 3..], ["F 5 0 3", "H 2 -1 3", "F 8 0 3"], "{control:?} {ends:?}");
+        assert_eq!(ends[ends.len() - 4..], ["F 5 0 3", "R 6 0 3", "H 2 -1 3", "F 8 0 3"], "{control:?} {ends:?}");
         assert!(ends.contains(&"R 5 0 20".to_owned()), "{ends:?}");
     }
     let refused = read("G21 G90 G0 X0 Y0 Z9\nG80\nX5\nM2\n", LinuxCnc).unwrap_err();

@@ -121,7 +121,7 @@ pub fn program_sheet(given: &GivenJob) -> Result<ProgramSheet> {
     Ok(ProgramSheet {
         file: program.file.clone(),
         control: program.control.name().to_owned(),
-        lines: program.text.lines().count(),
+        lines: line_count(&program.text),
         feed_moves: sums.feed_moves,
         rapid_moves: sums.rapid_moves,
         cycles: few().filter(|item| matches!(item, Item::Cycle(..))).count(),
@@ -235,4 +235,10 @@ impl Answer for ProgramSheet {
         facts.extend(self.remarks.iter().map(|remark| Fact::new("Remark", remark.as_str())));
         vec![Section::default().with(Block::Facts(facts))]
     }
+}
+
+/// Lines of a text, the last one with or without its end.
+fn line_count(text: &str) -> usize {
+    let ends = text.bytes().filter(|b| *b == b'\n').count();
+    ends + usize::from(!text.is_empty() && !text.ends_with('\n'))
 }

@@ -135,7 +135,7 @@ mod tests {
         let said = |text: &str| table(text).unwrap_err().to_string();
         assert_eq!(
             said("T1 D1\n 1 1 +0.5 0.1 1/8 end mill\n"),
-            "tool.tbl:2:2: `1` in a tool table: no letter of it (a line is T1 P1 Z75.2 D6 ;remark)"
+            "tool.tbl:2:2: `1` in a tool table: no letter of it; a line is T1 P1 Z75.2 D6 ;remark"
         );
         assert!(said("T1 Zx").contains("`Zx` in a tool table: a number belongs behind the letter"));
         assert!(said("T1 D1 D2").contains("twice"));

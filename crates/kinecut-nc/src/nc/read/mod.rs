@@ -96,6 +96,8 @@ pub struct Reading {
     pub radii: Vec<(u32, f64)>,
     /// Length registers that the program itself sets: number and length [mm].
     pub lengths: Vec<(u32, f64)>,
+    /// Whether the program asks for a continuous path without a tolerance (`G64` without P).
+    pub rounds_freely: bool,
 }
 
 /// Reads a program. The text is added to `sources` under `name`; `setups` are the clampings it runs on: a work

@@ -31,6 +31,7 @@ impl<'s> Reader<'s> {
             _ if self.dialect.merges => self.within(words)?,
             _ => Blend::Continuous,
         };
+        self.rounds_freely |= self.modal.blend == Blend::Continuous;
         Ok(())
     }
 

@@ -79,6 +79,8 @@ pub(super) struct Reader<'s> {
     pub(super) radii: Vec<(u32, f64)>,
     /// Lengths of tools that the program sets: register and length [mm].
     pub(super) lengths_set: Vec<(u32, f64)>,
+    /// Whether it has said a continuous path without a tolerance.
+    pub(super) rounds_freely: bool,
     /// Modal states that were saved (`M70`, `M73`).
     pub(super) saved: Vec<Saved>,
     /// Places that `G28` and `G30` go to, where the program has stored them.
@@ -145,6 +147,7 @@ impl<'s> Reader<'s> {
             stored_shift: glam::DVec3::ZERO,
             radii: Vec::new(),
             lengths_set: Vec::new(),
+            rounds_freely: false,
             saved: Vec::new(),
             stored_places: [None; 2],
             called_blocks: false,
@@ -195,6 +198,7 @@ impl<'s> Reader<'s> {
             errors: Vec::new(),
             radii: self.radii,
             lengths: self.lengths_set,
+            rounds_freely: self.rounds_freely,
         })
     }
 

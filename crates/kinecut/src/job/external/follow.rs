@@ -95,11 +95,12 @@ struct Remarked {
 }
 
 impl Remarked {
-    fn look(&mut self, segments: &[Segment], read: &Program) {
+    /// `rounds`: whether it counts that corners are rounded as the control likes.
+    fn look(&mut self, segments: &[Segment], read: &Program, rounds: bool) {
         if self.without_tool.is_none() {
             self.without_tool = segments.iter().find(|s| s.tool.is_none()).map(|s| s.item);
         }
-        if self.rounds.is_none() {
+        if rounds && self.rounds.is_none() {
             let rounds = |s: &&Segment| {
                 s.motion != SegmentPace::Rapid && read.state(s.item as usize).blend == Blend::Continuous
             };
@@ -189,10 +190,11 @@ pub(crate) fn follow_passing(
     };
     let mut followed = true;
     let mut remarked = Remarked::default();
+    let rounds = program.control == Control::LinuxCnc && reading.rounds_freely;
     let traced = match each {
-        None => trace(read, &options).inspect(|trace| remarked.look(&trace.segments, read)),
+        None => trace(read, &options).inspect(|trace| remarked.look(&trace.segments, read, rounds)),
         Some(each) => trace_passing(read, &options, &mut |segments| {
-            remarked.look(segments, read);
+            remarked.look(segments, read, rounds);
             each(segments);
         }),
     };
@@ -217,25 +219,7 @@ pub(crate) fn follow_passing(
     }
     trace.assumed.extend(assumed);
     // The control starts so, too: that would come in every program and says nothing.
-    let said = |line: &str| {
-        if !line.bytes().any(|b| b.eq_ignore_ascii_case(&b'g')) {
-            return false;
-        }
-        let code = line.bytes().take_while(|b| !matches!(b, b';' | b'(')).filter(|b| *b != b' ');
-        let (mut last, mut without) = ([0; 3], false);
-        for byte in code.map(|b| b.to_ascii_uppercase()) {
-            if last == *b"G64" && byte == b'P' {
-                return false;
-            }
-            last = [last[1], last[2], byte];
-            without |= last == *b"G64";
-        }
-        without
-    };
-    if program.control == Control::LinuxCnc
-        && let Some(first) = remarked.rounds
-        && program.text.lines().any(said)
-    {
+    if let Some(first) = remarked.rounds {
         let line = line_of(&reading.program, &sources, file, first).map_or(0, |l| l + 1);
         trace.assumed.push(format!(
             "the path is followed exactly, and from line {line} on the control rounds corners as far as its acceleration asks: G64 has no tolerance (P)"

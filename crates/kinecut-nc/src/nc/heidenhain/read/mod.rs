@@ -203,6 +203,7 @@ impl<'s> Reader<'s> {
             errors: Vec::new(),
             radii: Vec::new(),
             lengths: Vec::new(),
+            rounds_freely: false,
         })
     }
 
