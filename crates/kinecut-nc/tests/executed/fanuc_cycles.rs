@@ -171,7 +171,11 @@ fn behind_a_cycle_the_motion_before_it_goes_on() {
                     G98 G82 X6. Z-1. R2. P900\nG80\nX8.\nM30\n";
         let reading = read(text, control).unwrap();
         let ends = moves(&reading);
-        assert_eq!(ends[ends.len() - 4..], ["F 5 0 3", "R 6 0 3", "H 2 -1 3", "F 8 0 3"], "{control:?} {ends:?}");
+        assert_eq!(
+            ends[ends.len() - 4..],
+            ["F 5 0 3", "R 6 0 3", "H 2 -1 3", "F 8 0 3"],
+            "{control:?} {ends:?}"
+        );
         assert!(ends.contains(&"R 5 0 20".to_owned()), "{ends:?}");
     }
     let refused = read("G21 G90 G0 X0 Y0 Z9\nG80\nX5\nM2\n", LinuxCnc).unwrap_err();
