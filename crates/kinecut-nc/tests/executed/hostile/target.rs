@@ -86,7 +86,8 @@ fn written_again(control: Control, text: &str, reading: &Reading) {
     let Ok(first) = nc::write(&reading.program, &[], &settings) else { return };
     let Some(again) = read(control, &first.text, false) else {
         let mut sources = Sources::default();
-        let why = nc::read(&mut sources, "b", &first.text, control, &[]).map(|_| ()).unwrap_err();
+        let why = nc::read(&mut sources, "b", &first.text, control, &[]).err();
+        let why = why.map_or_else(|| "its loops are too long".to_owned(), |e| e.to_string());
         panic!("what was written is not read: {why}\n--- of\n{text}\n--- written\n{}", first.text);
     };
     let Ok(second) = nc::write(&again.program, &[], &settings) else { return };
