@@ -6,7 +6,7 @@ use clap::ValueEnum;
 use kinecut::base::{Code, Error, FileKind, Finding};
 use kinecut::job::{
     GivenFile, GivenJob, GivenStock, InspectWants, ProgramWants, RunWants, SectionPlane, StockWants,
-    control_of, given_alone, given_with_job, program_text, subprograms,
+    control_of, given_alone, given_with_job, is_tool_table, program_text, subprograms,
 };
 use kinecut::nc::{Control, NumberInput, PostSettings};
 use kinecut::operations::OrientationName;
@@ -215,7 +215,7 @@ impl ProgramOf {
             return given_with_job(program, &wants, (&name, &text), &files::beside(path).0);
         }
         wants.machine = self.machine.as_deref().map(machine::of_name).transpose()?;
-        wants.tools = self.tools.as_deref().map(named).transpose()?;
+        wants.tools = self.tools.as_deref().map(tools_named).transpose()?;
         let lacks = cut && (wants.stock.is_none() || wants.tools.is_none());
         if lacks || save.is_some() {
             let guess = Guess::of(program, &wants)?;
@@ -246,6 +246,16 @@ impl ProgramOf {
         let called = subprograms(&name, &text, control, &self.subprograms, &loader);
         called.into_iter().map(|called| (named(called.file), called.text.as_bytes().to_vec())).collect()
     }
+}
+
+/// Name and text of a file of tools; a tool table need not be UTF-8.
+fn tools_named(path: &Path) -> Result<(String, String), Error> {
+    let name = path.display().to_string();
+    let text = match is_tool_table(&name) {
+        true => program_text(&files::bytes(path, FileKind::Program)?).0.into_owned(),
+        false => files::text(&name)?,
+    };
+    Ok((name, text))
 }
 
 /// A program as a job file names it: from the folder of the job, beside which or below which it lies.

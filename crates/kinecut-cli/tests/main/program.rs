@@ -270,8 +270,9 @@ fn a_length_that_the_program_sets_is_compared_with_the_tool() {
 fn the_tool_table_of_the_machine_tells_lengths_and_diameters() {
     let folder = folder("table");
     let ngc = "G21 G17 G40 G49 G80 G90 G94 G54 G64 P0.01\nT1 M6\nG43 H{}\nG0 X15 Y20 S3000 M3\nZ20\nG1 Z-3 F200\nX45 F400\nG0 Z20\nM2\n";
-    std::fs::write(folder.join("tool.tbl"), "T1 P1 Z75.2 D6 ;6 mm end mill\nT2 P2 Z101.5 D5 ;5mm drill\n")
-        .unwrap();
+    // Remarks are in any language and of any age.
+    let table = b"T1 P1 Z75.2 D6 ;6 mm end mill\nT2 P2 Z101.5 D5 ;5mm drill\nT3 Z90 ;Fr\xe4ser\nT4 X1 D5\n";
+    std::fs::write(folder.join("tool.tbl"), table).unwrap();
     for (register, outcome, says) in [
         (1, "NOT PROVEN", "T1 end-mill 6 mm, 75.2 mm long (line 1)"),
         (2, "NOT SAFE", "101.5 mm, bound 75.2 mm"),
@@ -282,8 +283,10 @@ fn the_tool_table_of_the_machine_tells_lengths_and_diameters() {
         let shown = text(&run.stdout);
         assert!(shown.starts_with(outcome) && run.status.code() == Some(1), "{register}: {shown}");
         assert!(text(&run.stderr).contains(says), "{}", text(&run.stderr));
+        let left_out = "left out: T3 (no diameter); left out: T4 (offset across the axis)";
+        assert!(text(&run.stderr).contains(left_out), "{}", text(&run.stderr));
     }
-    // In inches it is another tool, and a table that is none is said with its line.
+    // Inches make another tool of it; a line of another form is refused with its place.
     let args =
         ["simulate", "P.ngc", "--stock", STOCK, "--tools", "tool.tbl", "--table-in-inches", "--step", "1"];
     assert!(text(&kinecut(&folder, &args).stderr).contains("T1 end-mill 152.4 mm, 1910.08 mm long"));

@@ -3,7 +3,7 @@
 use crate::program::{Blend, StopKind, WorkOffset};
 use crate::tool::Hand;
 
-use super::modes::{self, Mode};
+use super::modes::Mode;
 use super::multi_axis::MultiAxis;
 use super::native::{Native, TapWord};
 use super::read::bolt_holes::Pattern;
@@ -172,6 +172,8 @@ pub(super) struct Dialect {
     pub(super) round_comments: bool,
     /// G codes (times ten), M codes and words without value.
     pub(super) g_codes: &'static [(u32, Code)],
+    /// Further G codes, which it shares with others or has beyond its everyday ones.
+    pub(super) further_g_codes: &'static [(u32, Code)],
     pub(super) m_codes: &'static [(u32, Code)],
     pub(super) keywords: &'static [(&'static str, Code)],
     /// Whether cycles return to R before the program says `G98` or `G99`, as the interpreter begins.
@@ -487,16 +489,6 @@ impl Dialect {
     /// Whether cycles are a group of their own (09 of FANUC and Haas): behind `G80` the motion goes on that was in force before.
     pub(super) fn cycles_apart(&self) -> bool {
         self.flow == FlowWords::MacroB
-    }
-
-    /// Further codes of the control.
-    pub(super) fn further_codes(&self) -> &'static [(u32, Code)] {
-        match (self.flow, self.haas) {
-            (FlowWords::MacroB, true) => modes::HAAS,
-            (FlowWords::MacroB, false) => modes::FANUC,
-            _ if matches!(self.mismatch, Mismatch::Ngc | Mismatch::Grbl) => modes::NGC,
-            _ => &[],
-        }
     }
 
     /// Whether it runs cubics.

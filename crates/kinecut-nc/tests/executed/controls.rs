@@ -117,6 +117,23 @@ fn reading_goes_on_behind_what_is_not_understood() {
 }
 
 #[test]
+fn reading_on_ends_with_the_text() {
+    for (control, text) in [
+        (Haas, "G21 G54 G0 X0. Y0. Z5.\nM97 P100 L2\nM30\nN100 G1 X1. F9.\n"),
+        (Fanuc, "O1\nG21 G54 G0 X0. Y0. Z5.\nM98 P2\nM30\nO2\nG1 X1. F9.\n"),
+        (LinuxCnc, "G21 G54 G0 X0 Y0 Z5\nM98 P100\nM2\nO100\nG1 X1 F9\n"),
+    ] {
+        let settings = ReadSettings { reads_on: true, ..ReadSettings::default() };
+        let mut sources = Sources::default();
+        let file = sources.add("a", text);
+        let reading = nc::read_source(&sources, file, control, &[], &settings).unwrap();
+        let said: Vec<&str> = reading.errors.iter().map(|e| &*e.message).collect();
+        assert_eq!(said.len(), 1, "{control:?} {said:?}");
+        assert!(said[0].contains("the file ends within a subprogram"), "{control:?} {said:?}");
+    }
+}
+
+#[test]
 fn the_last_shift_is_taken_again() {
     // The interpreter keeps G52 and G92 in one place, and reads G52 as absolute in G91 too.
     assert_eq!(

@@ -48,9 +48,9 @@ pub use budget::Budget;
 pub use check::{Design, Job, JobProgram, JobSetup, Subprogram, check, program_text, subprograms};
 pub use external::{
     Carried, CarriedStock, CarriedTool, ExternalProgram, GivenFile, GivenJob, GivenStock, ProgramWants,
-    Unfollowed, carried, control_of, control_of_name, given_alone, given_with_job,
+    Unfollowed, carried, control_of, control_of_name, given_alone, given_with_job, is_tool_table,
 };
-pub(crate) use external::{in_words, is_tool_table, toml_of, tools_of_table};
+pub(crate) use external::{TableTools, all_in_words, micrometres, toml_of};
 pub use inspect::{InspectWants, Inspection, SectionPlane};
 pub use items::TextItems;
 pub use look::{Looks, StandContact, SteepDescent};

@@ -6,8 +6,8 @@ use std::fmt::Write as _;
 
 use crate::base::{Error, Result};
 use crate::job::{
-    Carried, CarriedTool, GivenFile, GivenStock, ProgramWants, carried, control_of, given_alone, in_words,
-    is_tool_table, toml_of, tools_of_table,
+    Carried, CarriedTool, GivenFile, GivenStock, ProgramWants, TableTools, all_in_words, carried, control_of,
+    given_alone, is_tool_table, micrometres, toml_of,
 };
 use crate::nc::Control;
 use crate::verbs::check::program_sheet;
@@ -45,7 +45,7 @@ impl Guess {
         let text = String::from_utf8_lossy(program.bytes);
         let mut carried = carried(&text, control);
         if let Some((name, table)) = wants.tools.as_ref().filter(|(name, _)| is_tool_table(name)) {
-            carried.tools = tools_of_table(name, table, wants.table_unit())?;
+            carried.tools = TableTools::read(name, table, wants.table_unit())?.tools;
         }
         let mut unread = None;
         let (stock, of_stock) = match &carried.stock {
@@ -89,15 +89,15 @@ impl Guess {
         }
         if let (None, Some(corners)) = (&wants.stock, self.stock) {
             wants.stock = Some(GivenStock::Block(corners));
-            let [a, b, c, d, e, f] = corners.map(shown);
+            let [a, b, c, d, e, f] = corners.map(micrometres);
             wants
                 .guessed
                 .push(format!("the raw stock is a guess, {a},{b},{c} to {d},{e},{f}: {}", self.of_stock));
         }
         if wants.tools.is_none() && !self.carried.tools.is_empty() {
             wants.tools = Some(tools_of(&self.program, &self.carried.tools));
-            let tools: Vec<String> = self.carried.tools.iter().map(in_words).collect();
-            wants.guessed.push(format!("the tools are guessed from comments: {}", tools.join(", ")));
+            let tools = all_in_words(&self.carried.tools);
+            wants.guessed.push(format!("the tools are guessed from comments: {tools}"));
         }
         Ok(())
     }
@@ -109,7 +109,7 @@ impl Guess {
         let _ = writeln!(out, "post = {{ control = \"{}\" }}", self.control.name());
         match self.stock {
             Some(corners) => {
-                let [a, b, c, d, e, f] = corners.map(shown);
+                let [a, b, c, d, e, f] = corners.map(micrometres);
                 let _ = writeln!(out, "# {}", self.of_stock);
                 let _ =
                     writeln!(out, "stock = {{ box = {{ min = [{a}, {b}, {c}], max = [{d}, {e}, {f}] }} }}\n");
@@ -146,11 +146,6 @@ fn about_moves(program: GivenFile<'_>, wants: &ProgramWants) -> Result<Option<[f
 /// The tools of comments as a file of tools: its name and its text.
 fn tools_of(program: &str, tools: &[CarriedTool]) -> (String, String) {
     (format!("comments of {program}"), toml_of(tools))
-}
-
-/// A length in micrometres at most.
-fn shown(value: f64) -> f64 {
-    (value * 1e3).round() / 1e3 + 0.0
 }
 
 /// A text as a TOML string.

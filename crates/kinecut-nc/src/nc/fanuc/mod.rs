@@ -56,6 +56,7 @@ use crate::tool::Hand;
 use super::dialect::{
     Code, CompWord, CycleKind, Dialect, FlowWords, Mismatch, SeriesRule, StateWord, TurnWord,
 };
+use super::modes;
 use super::multi_axis::{MultiAxis, TcpWord, TiltWord};
 use super::native::{Canned, Native, TapWord};
 
@@ -164,6 +165,7 @@ pub(super) const DIALECT: Dialect = Dialect {
         (870, Code::Cycle(CycleKind::BackBore)),
         (880, Code::Cycle(CycleKind::LeftByHand)),
     ],
+    further_g_codes: modes::FANUC,
     m_codes: &[
         (29, Code::Rigid),
         (98, Code::CallProgram),

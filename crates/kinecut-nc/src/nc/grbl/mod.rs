@@ -18,6 +18,7 @@
 use crate::program::WorkOffset;
 
 use super::dialect::{Code, CompWord, Dialect, FlowWords, Mismatch, SeriesRule, StateWord, TurnWord};
+use super::modes;
 use super::multi_axis::MultiAxis;
 use super::native::{Native, TapWord};
 
@@ -78,6 +79,7 @@ pub(super) const DIALECT: Dialect = Dialect {
         (800, Code::NoMotion),
         (911, Code::CentreAbsolute(false)),
     ],
+    further_g_codes: modes::NGC,
     m_codes: &[],
     keywords: &[],
     starts_at_r: false,

@@ -25,6 +25,7 @@
 
 use super::dialect::{Code, CycleKind, Dialect, FlowWords};
 use super::fanuc;
+use super::modes;
 use super::multi_axis::MultiAxis;
 use crate::program::WorkOffset;
 use crate::tool::Hand;
@@ -69,6 +70,7 @@ pub(super) const DIALECT: Dialect = Dialect {
         (870, Code::Cycle(CycleKind::LeftByHand)),
         (880, Code::Cycle(CycleKind::LeftByHand)),
     ],
+    further_g_codes: modes::HAAS,
     m_codes: &[
         (19, Code::Harmless("orients the spindle")),
         (31, Code::Harmless("chip conveyor")),

@@ -123,6 +123,7 @@ pub(super) const DIALECT: Dialect = Dialect {
     long_addresses: false,
     round_comments: false,
     g_codes: &[],
+    further_g_codes: &[],
     m_codes: &[],
     keywords: &[],
     starts_at_r: false,

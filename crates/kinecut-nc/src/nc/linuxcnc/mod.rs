@@ -30,6 +30,7 @@ use crate::tool::Hand;
 use super::dialect::{
     Code, CompWord, CycleKind, Dialect, FlowWords, Mismatch, SeriesRule, StateWord, TurnWord,
 };
+use super::modes;
 use super::multi_axis::MultiAxis;
 use super::native::{Canned, Native, TapWord};
 
@@ -125,6 +126,7 @@ pub(super) const DIALECT: Dialect = Dialect {
         (980, Code::ReturnToStart(true)),
         (990, Code::ReturnToStart(false)),
     ],
+    further_g_codes: modes::NGC,
     m_codes: &[
         (19, Code::Orientation),
         (50, Code::Device("feed override")),

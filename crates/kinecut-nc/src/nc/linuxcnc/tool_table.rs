@@ -49,11 +49,11 @@ pub fn tool_table(sources: &Sources, file: FileId, unit: f64) -> Result<Vec<Tabl
         let at =
             |from: usize, to: usize| Span { file, start: (start + from) as u32, end: (start + to) as u32 };
         let wrong = |from: usize, to: usize, why: &str| {
-            let message = format!("`{}` in a tool table: {why}", line[from..to].trim());
+            let message = format!("`{}` {why}", line[from..to].trim());
             Finding::error(Code::NC_SYNTAX, message).at(sources.locate(at(from, to)))
         };
         if index >= MOST {
-            let finding = wrong(0, line.len(), "it has too many lines");
+            let finding = wrong(0, line.len(), "is one line too many for a tool table");
             return Err(finding.value(index as f64 + 1.0, "lines").bound(MOST as f64, "lines").into());
         }
         let code = &line[..line.find(';').unwrap_or(line.len())];
@@ -84,21 +84,22 @@ fn one(code: &str, wrong: impl Fn(usize, usize, &str) -> Finding) -> Result<Tabl
         at = to;
         let letter = code[from..].chars().next().map_or('?', |c| c.to_ascii_uppercase());
         let Some(place) = LETTERS.find(letter) else {
-            let help = "a line is T1 P1 Z75.2 D6 ;remark";
-            return Err(wrong(from, to, "no letter of it").help(help).into());
+            let finding =
+                wrong(from, to, "is no word of a tool table, which are T, P, D, X, Y, Z and further axes");
+            return Err(finding.help("write a line as T1 P1 Z75.2 D6 ;remark").into());
         };
         let Some(value) = code[from + 1..to].parse().ok().filter(|v: &f64| v.abs() <= LARGEST) else {
-            return Err(wrong(from, to, "a number belongs behind the letter").into());
+            return Err(wrong(from, to, "has no number behind its letter").into());
         };
         if values[place].replace(value).is_some() {
-            return Err(wrong(from, to, "the letter is there twice").into());
+            return Err(wrong(from, to, "is there twice in a line of a tool table").into());
         }
     }
     let value = |letter: char| LETTERS.find(letter).and_then(|place| values[place]);
     let end = code.trim_end().len();
     let number = value('T').filter(|t| *t >= 0.0 && t.fract() == 0.0);
     let Some(number) = number else {
-        return Err(wrong(0, end, "a line needs the number of its tool, a whole one (T)").into());
+        return Err(wrong(0, end, "has no tool number: T and a whole number").into());
     };
     Ok(TableTool {
         number: number as u32,
@@ -135,12 +136,12 @@ mod tests {
         let said = |text: &str| table(text).unwrap_err().to_string();
         assert_eq!(
             said("T1 D1\n 1 1 +0.5 0.1 1/8 end mill\n"),
-            "tool.tbl:2:2: `1` in a tool table: no letter of it; a line is T1 P1 Z75.2 D6 ;remark"
+            "tool.tbl:2:2: `1` is no word of a tool table, which are T, P, D, X, Y, Z and further axes; write a line as T1 P1 Z75.2 D6 ;remark"
         );
-        assert!(said("T1 Zx").contains("`Zx` in a tool table: a number belongs behind the letter"));
+        assert!(said("T1 Zx").contains("`Zx` has no number behind its letter"));
         assert!(said("T1 D1 D2").contains("twice"));
-        assert!(said("P1 D2").contains("needs the number of its tool") && said("T1.5").contains("whole"));
-        assert!(said("T1 Zinf").contains("a number belongs") && said("T1 Z\u{e4}").contains("a number"));
+        assert!(said("P1 D2").contains("has no tool number") && said("T1.5").contains("whole"));
+        assert!(said("T1 Zinf").contains("no number") && said("T1 Z\u{e4}").contains("no number"));
         assert!(said("T-1").contains("whole"));
     }
 }

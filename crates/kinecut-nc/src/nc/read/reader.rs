@@ -491,7 +491,7 @@ impl<'s> Reader<'s> {
             let found = table.iter().find(|(t, _)| *t == tenths).map(|(_, c)| *c);
             found.filter(|c| *c != Code::FeedPerRevolution || self.dialect.per_revolution)
         };
-        let own = || find(self.dialect.g_codes).or_else(|| find(self.dialect.further_codes()));
+        let own = || find(self.dialect.g_codes).or_else(|| find(self.dialect.further_g_codes));
         find(COMMON_G).or_else(own).or_else(|| {
             let offset = WorkOffset::from_tenths(tenths).or_else(|| self.offset_by_code(tenths));
             offset.filter(|o| (self.dialect.has_offset)(*o)).map(Code::Work)

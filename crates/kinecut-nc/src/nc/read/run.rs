@@ -281,6 +281,7 @@ impl<'s> Run<'s> {
         }
     }
 
+    /// The places of a file that are known so far.
     fn known(&mut self, file: FileId) -> &mut Known {
         let index = file.0 as usize;
         if self.known.len() <= index {
@@ -478,13 +479,14 @@ impl Reader<'_> {
         let shift = modal.turned.shift.to_array().map(f64::to_bits);
         let (returned, by_value) = self.value_returned;
         let numbers = [modal.feed, modal.speed, Some(returned), modal.tool.length.map(f64::from)].map(bits);
-        let motion = match modal.motion {
+        let motion = |code: Option<Code>| match code {
             None => 0,
             Some(Code::Rapid) => 1,
             Some(Code::Feed) => 2,
             Some(Code::Arc { ccw }) => 3 + u64::from(ccw),
             Some(_) => 5,
         };
+        let motion = motion(modal.motion) | motion(modal.path_code) << 4;
         let spindle = match modal.spindle {
             Spindle::Off => 0,
             Spindle::Clockwise(_) => 1,

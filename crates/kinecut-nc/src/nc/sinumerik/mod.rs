@@ -97,6 +97,7 @@ pub(super) const DIALECT: Dialect = Dialect {
         (6020, Code::Harmless("exact stop coarse")),
         (6030, Code::Harmless("exact stop at the end of interpolation")),
     ],
+    further_g_codes: &[],
     m_codes: &[],
     keywords: &[
         ("INVCW", Code::Involute { ccw: false }),

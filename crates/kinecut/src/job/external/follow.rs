@@ -82,7 +82,7 @@ pub(crate) fn at_block(mut error: Error, program: &JobProgram, line: impl Fn(u32
 /// A guess on which the rest depends.
 fn guessed(what: &str) -> Finding {
     let finding = Finding::doubt(Code::NC_ASSUMED, what.to_owned());
-    finding.help("save the guess as a job (--write-job job.toml), correct it there, and simulate that")
+    finding.help("kinecut simulate --write-job job.toml saves the guess as a job: correct it there")
 }
 
 /// The first segments of a trace that are remarked on.

@@ -12,7 +12,7 @@ use super::super::file::{
 use super::super::read::read_table;
 use super::super::wants::StockWants;
 use super::super::{JobText, Subject, json_text, parts, sha256};
-use super::carried::{in_words, is_tool_table, toml_of, tools_of_table};
+use super::carried::{TableTools, all_in_words, is_tool_table, toml_of};
 use crate::base::{Code, Error, FileId, FileKind, Finding, Loader, MemoryLoader, Result, Sources};
 use crate::machine::Machine;
 use crate::nc::{Control, Detected, NumberInput, detect};
@@ -295,14 +295,14 @@ pub fn given_alone(program: GivenFile<'_>, wants: &ProgramWants, needs_stock: bo
             let mut sources = Sources::default();
             let text = match table {
                 true => {
-                    let tools = tools_of_table(name, text, wants.table_unit())?;
-                    let all: Vec<String> = tools.iter().map(in_words).collect();
+                    let read = TableTools::read(name, text, wants.table_unit())?;
                     let unit = if wants.table_in_inches { "inches" } else { "mm" };
                     guessed.push(format!(
-                        "the shapes of the tools and their flutes are guessed, their lengths taken in {unit}, from {name}: {}",
-                        all.join(", ")
+                        "the shapes of the tools and their flutes are guessed, their lengths taken in {unit}, from {name}: {}{}",
+                        all_in_words(&read.tools),
+                        read.left_out()
                     ));
-                    toml_of(&tools)
+                    toml_of(&read.tools)
                 }
                 false => text.clone(),
             };

@@ -13,8 +13,8 @@ pub(crate) mod registers;
 mod setup;
 mod shown;
 
-pub use carried::{Carried, CarriedStock, CarriedTool, carried};
-pub(crate) use carried::{in_words, is_tool_table, toml_of, tools_of_table};
+pub use carried::{Carried, CarriedStock, CarriedTool, carried, is_tool_table};
+pub(crate) use carried::{TableTools, all_in_words, micrometres, toml_of};
 pub(crate) use follow::{Errors, Followed, at_block, follow, follow_passing};
 pub use given::{
     GivenFile, GivenJob, GivenStock, ProgramWants, control_of, control_of_name, given_alone, given_with_job,

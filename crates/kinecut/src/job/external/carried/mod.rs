@@ -6,10 +6,13 @@
 
 mod stock;
 mod table;
+mod toml;
 mod tools;
 
 pub use stock::CarriedStock;
-pub(crate) use table::{in_words, is_tool_table, toml_of, tools_of_table};
+pub(crate) use table::TableTools;
+pub use table::is_tool_table;
+pub(crate) use toml::{all_in_words, micrometres, toml_of};
 pub use tools::CarriedTool;
 
 use crate::nc::Control;

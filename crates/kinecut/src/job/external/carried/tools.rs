@@ -69,6 +69,17 @@ fn called(code: &str) -> Option<u32> {
     })
 }
 
+/// The kind and the corner radius that make one tool of a diameter [mm].
+pub(super) fn solid(kind: &'static str, corner: Option<f64>, diameter: f64) -> (&'static str, Option<f64>) {
+    let milling = matches!(kind, "end-mill" | "ball-nose" | "bull-nose");
+    match corner.filter(|_| milling) {
+        Some(r) if (2.0 * r - diameter).abs() < 1e-3 * diameter => ("ball-nose", None),
+        Some(r) if 2.0 * r < diameter && kind != "ball-nose" => ("bull-nose", Some(r)),
+        _ if kind == "bull-nose" => ("end-mill", None),
+        _ => (kind, None),
+    }
+}
+
 /// The kind that a comment in capitals names.
 pub(super) fn kind_in(comment: &str) -> Option<&'static str> {
     KINDS.iter().find(|(word, _)| comment.contains(word)).map(|(_, kind)| *kind)
@@ -97,15 +108,7 @@ pub(super) fn tool_in(comment: &str, called: Option<u32>, unit: f64, line: u32) 
         return None;
     }
     let corner = behind(rest, "CR=").and_then(super::number).map(|(v, _)| v * unit).filter(|r| *r > 0.0);
-    let kind = match (kind, corner) {
-        ("end-mill" | "ball-nose" | "bull-nose", Some(r)) if (2.0 * r - diameter).abs() < 1e-3 * diameter => {
-            "ball-nose"
-        }
-        ("end-mill" | "bull-nose", Some(_)) => "bull-nose",
-        ("bull-nose", None) => "end-mill",
-        (kind, _) => kind,
-    };
-    let corner_radius = corner.filter(|r| kind == "bull-nose" && 2.0 * r < diameter);
+    let (kind, corner_radius) = solid(kind, corner, diameter);
     let angle = behind(rest, "TAPER=").and_then(super::number).map(|(v, _)| v);
     let point_angle = angle.filter(|a| (1.0..180.0).contains(a)).or(rest.contains("SPOT").then_some(90.0));
     Some(CarriedTool { number, kind, diameter, corner_radius, point_angle, length: None, line })
