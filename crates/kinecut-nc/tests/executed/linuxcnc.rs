@@ -6,6 +6,7 @@ use crate::{moves, read, refused, run};
 use kinecut_nc::base::Sources;
 use kinecut_nc::nc::Control::LinuxCnc;
 use kinecut_nc::nc::{self, ReadSettings};
+use kinecut_nc::program::Item;
 
 #[test]
 fn words_take_values() {
@@ -303,4 +304,16 @@ fn the_points_of_a_cubic_are_from_its_ends_whatever_centres_are() {
     };
     assert_eq!(spans("G91.1"), spans("G90.1"));
     assert!(spans("G90.1").contains("Bezier"));
+}
+
+#[test]
+fn remarks_behind_o_words_stay() {
+    let text = "G21 G54 G0 X0 Y0 Z0\no1 repeat [2] (again)\nG1 X1 F9\no1 endrepeat ; turn\no2 if [0]\no2 endif\nM2\n";
+    let reading = read(text, LinuxCnc).unwrap();
+    let items = &reading.program.items;
+    let texts = (0..items.len()).filter_map(|i| match items.get(i) {
+        Item::Text(text) => Some(text.to_owned()),
+        _ => None,
+    });
+    assert_eq!(texts.collect::<Vec<_>>(), ["again", "turn", "turn"]);
 }
