@@ -50,7 +50,8 @@ pub fn tool_table(sources: &Sources, file: FileId, unit: f64) -> Result<Vec<Tabl
             |from: usize, to: usize| Span { file, start: (start + from) as u32, end: (start + to) as u32 };
         let wrong = |from: usize, to: usize, why: &str| {
             let message = format!("`{}` {why}", line[from..to].trim());
-            Finding::error(Code::NC_SYNTAX, message).at(sources.locate(at(from, to)))
+            let finding = Finding::error(Code::NC_SYNTAX, message).at(sources.locate(at(from, to)));
+            finding.help("write a line as T1 P1 Z75.2 D6 ;remark")
         };
         if index >= MOST {
             let finding = wrong(0, line.len(), "is one line too many for a tool table");
@@ -84,9 +85,8 @@ fn one(code: &str, wrong: impl Fn(usize, usize, &str) -> Finding) -> Result<Tabl
         at = to;
         let letter = code[from..].chars().next().map_or('?', |c| c.to_ascii_uppercase());
         let Some(place) = LETTERS.find(letter) else {
-            let finding =
-                wrong(from, to, "is no word of a tool table, which are T, P, D, X, Y, Z and further axes");
-            return Err(finding.help("write a line as T1 P1 Z75.2 D6 ;remark").into());
+            let why = "is no word of a tool table, which are T, P, D, X, Y, Z and further axes";
+            return Err(wrong(from, to, why).into());
         };
         let Some(value) = code[from + 1..to].parse().ok().filter(|v: &f64| v.abs() <= LARGEST) else {
             return Err(wrong(from, to, "has no number behind its letter").into());
@@ -138,7 +138,7 @@ mod tests {
             said("T1 D1\n 1 1 +0.5 0.1 1/8 end mill\n"),
             "tool.tbl:2:2: `1` is no word of a tool table, which are T, P, D, X, Y, Z and further axes; write a line as T1 P1 Z75.2 D6 ;remark"
         );
-        assert!(said("T1 Zx").contains("`Zx` has no number behind its letter"));
+        assert!(said("T1 Zx").contains("`Zx` has no number behind its letter; write a line as T1 P1"));
         assert!(said("T1 D1 D2").contains("twice"));
         assert!(said("P1 D2").contains("has no tool number") && said("T1.5").contains("whole"));
         assert!(said("T1 Zinf").contains("no number") && said("T1 Z\u{e4}").contains("no number"));
