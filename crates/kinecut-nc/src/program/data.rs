@@ -19,8 +19,9 @@ pub enum ControlData {
         /// Its zero.
         place: [Option<f64>; 3],
     },
-    /// Coordinates that the present place gets, of axes whose place the program has not set before: by the zero of a work offset
-    /// (`G10 L20`), or for all of them (`G92`).
+    /// Coordinates that the present place gets, of axes whose place there the program has not set before: by the zero of a work
+    /// offset (`G10 L20`), which may be another one than that in force and then counts neither shifted nor turned, or for all of
+    /// them (`G92`).
     Here {
         /// The work offset.
         offset: Option<WorkOffset>,

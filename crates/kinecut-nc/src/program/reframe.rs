@@ -68,6 +68,11 @@ impl Program {
         None
     }
 
+    /// Whether a frame lies in a work offset, as far as [`Program::in_work`] tells it.
+    pub(crate) fn is_in(&self, offset: WorkOffset, frame: FrameId) -> bool {
+        self.in_work(frame).is_some_and(|(found, _)| found == offset)
+    }
+
     /// The work offset that a frame lies in, the motion that maps the frame's points into it, and the choice of the rotary
     /// axes' solution, for a frame that is tilted or lies in one that is; none for all others.
     ///

@@ -208,7 +208,12 @@ impl<'a> Follow<'a> {
                 self.stands(index, StandKind::Stop(kind), state);
                 Ok(())
             }
-            Item::Data(ControlData::Here { place, .. }) => self.given(index, place, state),
+            // The zero of a work offset that is not in force is where the setup has it.
+            Item::Data(ControlData::Here { offset, place })
+                if offset.is_none_or(|offset| self.program.is_in(offset, state.frame)) =>
+            {
+                self.given(index, place, state)
+            }
             Item::Data(ControlData::Probe { place, .. }) => {
                 for axis in 0..3 {
                     self.tip[axis] = self.tip[axis].filter(|_| place[axis].is_none());

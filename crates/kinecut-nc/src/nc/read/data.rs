@@ -5,12 +5,13 @@
 //!   offset that is added to all; on LinuxCNC and GRBL `P0` is the work offset in force, `G91` changes nothing, and LinuxCNC turns the
 //!   offset by `R`.
 //!   FANUC sets the work offsets beyond G59 by `L20 P`.
-//! - `L20 P` (LinuxCNC, GRBL): the zero is put where the present place gets the coordinates that are said.
+//! - `L20 P` (LinuxCNC, GRBL): the zero is put where the present place gets the coordinates that are said. The first of a work
+//!   offset other than that in force tells where it lies from that one.
 //! - `L1 P` (LinuxCNC), `L10 P` and `L12 P` (FANUC): length and radius in the tool table. A radius counts from there on; the first length
 //!   is what the register holds, another one later is refused, and so are lengths that the control finds from the present place.
 //!
-//! Once the zero of a work offset is known in the machine, so is the place behind a move in machine coordinates, and the
-//! place in another work offset whose zero is known.
+//! Once the zero of a work offset is known in the machine, so is the place behind a move in machine coordinates; once the
+//! distance of two zeros is known, so is the place in one from that in the other.
 
 use glam::DVec3;
 
@@ -22,7 +23,7 @@ use crate::program::{ControlData, Item, Program, Speed, WorkOffset, moved};
 use super::block::Word;
 use super::place::Bytes;
 use super::reader::{Kind, Reader, Value, take};
-use super::zeros::vector;
+use super::zeros::{Spot, vector};
 
 impl<'s> Reader<'s> {
     /// Executes `G10`.
@@ -65,25 +66,21 @@ impl<'s> Reader<'s> {
             zero.shift += DVec3::from_array(named.map(|v| v.unwrap_or(0.0)));
             return Ok(());
         }
-        let first: Vec<usize> = (0..3)
-            .filter(|axis| named[*axis].is_some())
-            .filter(|axis| self.modal.turned.zeros.of(offset).is_none_or(|z| z.first[*axis].is_none()))
-            .collect();
-        if !first.is_empty() && moves_in(&self.program, offset) {
-            let which = offset.map_or("all work offsets".to_owned(), |o| o.to_string());
-            let message =
-                format!("the zero of {which} changes after moves in it, by how much the machine alone knows");
-            let finding = self.lacks(bytes, &message);
-            return Err(finding.help("set it before the first move").into());
+        let known = |axis: usize| self.modal.turned.zeros.in_machine(offset, axis);
+        let first: Vec<usize> = (0..3).filter(|axis| named[*axis].is_some() && known(*axis).is_none()).collect();
+        if !first.is_empty() {
+            self.unmoved(offset, bytes)?;
         }
-        let zero = self.modal.turned.zeros.of_mut(offset);
         let mut place = [None; 3];
         for axis in 0..3 {
             let Some(value) = named[axis] else { continue };
-            match zero.first[axis] {
+            let first = self.modal.turned.zeros.in_machine(offset, axis);
+            let zero = self.modal.turned.zeros.of_mut(offset);
+            match first {
                 None => {
-                    zero.first[axis] = Some(value - zero.shift[axis]);
-                    place[axis] = zero.first[axis];
+                    let at = value - zero.shift[axis];
+                    zero.first[axis] = Some(Spot::machine(at));
+                    place[axis] = Some(at);
                 }
                 Some(first) => zero.shift[axis] = value - first,
             }
@@ -100,6 +97,17 @@ impl<'s> Reader<'s> {
         Ok(())
     }
 
+    /// Refuses the first zero of a work offset in which the tip was moved already.
+    fn unmoved(&self, offset: Option<WorkOffset>, bytes: &Bytes) -> Result<()> {
+        if !moves_in(&self.program, offset) {
+            return Ok(());
+        }
+        let which = offset.map_or("all work offsets".to_owned(), |o| o.to_string());
+        let message =
+            format!("the zero of {which} changes after moves in it, by how much the machine alone knows");
+        Err(self.lacks(bytes, &message).help("set it before the first move").into())
+    }
+
     /// `G10 L20 P X Y Z`.
     fn set_zero_here(&mut self, words: &mut [Word<'s>], bytes: &Bytes) -> Result<()> {
         let offset = self.offset_of(words, false, bytes)?.unwrap_or(WorkOffset::G54);
@@ -112,28 +120,43 @@ impl<'s> Reader<'s> {
         if own && self.unknown_axes(named) {
             self.gets_coordinates(Some(offset), named, bytes)?;
         }
-        let turned = &self.modal.turned;
-        // In the coordinates of its own zero, or of the machine.
-        let (zero, here) = match own {
-            true => (DVec3::ZERO, moved(&turned.motion, vector(self.modal.position))),
-            false => (vector(turned.zeros.first(offset)), vector(self.machine_place())),
-        };
-        let motion = turned.motion_of(self.dialect.turn, offset);
-        let before = moved(&motion.inverse(), here - zero);
+        let here = self.machine_place();
+        let zero = self.modal.turned.zeros.first(offset);
+        let motion = self.modal.turned.motion_of(self.dialect.turn, offset);
+        // Within the work offset as the setup has it.
+        let within = [0, 1, 2].map(|axis| here[axis].map_or(f64::NAN, |here| here.minus(zero[axis])));
+        let within = DVec3::from_array(within);
+        let before = moved(&motion.inverse(), within);
         let wanted = DVec3::from_array([0, 1, 2].map(|i| named[i].unwrap_or(before[i])));
-        let step = moved(&motion, before) - moved(&motion, wanted);
+        let wanted = moved(&motion, wanted);
         let askew = motion.rotation != glam::DMat3::IDENTITY;
+        let mut place = [None; 3];
         for axis in 0..3 {
-            let counts = named[axis].is_some() || askew && axis < 2;
-            if counts && step[axis].is_nan() {
+            if named[axis].is_none() && !(askew && axis < 2) {
+                continue;
+            }
+            let step = within[axis] - wanted[axis];
+            if !step.is_nan() {
+                self.modal.turned.zeros.of_mut(Some(offset)).shift[axis] += step;
+                continue;
+            }
+            let Some(here) = here[axis].filter(|_| !own && !wanted[axis].is_nan()) else {
                 let message =
                     format!("G10 L20 sets the zero of {offset} from a place that is not known in it");
                 let finding = self.lacks(bytes, &message);
                 return Err(finding.help("set the zeros of both work offsets first (G10 L2)").into());
-            }
-            if counts {
-                self.modal.turned.zeros.of_mut(Some(offset)).shift[axis] += step[axis];
-            }
+            };
+            self.unmoved(Some(offset), bytes)?;
+            // Its zero counts from the one in force from now on; what it counted from before comes with it.
+            let root = zero[axis].from.unwrap_or(offset);
+            let at = here.at - wanted[axis] - zero[axis].at;
+            self.modal.turned.zeros.of_mut(Some(root)).first[axis] = Some(Spot { from: here.from, at });
+            place[axis] = Some(wanted[axis]);
+        }
+        if place != [None; 3] {
+            self.data(ControlData::Here { offset: Some(offset), place });
+            let message = "the program sets the zero of a work offset from the present place (G10 L20): the setup is taken to have it there";
+            self.assume(bytes, message);
         }
         Ok(())
     }
@@ -251,24 +274,26 @@ impl<'s> Reader<'s> {
         self.program.push_data(data, &self.state(Speed::Rapid { linear: false }), self.origin);
     }
 
-    /// Machine coordinates of the place, where the zero of the work offset in force is known there [mm].
-    pub(super) fn machine_place(&self) -> [Option<f64>; 3] {
+    /// The place in the machine, or from the zero of a work offset.
+    pub(super) fn machine_place(&self) -> [Option<Spot>; 3] {
         self.machine_place_in(self.modal.offset)
     }
 
-    /// Those of the place in the coordinates of a work offset.
-    pub(super) fn machine_place_in(&self, offset: Option<WorkOffset>) -> [Option<f64>; 3] {
-        let offset = offset.unwrap_or(WorkOffset::G54);
-        let zero = vector(self.modal.turned.zeros.first(offset));
-        let here = zero + moved(&self.modal.turned.motion, vector(self.modal.position));
-        here.to_array().map(|v| Some(v).filter(|v| !v.is_nan()))
+    /// That of the place in the coordinates of a work offset.
+    pub(super) fn machine_place_in(&self, offset: Option<WorkOffset>) -> [Option<Spot>; 3] {
+        let zero = self.modal.turned.zeros.first(offset.unwrap_or(WorkOffset::G54));
+        let within = moved(&self.modal.turned.motion, vector(self.modal.position));
+        [0, 1, 2].map(|axis| {
+            let at = zero[axis].at + within[axis];
+            Some(Spot { at, ..zero[axis] }).filter(|_| !at.is_nan())
+        })
     }
 
     /// The place in the coordinates in force of a place in the machine, where that is known [mm].
-    pub(super) fn place_of(&self, machine: [Option<f64>; 3]) -> [Option<f64>; 3] {
-        let offset = self.modal.offset.unwrap_or(WorkOffset::G54);
-        let zero = vector(self.modal.turned.zeros.first(offset));
-        let here = moved(&self.modal.turned.motion.inverse(), vector(machine) - zero);
+    pub(super) fn place_of(&self, machine: [Option<Spot>; 3]) -> [Option<f64>; 3] {
+        let zero = self.modal.turned.zeros.first(self.modal.offset.unwrap_or(WorkOffset::G54));
+        let within = [0, 1, 2].map(|axis| machine[axis].map_or(f64::NAN, |spot| spot.minus(zero[axis])));
+        let here = moved(&self.modal.turned.motion.inverse(), DVec3::from_array(within));
         here.to_array().map(|v| Some(v).filter(|v| !v.is_nan()))
     }
 }

@@ -10,6 +10,7 @@ use super::block::{Word, WordMode};
 use super::modal::FeedMode;
 use super::place::Bytes;
 use super::reader::{Kind, Reader, take, take_way};
+use super::zeros::Spot;
 
 impl<'s> Reader<'s> {
     /// Executes the motion of a block; `machine`: the place of a word for machine coordinates.
@@ -301,7 +302,7 @@ impl<'s> Reader<'s> {
                 joints[axis] = Some(word.value * self.modal.length_unit);
                 // With a length it is the spindle that is there, not the tip.
                 let is_tip = axis < 2 || self.modal.tool.length.is_none() && self.lift == 0.0;
-                machine[axis] = joints[axis].filter(|_| is_tip);
+                machine[axis] = joints[axis].filter(|_| is_tip).map(Spot::machine);
                 self.modal.position[axis] = None;
             }
         }

@@ -2,21 +2,26 @@
 
 use crate::base::Result;
 use crate::nc::dialect::Code;
-use crate::program::{Move, Path, Speed, Target, ToolAxis, WorkOffset, moved};
+use crate::program::{Move, Path, Speed, Target, ToolAxis};
 
 use super::place::Bytes;
 use super::reader::{Kind, Reader};
-use super::zeros::vector;
+use super::zeros::Spot;
 
 /// A place that was stored.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Stored {
-    /// In the machine, as far as it is known there [mm].
-    machine: [Option<f64>; 3],
-    /// In the work offset in force, as far as it is known [mm].
-    work: [Option<f64>; 3],
-    offset: WorkOffset,
+    /// Of the tip, as far as it is known.
+    tip: [Option<Spot>; 3],
     length: Option<u32>,
+}
+
+impl Stored {
+    /// In the machine [mm], as far as it is known there: of the spindle where no length is in force.
+    fn in_machine(&self) -> [Option<f64>; 3] {
+        let known = |axis: usize| self.tip[axis].filter(|_| axis < 2 || self.length.is_none());
+        [0, 1, 2].map(|axis| known(axis).and_then(Spot::in_machine))
+    }
 }
 
 impl<'s> Reader<'s> {
@@ -26,48 +31,39 @@ impl<'s> Reader<'s> {
         else {
             return;
         };
-        let mut machine = self.machine_place();
-        if self.modal.tool.length.is_some() || self.lift != 0.0 {
-            machine[2] = None;
-        }
-        let work = moved(&self.modal.turned.motion, vector(self.modal.position));
-        let work = work.to_array().map(|v| Some(v).filter(|v| !v.is_nan()));
-        let offset = self.modal.offset.unwrap_or(WorkOffset::G54);
-        self.stored_places[usize::from(second)] =
-            Some(Stored { machine, work, offset, length: self.modal.tool.length });
+        let stored = Stored { tip: self.machine_place(), length: self.modal.tool.length };
+        self.stored_places[usize::from(second)] = Some(stored);
     }
 
     /// Goes to a stored place with the axes that are named.
     pub(super) fn goes_to_stored(&mut self, place: Stored, axes: [bool; 3], bytes: &Bytes) -> Result<()> {
         let speed = Speed::Rapid { linear: self.dialect.straight_rapid };
         let known = |of: [Option<f64>; 3]| (0..3).all(|axis| !axes[axis] || of[axis].is_some());
-        if known(place.machine) {
+        let (mut tip, in_machine) = (self.machine_place(), place.in_machine());
+        if known(in_machine) {
             let mut joints = [None; 6];
-            let mut machine = self.machine_place();
             for axis in (0..3).filter(|axis| axes[*axis]) {
-                joints[axis] = place.machine[axis];
-                machine[axis] = place.machine[axis].filter(|_| axis < 2 || self.modal.tool.length.is_none());
+                joints[axis] = in_machine[axis];
+                let is_tip = axis < 2 || self.modal.tool.length.is_none();
+                tip[axis] = place.tip[axis].filter(|_| is_tip);
             }
             self.flush(Kind::Other);
             let motion = Move { end: Target::Joints(joints), path: Path::Line };
             self.program.push_move(motion, &self.state(speed), self.origin);
-            self.modal.position = self.place_of(machine);
+            self.modal.position = self.place_of(tip);
             return Ok(());
         }
-        let same = self.modal.offset.unwrap_or(WorkOffset::G54) == place.offset
-            && self.modal.tool.length == place.length;
-        if !(same && known(place.work)) {
+        for axis in (0..3).filter(|axis| axes[*axis]) {
+            tip[axis] = place.tip[axis].filter(|_| self.modal.tool.length == place.length);
+        }
+        let end = self.place_of(tip);
+        if !known(end) {
             let finding = self
                 .lacks(bytes, "the place that was stored here (G28.1, G30.1) is not known to the program");
             return Err(finding.help("move to a known place before it is stored").into());
         }
-        let mut work = moved(&self.modal.turned.motion, vector(self.modal.position));
-        for axis in (0..3).filter(|axis| axes[*axis]) {
-            work[axis] = place.work[axis].unwrap_or(f64::NAN);
-        }
-        let end = moved(&self.modal.turned.motion.inverse(), work);
         self.modal.rotary_axes.next = Some(ToolAxis::Fixed);
-        self.push_tip(end.to_array().map(|v| Some(v).filter(|v| !v.is_nan())), Path::Line, speed);
+        self.push_tip(end, Path::Line, speed);
         Ok(())
     }
 }

@@ -1,15 +1,44 @@
-//! Zeros of the work offsets, as far as the program has set them.
+//! Zeros of the work offsets, as far as the program has set them or the control has kept them.
+//!
+//! Where the machine coordinates of a zero are not known, its distance from the zero of another work offset may be: `G10 L20`
+//! puts one where the tool stands in the other.
 
 use glam::DVec3;
 
 use crate::program::WorkOffset;
 
-/// The zero of a work offset; mm.
+/// A coordinate along an axis of the machine.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Spot {
+    /// The work offset from whose zero, as the setup has it, it counts; `None` is machine zero.
+    pub(super) from: Option<WorkOffset>,
+    /// The coordinate [mm].
+    pub(super) at: f64,
+}
+
+impl Spot {
+    /// A machine coordinate.
+    pub(super) fn machine(at: f64) -> Spot {
+        Spot { from: None, at }
+    }
+
+    /// The machine coordinate, where it is known.
+    pub(super) fn in_machine(self) -> Option<f64> {
+        self.from.is_none().then_some(self.at)
+    }
+
+    /// Distance from another place, not a number where it is not known.
+    pub(super) fn minus(self, other: Spot) -> f64 {
+        if self.from == other.from { self.at - other.at } else { f64::NAN }
+    }
+}
+
+/// The zero of a work offset.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Zero {
-    /// Machine coordinates of the zero that the setup has, where the program has told them.
-    pub(super) first: [Option<f64>; 3],
-    /// The zero that the program has set since, from that one.
+    /// Place of the zero that the setup has, where that is known.
+    pub(super) first: [Option<Spot>; 3],
+    /// The zero that the program has set since, from that one [mm].
     pub(super) shift: DVec3,
 }
 
@@ -42,15 +71,61 @@ impl Zeros {
         [Some(offset), None].into_iter().filter_map(|o| self.of(o)).map(|zero| zero.shift).sum()
     }
 
-    /// Machine coordinates of the zero that the setup has [mm].
-    pub(super) fn first(&self, offset: WorkOffset) -> [Option<f64>; 3] {
-        let all = self.of(None).map_or([Some(0.0); 3], |zero| zero.first);
-        let own = self.of(Some(offset)).map_or([None; 3], |zero| zero.first);
-        [0, 1, 2].map(|i| Some(own[i]? + all[i].unwrap_or(0.0)))
+    /// Machine coordinate of the zero that the setup has, without what is added to all work offsets [mm].
+    pub(super) fn in_machine(&self, offset: Option<WorkOffset>, axis: usize) -> Option<f64> {
+        match offset {
+            Some(offset) => self.spot(offset, axis).in_machine(),
+            None => self.of(None)?.first[axis]?.in_machine(),
+        }
+    }
+
+    /// Place of the zero that the setup has.
+    pub(super) fn first(&self, offset: WorkOffset) -> [Spot; 3] {
+        [0, 1, 2].map(|axis| {
+            let spot = self.spot(offset, axis);
+            let all = self.of(None).and_then(|zero| zero.first[axis]).map_or(0.0, |all| all.at);
+            Spot { at: spot.at + all, ..spot }
+        })
+    }
+
+    /// The work offsets whose zero has a place.
+    pub(super) fn offsets(&self) -> impl Iterator<Item = WorkOffset> + '_ {
+        self.known.iter().filter_map(|(offset, _)| *offset)
+    }
+
+    /// Follows the distances from one zero to the next.
+    fn spot(&self, offset: WorkOffset, axis: usize) -> Spot {
+        let mut spot = Spot { from: Some(offset), at: 0.0 };
+        // No zero is put where it counts from itself, so that each is met once.
+        while let Some(next) = spot.from.and_then(|from| self.of(Some(from))?.first[axis]) {
+            spot = Spot { from: next.from, at: spot.at + next.at };
+        }
+        spot
     }
 }
 
 /// A place known in part, as a vector that is not a number where it is not known.
 pub(super) fn vector(place: [Option<f64>; 3]) -> DVec3 {
     DVec3::from_array(place.map(|v| v.unwrap_or(f64::NAN)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn zeros_are_found_over_other_zeros() {
+        let of = |tenths| WorkOffset::from_tenths(tenths).unwrap();
+        let (g54, g55, g56) = (of(540), of(550), of(560));
+        let mut zeros = Zeros::default();
+        zeros.of_mut(Some(g55)).first[0] = Some(Spot { from: Some(g54), at: 10.0 });
+        zeros.of_mut(Some(g56)).first[0] = Some(Spot { from: Some(g55), at: 5.0 });
+        let x = |zeros: &Zeros, offset| zeros.first(offset)[0];
+        assert_eq!(x(&zeros, g56), Spot { from: Some(g54), at: 15.0 });
+        assert_eq!(x(&zeros, g56).minus(x(&zeros, g55)), 5.0);
+        assert!(zeros.first(g56)[1].minus(zeros.first(g54)[1]).is_nan());
+        assert_eq!(zeros.in_machine(Some(g56), 0), None);
+        zeros.of_mut(Some(g54)).first[0] = Some(Spot::machine(100.0));
+        assert_eq!((zeros.in_machine(Some(g56), 0), zeros.in_machine(Some(g54), 1)), (Some(115.0), None));
+    }
 }

@@ -31,6 +31,12 @@ impl Writer<'_> {
                 };
                 format!("G10 L2 P{number}{}", self.axis_words(place)?)
             }
+            ControlData::Here { offset: Some(offset), place }
+                if (linuxcnc || grbl) && !self.program.is_in(offset, state.frame) =>
+            {
+                self.turn_off()?;
+                format!("G10 L20 P{}{}", self.offset_number(offset)?, self.axis_words(place)?)
+            }
             ControlData::Here { offset, place } if linuxcnc || grbl || fanuc && offset.is_none() => {
                 self.state(state, true)?;
                 let words = self.axis_words(place)?;
