@@ -244,7 +244,7 @@ fn a_length_that_the_program_sets_is_compared_with_the_tool() {
     assert!(said.contains("the length register of T1 does not hold the length of the tool"), "{said}");
     let ngc = "G21 G17 G40 G49 G80 G90 G94 G54\nT1 M6\nG43.1 Z{}\nG0 X15 Y20 S3000 M3\nZ20\nG1 Z-3 F200\nX45 F400\nG0 Z20\nM2\n";
     for (by, code, says) in
-        [("100", 0, ""), ("99", 1, "is called with a length that the program gives as a number")]
+        [("100", 0, ""), ("99", 1, "is called with a length that the program makes (G43.1, G43.2)")]
     {
         std::fs::write(folder.join("P.ngc"), ngc.replace("{}", by)).unwrap();
         let args = ["simulate", "P.ngc", "--stock", STOCK, "--tools", "tools.toml", "--step", "1"];

@@ -1,8 +1,9 @@
 //! Data of the control that a program sets.
 
-use super::WorkOffset;
+use super::{OwnLength, WorkOffset};
 
-/// Registers from this number on are the program's own: lengths and radii that it gives as numbers (`G43.1`, `G41.1`).
+/// Registers from this number on are the program's own: lengths and radii that it gives as numbers (`G43.1`, `G41.1`). Those of
+/// lengths and those of radii are counted apart.
 pub const OWN_REGISTERS: u32 = 1 << 30;
 
 /// Data that a program sets at the control, in millimetres; no axis moves.
@@ -40,10 +41,12 @@ pub enum ControlData {
         /// The register.
         register: Option<u32>,
     },
-    /// A length before the program has called a tool (`G43.1`); zero switches it off.
-    Lift {
+    /// A length that the program makes of numbers and registers (`G43.1`, `G43.2`), which is not in force by that.
+    OwnLength {
+        /// Its register, [`OWN_REGISTERS`] and above.
+        register: u32,
         /// The length.
-        length: f64,
+        length: OwnLength,
     },
     /// A move at feed towards a place in coordinates of its frame that ends where a probe changes its state (`G38.2` to `G38.5`).
     Probe {

@@ -226,10 +226,6 @@ impl<'a> Follow<'a> {
                 }
                 Ok(())
             }
-            Item::Data(ControlData::Lift { .. }) => {
-                self.tip[2] = None;
-                Ok(())
-            }
             _ => Ok(()),
         }
     }

@@ -3,10 +3,10 @@
 //! Expected places are those of the interpreter's own test-suite and stand-alone version, or follow from the rules of the manuals.
 
 use crate::{moves, read, refused, run};
-use kinecut_nc::base::Sources;
+use kinecut_nc::base::{Severity, Sources};
 use kinecut_nc::nc::Control::{Fanuc, Grbl, LinuxCnc, Sinumerik840d};
 use kinecut_nc::nc::{self, Control, PostSettings, Reading};
-use kinecut_nc::program::{Comp, ControlData, Item, Path, Target};
+use kinecut_nc::program::{Comp, ControlData, Item, OwnLength, Path, Target, WorkOffset};
 
 /// Ends of the moves of the tip in the coordinates of the work offset as the setup has it.
 fn in_work(reading: &Reading) -> Vec<[f64; 3]> {
@@ -62,7 +62,7 @@ fn a_zero_is_set_by_the_present_place() {
     assert_eq!(in_work(&reading), wanted);
     // GRBL has the same words, and P0 for the work offset in force.
     assert_eq!(run("X5\nG10 L20 P0 X1\nX0", Grbl), ["R 5 0 0", "R 0 0 0"]);
-    let unknown = refused("G10 L20 P2 X1", LinuxCnc);
+    let unknown = refused("G28 X0\nG10 L20 P2 X1", LinuxCnc);
     assert!(
         unknown.contains("G10 L20 sets the zero of G55 from a place that is not known in it"),
         "{unknown}"
@@ -150,16 +150,57 @@ fn lengths_and_radii_are_numbers() {
     }
     let fanuc = nc::write(&reading.program, &[], &PostSettings::new(Fanuc)).unwrap_err().to_string();
     assert!(fanuc.contains("G43.1"), "{fanuc}");
-    let sum = refused("T1 M6\nG43.2 H1", LinuxCnc);
-    assert!(sum.contains("G43.2 adds lengths that only the tool table of the machine has"), "{sum}");
-    let known = read("G21 T1 M6\nG10 L1 P7 Z3\nG43.1 Z2\nG43.2 H7\nG0 Z1\nM2\n", LinuxCnc).unwrap();
-    assert!(again(&known, LinuxCnc).0.contains("G43.1 Z5"));
-    // Before a tool is called it is a length of its own.
-    let lifted = read("G21 G43.1 Z5\nG53 G0 X1 Y2 Z3\nG49\nM2\n", LinuxCnc).unwrap();
-    assert!(
-        has(&lifted, ControlData::Lift { length: 5.0 }) && has(&lifted, ControlData::Lift { length: 0.0 })
-    );
     assert!(refused("G41.1\nG1 X1 F1", LinuxCnc).contains("without D"));
+}
+
+#[test]
+fn lengths_are_added_and_replaced() {
+    let text = |between: &str| {
+        let reading =
+            read(&format!("G21 T1 M6\nG43 H1\nG0 X0 Y0 Z9\n{between}\nG0 X1 Y1 Z1\nM2\n"), LinuxCnc).unwrap();
+        let (text, second) = again(&reading, LinuxCnc);
+        assert_eq!(again(&second, LinuxCnc).0, text);
+        let behind = text.split_once("G0 X0 Y0 Z9\n").unwrap().1;
+        (behind.split_once("\nG0").map_or(String::new(), |b| b.0.to_owned()), reading)
+    };
+    let (sum, reading) = text("G43.2 H7");
+    assert_eq!(sum, "G43.2 H7");
+    assert_eq!(reading.own_lengths, [OwnLength { before: Some(1), set: [None; 3], add: Some(7) }]);
+    assert_eq!(text("G43.1 Z5\nG43.2 H7").0, "G43.1 Z5\nG43.2 H7");
+    assert_eq!(text("G49\nG43.1 Z5\nG43.2 H7").0, "G49\nG43.1 Z5\nG43.2 H7");
+    assert_eq!(text("G43.2 H7\nG43.2 H7\nG43.1 Z-3").0, "G43.2 H7\nG43.2 H7\nG43.1 Z-3");
+    assert_eq!(text("G43.1 Z5\nG43.1 Z6").0, "G43.1 Z6");
+    // The program's own numbers: with 3 mm in the table the spindle is 8 mm above the tip.
+    let down = "G10 L1 P7 Z3\nG10 L2 P1 X0 Y0 Z0\nG49\nG43.1 Z5\nG43.2 H7\nG53 G0 X4 Y4 Z20\nG91 G1 Z-1 F60\nM2\n";
+    assert_eq!(moves(&read(&format!("G21\n{down}"), LinuxCnc).unwrap()), ["F 4 4 11"]);
+    // Across its axis the place of the tip on the machine is another.
+    let reading = read("G21 T1 M6\nG0 X0 Y0 Z9\nG43.1 X-5.5\nG0 X1 Y1 Z1\nG49\nM2\n", LinuxCnc).unwrap();
+    assert!(again(&reading, LinuxCnc).0.contains("G43.1 X-5.5"));
+    let said = reading.findings.iter().find(|f| f.message.contains("offset across its axis (G43.1 X)")).unwrap();
+    assert_eq!(said.severity, Severity::Doubt);
+    assert!(refused("T1 M6\nG0 X1 Y1 Z1\nG43.1 X1\nG91 G0 X1", LinuxCnc).contains("an increment from a position"));
+    // Before a tool is called it is that of the tool in the spindle.
+    let lifted = read("G21 G43.1 Z5\nG53 G0 X1 Y2 Z3\nG49\nM2\n", LinuxCnc).unwrap();
+    let text = again(&lifted, LinuxCnc).0;
+    assert!(text.contains("\nG43.1 Z5\n") && text.contains("Z3\nG49\n"), "{text}");
+    let many = "G43.2 H1\n".repeat(21);
+    assert!(refused(&many, LinuxCnc).contains("write G43.1 with their sum") || refused(&many, LinuxCnc).contains("21"));
+}
+
+#[test]
+fn a_zero_lies_from_another_one() {
+    let text = "G54\nG0 X10 Y20 Z30\nG10 L20 P2 X1 Y2 Z3\nG55\nG91 G1 X1 F60\nG90 G54\nG91 X1\nM2\n";
+    let reading = read(&format!("G21 {text}"), LinuxCnc).unwrap();
+    assert_eq!(moves(&reading), ["R 10 20 30", "F 2 2 3", "F 12 20 30"]);
+    let g55 = WorkOffset::from_tenths(550).unwrap();
+    assert_eq!(reading.zero_from(WorkOffset::G54, g55).map(|v| v.to_array()), Some([9.0, 18.0, 27.0]));
+    assert!(again(&reading, LinuxCnc).0.contains("G10 L20 P2 X1 Y2 Z3"));
+    // Once one of them has a place in the machine, the other has one too.
+    let later = "G10 L2 P1 X100 Y0 Z0\nG54 G0 X0 Y0 Z0\nG10 L20 P2 X-5 Y0 Z0\nG55 G53 G0 X101 Y1 Z1\nG91 G1 X1 F60\nM2\n";
+    assert_eq!(moves(&read(&format!("G21 {later}"), LinuxCnc).unwrap())[1..], ["F -3 1 1"]);
+    // Moves in it before are at a place that the machine alone knows.
+    let moved = refused("G55 G0 X1 Y1 Z1\nG54 G0 X0 Y0 Z0\nG10 L20 P2 X1", LinuxCnc);
+    assert!(moved.contains("the zero of G55 changes after moves in it"), "{moved}");
 }
 
 #[test]

@@ -222,6 +222,12 @@ impl OLines {
         &self.lines[index]
     }
 
+    /// A subprogram that begins within the one of a line.
+    pub(in crate::nc) fn sub_within(&self, own: usize) -> Option<usize> {
+        let end = self.lines[own].end?;
+        (own + 1..end).find(|line| self.lines[*line].word == OWord::Sub)
+    }
+
     /// The subprogram of a label.
     pub(in crate::nc) fn sub(&self, label: &str) -> Option<usize> {
         self.subs.get(label).copied()

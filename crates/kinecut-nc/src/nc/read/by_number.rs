@@ -1,86 +1,126 @@
 //! Lengths and radii given as numbers in a block, without the tool table: `G43.1`, `G43.2`, `G41.1`, `G42.1` (LinuxCNC).
 //!
-//! Each number becomes a register of the program's own. Before the program has called a tool, a length moves the place of Z on the
-//! machine and belongs to no tool.
+//! Each becomes a register of the program's own. `G43.1` gives the offsets of the tool that it names, the others stay; `G43.2` adds those
+//! of a tool to what is in force. An offset across the axis of the tool moves the place of its tip on the machine: the tip is
+//! followed where the program means it, and that is said.
 
 use crate::base::Result;
 use crate::nc::dialect::AXES;
-use crate::program::{ControlData, OWN_REGISTERS};
+use crate::program::{ControlData, OWN_REGISTERS, OwnLength, Speed};
 
 use super::block::Word;
 use super::place::Bytes;
 use super::reader::{Reader, take};
 
+/// Most lengths that are added to one another.
+const MOST_ADDED: usize = 20;
+
 impl<'s> Reader<'s> {
-    /// Executes `G43.1 Z` and `G43.2 H`.
+    /// Executes `G43.1 X Y Z` and `G43.2 H`.
     pub(super) fn length_by_number(
         &mut self,
         words: &mut [Word<'s>],
         add: bool,
         bytes: &Bytes,
     ) -> Result<()> {
-        let before = match self.modal.tool.length {
-            Some(register) => self.length_of(register),
-            None => Some(self.lift),
-        };
-        let length = if add {
+        let before = self.modal.tool.length.filter(|register| *register != 0);
+        let own = before.and_then(|register| self.own_length_of(register)).copied();
+        if add {
             let Some(word) = take(words, "H") else {
                 return Err(self.lacks(bytes, "G43.2 without the tool H whose length it adds").into());
             };
             let register = self.count(&word, "a tool number")?;
-            match (before, self.length_of(register)) {
-                (Some(before), Some(length)) => before + length,
-                _ => {
-                    let finding =
-                        self.lacks(bytes, "G43.2 adds lengths that only the tool table of the machine has");
-                    return Err(finding
-                        .help("set them by G10 L1 first, or write G43.1 with their sum")
-                        .into());
-                }
+            if register == 0 {
+                return Ok(());
             }
-        } else {
-            let named = self.lengths(words);
-            if let Some(axis) = (0..2).find(|axis| named[*axis].is_some_and(|v| v != 0.0)) {
-                let why = format!("a tool that is offset along {} is not followed", AXES[axis]);
-                return Err(self.place.not_understood(bytes, &why).into());
+            if self.added(before) >= MOST_ADDED {
+                let finding = self.lacks(bytes, "more lengths are added to one another than kinecut follows");
+                let finding = finding.value(self.added(before) as f64 + 1.0, "").bound(MOST_ADDED as f64, "");
+                return Err(finding.help("write G43.1 with their sum").into());
             }
-            if named == [None; 3] {
-                return Err(self.lacks(bytes, "G43.1 without an axis").into());
-            }
-            let Some(length) = named[2] else { return Ok(()) };
-            length
-        };
-        if self.modal.tool.id.is_none() {
-            self.lifted(length);
+            // Numbers and a register are one length.
+            let length = match own.filter(|own| own.add.is_none()) {
+                Some(own) => OwnLength { add: Some(register), ..own },
+                None => OwnLength { before, set: [None; 3], add: Some(register) },
+            };
+            self.modal.tool.length = Some(self.own_length(length));
             return Ok(());
+        }
+        let named = self.lengths(words);
+        if named == [None; 3] {
+            return Err(self.lacks(bytes, "G43.1 without an axis").into());
+        }
+        if let Some(axis) = (0..2).find(|axis| named[*axis].is_some_and(|v| v != 0.0)) {
+            let message = format!(
+                "a tool is offset across its axis (G43.1 {}): its tip is followed where the program means it",
+                AXES[axis]
+            );
+            self.doubt(bytes, &message, "a tool that turns in the spindle has no such offset");
+        }
+        let mut length = match own.filter(|own| own.add.is_none()) {
+            Some(own) => OwnLength { set: [0, 1, 2].map(|axis| named[axis].or(own.set[axis])), ..own },
+            None => OwnLength { before, set: named, add: None },
+        };
+        if length.set.iter().all(Option::is_some) {
+            length.before = None;
         }
         self.modal.tool.length = Some(self.own_length(length));
         Ok(())
     }
 
-    /// A length without a tool.
-    pub(super) fn lifted(&mut self, length: f64) {
-        if length != self.lift {
-            self.lift = length;
-            self.modal.position[2] = None;
-            self.data(ControlData::Lift { length });
+    /// How many lengths are added in that of a register.
+    fn added(&self, mut register: Option<u32>) -> usize {
+        let mut count = 0;
+        while let Some(own) = register.and_then(|register| self.own_length_of(register)) {
+            (register, count) = (own.before, count + usize::from(own.add.is_some()));
+        }
+        count
+    }
+
+    /// The length of a register of the program's own.
+    fn own_length_of(&self, register: u32) -> Option<&OwnLength> {
+        self.own_lengths.get(register.checked_sub(OWN_REGISTERS)? as usize)
+    }
+
+    /// Offsets of a tool whose length is in force: those across its axis are zero where nothing says otherwise.
+    pub(super) fn offsets_of(&self, register: Option<u32>) -> [Option<f64>; 3] {
+        match register {
+            None | Some(0) => [Some(0.0); 3],
+            Some(register) => match self.own_length_of(register) {
+                // Each counts from one before it, and few are added.
+                Some(own) => own.offset(|register| Some(self.offsets_of(Some(register)))),
+                None => {
+                    let set = self.lengths_set.iter().find(|l| l.0 == register);
+                    [Some(0.0), Some(0.0), set.map(|l| l.1)]
+                }
+            },
         }
     }
 
-    /// A length in the tool table that the program has set.
-    fn length_of(&self, register: u32) -> Option<f64> {
-        self.lengths_set.iter().find(|l| l.0 == register).map(|l| l.1)
+    /// After another length is in force: the axes stay, and the coordinates of the tip change by what the offsets differ.
+    pub(super) fn offsets_change(&mut self) {
+        let after = self.offsets_of(self.modal.tool.length);
+        let before = std::mem::replace(&mut self.modal.tool_offsets, after);
+        let same = |axis: usize| before[axis].is_some() && before[axis] == after[axis];
+        let turned = self.modal.turned.is_turned() && !(same(0) && same(1));
+        for axis in 0..3 {
+            if axis == 2 || turned || !same(axis) {
+                self.modal.position[axis] = None;
+            }
+        }
     }
 
-    /// Register of a length that is given as a number.
-    pub(super) fn own_length(&mut self, length: f64) -> u32 {
-        let own = |l: &&(u32, f64)| l.0 >= OWN_REGISTERS && l.1 == length;
-        if let Some(found) = self.lengths_set.iter().find(own) {
-            return found.0;
+    /// Register of a length that the program makes.
+    fn own_length(&mut self, length: OwnLength) -> u32 {
+        let found = self.own_lengths.iter().position(|own| *own == length);
+        let index = found.unwrap_or(self.own_lengths.len());
+        let register = OWN_REGISTERS + index as u32;
+        if found.is_none() {
+            self.own_lengths.push(length);
+            let data = ControlData::OwnLength { register, length };
+            // It does nothing yet: an item of the tool that waits stays behind it.
+            self.program.push_data(data, &self.state(Speed::Rapid { linear: false }), self.origin);
         }
-        let register = OWN_REGISTERS + self.lengths_set.len() as u32;
-        self.lengths_set.push((register, length));
-        self.data(ControlData::Length { register, length });
         register
     }
 

@@ -75,14 +75,14 @@ impl<'s> Reader<'s> {
         for axis in 0..3 {
             let Some(value) = named[axis] else { continue };
             let first = self.modal.turned.zeros.in_machine(offset, axis);
-            let zero = self.modal.turned.zeros.of_mut(offset);
+            let zeros = &mut self.modal.turned.zeros;
             match first {
                 None => {
-                    let at = value - zero.shift[axis];
-                    zero.first[axis] = Some(Spot::machine(at));
+                    let at = value - zeros.of_mut(offset).shift[axis];
+                    zeros.put(offset, axis, Spot::machine(at));
                     place[axis] = Some(at);
                 }
-                Some(first) => zero.shift[axis] = value - first,
+                Some(first) => zeros.of_mut(offset).shift[axis] = value - first,
             }
         }
         if place != [None; 3] {
@@ -147,10 +147,8 @@ impl<'s> Reader<'s> {
                 return Err(finding.help("set the zeros of both work offsets first (G10 L2)").into());
             };
             self.unmoved(Some(offset), bytes)?;
-            // Its zero counts from the one in force from now on; what it counted from before comes with it.
-            let root = zero[axis].from.unwrap_or(offset);
-            let at = here.at - wanted[axis] - zero[axis].at;
-            self.modal.turned.zeros.of_mut(Some(root)).first[axis] = Some(Spot { from: here.from, at });
+            let spot = Spot { at: here.at - wanted[axis], ..here };
+            self.modal.turned.zeros.put(Some(offset), axis, spot);
             place[axis] = Some(wanted[axis]);
         }
         if place != [None; 3] {

@@ -239,13 +239,9 @@ impl<'s> Reader<'s> {
         }
         self.modal.tool.id = Some(ToolNumber(number));
         self.modal.rotary_axes.lapsed = false;
-        // A length that was given as a number stays in force.
-        if self.lift != 0.0 {
-            let length = std::mem::take(&mut self.lift);
-            self.modal.tool.length = Some(self.own_length(length));
-        }
         if let Some(register) = self.dialect.register_after_change {
             self.modal.tool.length = Some(register);
+            self.modal.tool_offsets = self.offsets_of(Some(register));
         }
         // Told again even if it is the same tool: the change is an item. LinuxCNC does not load the tool that is in the spindle, but
         // stops the spindle and goes to its place for changes (`convert_tool_change`, `CHANGE_TOOL`, `emcToolLoad`).
@@ -348,9 +344,6 @@ impl<'s> Reader<'s> {
                 }
                 Some((Code::LengthByNumber { add }, bytes)) => self.length_by_number(words, add, &bytes)?,
                 Some(_) => {
-                    if self.lift != 0.0 {
-                        self.lifted(0.0);
-                    }
                     self.length_lost = false;
                     self.modal.tool.length = None;
                     self.tip_control_ends(false);
@@ -363,7 +356,7 @@ impl<'s> Reader<'s> {
             if self.modal.told.id.is_some() {
                 self.tool_origin = self.origin;
             }
-            self.modal.position[2] = None;
+            self.offsets_change();
             // While Z has not moved since the tool item, the length may as well have been called there.
             if let (true, Some(id), Some(item)) =
                 (self.dialect.length_with_z, self.modal.tool.id, self.modal.tool_item)

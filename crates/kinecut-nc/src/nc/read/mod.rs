@@ -61,10 +61,12 @@ mod tap;
 mod turn;
 mod turned;
 mod variables;
-mod zeros;
+pub(super) mod zeros;
+
+use glam::DVec3;
 
 use crate::base::{Code, FileId, Finding, Result, Sources, Span};
-use crate::program::{Item, Program, Setup, Tcp};
+use crate::program::{Item, OwnLength, Program, Setup, Tcp, WorkOffset};
 
 use super::Control;
 use block::Block;
@@ -73,6 +75,7 @@ use place::SourceText;
 use points::Points;
 use reader::Reader;
 use run::Run;
+use zeros::Zeros;
 
 pub use called::called;
 pub use settings::{NumberInput, ReadSettings};
@@ -96,8 +99,33 @@ pub struct Reading {
     pub radii: Vec<(u32, f64)>,
     /// Length registers that the program itself sets: number and length [mm].
     pub lengths: Vec<(u32, f64)>,
+    /// Lengths that the program makes of numbers and registers, by the numbers of its own registers.
+    pub own_lengths: Vec<OwnLength>,
     /// Whether the program asks for a continuous path without a tolerance (`G64` without P).
     pub rounds_freely: bool,
+    /// Zeros of the work offsets.
+    pub(in crate::nc) zeros: Zeros,
+}
+
+impl Reading {
+    /// The zero of a work offset from that of another one, both as the setup has them, along the axes of the machine [mm]; none where
+    /// the program does not tell all three.
+    ///
+    /// ```
+    /// # use kinecut_nc as kinecut;
+    /// use glam::DVec3;
+    /// use kinecut::{base::Sources, nc::{self, Control}, program::WorkOffset};
+    ///
+    /// let text = "G10 L2 P1 X10 Y0 Z5\nG10 L2 P2 X110 Y0 Z5\nG54 G0 X0 Y0 Z9\nG55 G0 X0 Y0 Z9\nM2\n";
+    /// let reading = nc::read(&mut Sources::default(), "two.ngc", text, Control::LinuxCnc, &[]).unwrap();
+    /// let g55 = WorkOffset::from_tenths(550).unwrap();
+    /// assert_eq!(reading.zero_from(WorkOffset::G54, g55), Some(DVec3::new(100.0, 0.0, 0.0)));
+    /// ```
+    pub fn zero_from(&self, other: WorkOffset, offset: WorkOffset) -> Option<DVec3> {
+        let (there, here) = (self.zeros.first(offset), self.zeros.first(other));
+        let way = DVec3::from_array([0, 1, 2].map(|axis| there[axis].minus(here[axis])));
+        way.is_finite().then_some(way)
+    }
 }
 
 /// Reads a program. The text is added to `sources` under `name`; `setups` are the clampings it runs on: a work

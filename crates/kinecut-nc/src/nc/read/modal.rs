@@ -71,6 +71,8 @@ pub(super) struct Modal {
     /// Tool chosen for the next change.
     pub(super) chosen: Option<u32>,
     pub(super) tool: ToolState,
+    /// Offsets of the length in force along X, Y and Z [mm], as far as they are known.
+    pub(super) tool_offsets: [Option<f64>; 3],
     /// State in the program's last tool item.
     pub(super) told: ToolState,
     /// Tool of the program's last tool item.
@@ -126,6 +128,7 @@ impl Modal {
             chosen: None,
             tool: ToolState::default(),
             told: ToolState::default(),
+            tool_offsets: [Some(0.0); 3],
             called: None,
             tool_item: None,
             length_hidden: false,

@@ -300,9 +300,9 @@ impl<'s> Reader<'s> {
         for axis in 0..3 {
             if let Some(word) = take(words, AXES[axis]) {
                 joints[axis] = Some(word.value * self.modal.length_unit);
-                // With a length it is the spindle that is there, not the tip.
-                let is_tip = axis < 2 || self.modal.tool.length.is_none() && self.lift == 0.0;
-                machine[axis] = joints[axis].filter(|_| is_tip).map(Spot::machine);
+                // It is the spindle that is there, and the tip below it.
+                let tip = joints[axis].zip(self.modal.tool_offsets[axis]).map(|(spindle, tool)| spindle - tool);
+                machine[axis] = tip.map(Spot::machine);
                 self.modal.position[axis] = None;
             }
         }

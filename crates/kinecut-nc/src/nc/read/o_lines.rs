@@ -2,7 +2,7 @@
 
 use std::rc::Rc;
 
-use crate::base::{Finding, Result};
+use crate::base::{Error, Finding, Result};
 use crate::nc::linuxcnc::o_word::{self, OLine, OLines, OWord};
 use crate::nc::run::{Expression, Level};
 
@@ -46,7 +46,12 @@ impl<'s> Run<'s> {
         }
         match word {
             OWord::Program => self.ends_here(behind, end, block),
-            OWord::Sub => self.pass_over(&lines, own, &bytes),
+            OWord::Sub => {
+                if let Some(inner) = lines.sub_within(own) {
+                    return Err(self.nested(&lines, inner));
+                }
+                self.pass_over(&lines, own, &bytes)
+            }
             OWord::If => self.o_if(&lines, own, bytes.end as usize, end, block),
             // Reached from above: the branch that was taken ends here.
             OWord::ElseIf | OWord::Else => self.pass_over(&lines, o_line.begin.unwrap_or(own), &bytes),
@@ -69,6 +74,14 @@ impl<'s> Run<'s> {
             OWord::Return | OWord::EndSub => self.o_return(word, &bytes, end, block),
             OWord::Call => Ok(()),
         }
+    }
+
+    /// A subprogram within another one.
+    fn nested(&self, lines: &OLines, inner: usize) -> Error {
+        let line = lines.line(inner);
+        let end = line.start + self.reader.place.text()[line.start..line.after].trim_end().len();
+        let finding = self.reader.lacks(&range(line.start, end), "a subprogram begins within another one");
+        finding.help("write it before or behind the other").into()
     }
 
     fn unpaired(&self, line: &OLine, bytes: &Bytes) -> Finding {
@@ -172,10 +185,19 @@ impl<'s> Run<'s> {
         let line = lines.line(own);
         match line.begin {
             // It ends a `do`.
-            Some(begin) if goes_on => self.o_back(lines.line(begin).after, bytes),
-            Some(_) => Ok(()),
+            Some(begin) if goes_on && !self.leaving.broke => self.o_back(lines.line(begin).after, bytes),
+            Some(_) => {
+                if goes_on {
+                    self.reader.warn(bytes, "LinuxCNC ends this loop although its condition holds: it still counts the break of a while loop before");
+                }
+                self.leaving.broke = false;
+                Ok(())
+            }
             None if goes_on => Ok(()),
-            None => self.pass_over(lines, own, bytes),
+            None => {
+                self.leaving.continued = false;
+                self.pass_over(lines, own, bytes)
+            }
         }
     }
 
@@ -192,11 +214,12 @@ impl<'s> Run<'s> {
         end: usize,
         block: &mut Block<'s>,
     ) -> Result<()> {
-        let turns = self.condition(bytes.end as usize, end, block)?.round();
+        let turns = self.condition(bytes.end as usize, end, block)?.round_ties_even();
         if turns >= 1.0 {
             self.loops.push(Turns { line: own, left: turns as u64 });
             return Ok(());
         }
+        self.leaving.continued = false;
         self.pass_over(lines, own, bytes)
     }
 
@@ -226,9 +249,20 @@ impl<'s> Run<'s> {
         let inside = |turns: &Turns| (begin.start..last.start).contains(&lines.line(turns.line).start);
         self.loops.retain(|turns| !inside(turns));
         match (line.word, begin.word) {
-            (OWord::Break, _) => self.at = last.after,
-            (_, OWord::Do) => self.at = last.start,
-            _ => return self.o_back(begin.start, bytes),
+            (OWord::Break, OWord::Do) => (self.at, self.leaving.broke) = (last.after, false),
+            (OWord::Break, _) => {
+                self.leaving.broke = true;
+                if std::mem::take(&mut self.leaving.continued) {
+                    self.reader.warn(bytes, "LinuxCNC goes on with this loop in place of leaving it: it still counts the continue of a do loop before");
+                    return self.o_back(begin.start, bytes);
+                }
+                self.at = last.after;
+            }
+            (_, OWord::Do) => (self.at, self.leaving.continued) = (last.start, true),
+            _ => {
+                self.leaving.continued = false;
+                return self.o_back(begin.start, bytes);
+            }
         }
         Ok(())
     }

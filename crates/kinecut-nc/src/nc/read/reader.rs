@@ -7,7 +7,9 @@ use crate::machine::{CodeEffect, OwnCode};
 use crate::nc::dialect::{AXES, COMMON_G, COMMON_M, Code, Dialect, FlowWords, Mismatch, TurnWord};
 use crate::nc::multi_axis::ROTARY;
 use crate::nc::run::Variables;
-use crate::program::{Comp, ControlData, Frame, Origin, OriginId, Program, Setup, Speed, State, WorkOffset};
+use crate::program::{
+    Comp, ControlData, Frame, Origin, OriginId, OwnLength, Program, Setup, Speed, State, WorkOffset,
+};
 
 use super::Reading;
 use super::block::{Block, Word, WordMode};
@@ -87,8 +89,8 @@ pub(super) struct Reader<'s> {
     pub(super) stored_places: [Option<Stored>; 2],
     /// Whether blocks were called by their number (`M97`), which are behind the end as a rule.
     pub(super) called_blocks: bool,
-    /// Length in force without a tool that the program has called [mm].
-    pub(super) lift: f64,
+    /// Lengths that the program makes, by the numbers of its own registers.
+    pub(super) own_lengths: Vec<OwnLength>,
     /// Feed moves that start at a place that the program has not set.
     pub(super) from_nowhere: Vec<Span>,
     /// The jump that the present block asks for.
@@ -151,7 +153,7 @@ impl<'s> Reader<'s> {
             saved: Vec::new(),
             stored_places: [None; 2],
             called_blocks: false,
-            lift: 0.0,
+            own_lengths: Vec::new(),
             from_nowhere: Vec::new(),
             jump: None,
             length_lost: false,
@@ -198,6 +200,8 @@ impl<'s> Reader<'s> {
             errors: Vec::new(),
             radii: self.radii,
             lengths: self.lengths_set,
+            own_lengths: self.own_lengths,
+            zeros: self.modal.turned.zeros,
             rounds_freely: self.rounds_freely,
         })
     }

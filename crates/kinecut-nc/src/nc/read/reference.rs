@@ -96,7 +96,7 @@ impl<'s> Reader<'s> {
         // A Haas forgets the tool length there (96-8000, `G49`).
         if self.dialect.haas && self.modal.tool.length.take().is_some() {
             self.length_lost = true;
-            self.modal.position[2] = None;
+            self.offsets_change();
         }
         match point {
             None => self.note("the reference point (G28) is taken to be machine zero"),

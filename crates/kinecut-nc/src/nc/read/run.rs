@@ -47,6 +47,15 @@ pub(super) struct Turns {
     pub(super) left: u64,
 }
 
+/// What LinuxCNC keeps of a loop that was left: it forgets it in loops of the other kind only (`interp_o_word.cc`, 2.9 and the newest).
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Leaving {
+    /// A `break` has left a `while` loop: the next `do` loop ends after one turn.
+    pub(super) broke: bool,
+    /// A `continue` was in a `do` loop: the next `break` of a `while` loop is a `continue`.
+    pub(super) continued: bool,
+}
+
 /// The places of a file, found when they are first asked for.
 #[derive(Clone, Debug, Default)]
 struct Known {
@@ -63,6 +72,7 @@ pub(super) struct Run<'s> {
     started: bool,
     pub(super) frames: Vec<Frame<'s>>,
     pub(super) loops: Vec<Turns>,
+    pub(super) leaving: Leaving,
     budget: Budget,
     /// Whether lines are run that were run before.
     again: bool,
@@ -92,6 +102,7 @@ impl<'s> Run<'s> {
             started: false,
             frames: Vec::new(),
             loops: Vec::new(),
+            leaving: Leaving::default(),
             budget: Budget::new(settings.blocks, depth),
             again: false,
             recurrence: Recurrence::default(),
@@ -445,7 +456,7 @@ impl<'s> Run<'s> {
     pub(super) fn came_back(&mut self, bytes: &Bytes) -> Result<()> {
         self.again = true;
         let part = self.reader.variables.state() ^ mixed(0, self.at as u64);
-        let (frames, loops, reader) = (&self.frames, &self.loops, &self.reader);
+        let (frames, loops, reader, leaving) = (&self.frames, &self.loops, &self.reader, self.leaving);
         let whole = || {
             let calls = frames.iter().enumerate().map(|(i, f)| {
                 let place = u64::from(f.back.0.file.0) << 40 | f.back.1 as u64;
@@ -453,7 +464,8 @@ impl<'s> Run<'s> {
             });
             let turns = loops.iter().chain(frames.iter().flat_map(|f| &f.loops)).enumerate();
             let turns = turns.map(|(i, t)| mixed(t.line as u64 + (i as u64 + 1) * (1 << 32), t.left));
-            calls.chain(turns).fold(reader.state_number(), |a, b| a ^ b)
+            let leaving = u64::from(leaving.broke) | u64::from(leaving.continued) << 1;
+            calls.chain(turns).fold(reader.state_number() ^ mixed(u64::MAX, leaving), |a, b| a ^ b)
         };
         if !self.recurrence.is_back(part, whole) {
             return Ok(());

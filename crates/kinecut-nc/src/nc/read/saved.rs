@@ -75,9 +75,9 @@ impl<'s> Reader<'s> {
         (modal.return_to_start, modal.return_said) = (saved.return_to_start, saved.return_said);
         if modal.tool.length != saved.tool.length {
             modal.tool.length = saved.tool.length;
-            modal.position[2] = None;
             modal.length_hidden = false;
             self.tool_origin = self.origin;
+            self.offsets_change();
         }
         if let Some(offset) = saved.offset.filter(|o| self.modal.offset != Some(*o)) {
             self.work_offset(offset);

@@ -14,13 +14,25 @@ pub(super) struct Stored {
     /// Of the tip, as far as it is known.
     tip: [Option<Spot>; 3],
     length: Option<u32>,
+    /// Offsets of that length [mm].
+    offsets: [Option<f64>; 3],
 }
 
 impl Stored {
-    /// In the machine [mm], as far as it is known there: of the spindle where no length is in force.
+    /// Of the spindle in the machine [mm], as far as it is known there.
     fn in_machine(&self) -> [Option<f64>; 3] {
-        let known = |axis: usize| self.tip[axis].filter(|_| axis < 2 || self.length.is_none());
-        [0, 1, 2].map(|axis| known(axis).and_then(Spot::in_machine))
+        [0, 1, 2].map(|axis| Some(self.tip[axis]?.in_machine()? + self.offsets[axis]?))
+    }
+
+    /// Of the tip with a length in force and its offsets.
+    fn tip_with(&self, length: Option<u32>, offsets: [Option<f64>; 3]) -> [Option<Spot>; 3] {
+        if length == self.length {
+            return self.tip;
+        }
+        [0, 1, 2].map(|axis| {
+            let tip = self.tip[axis]?;
+            Some(Spot { at: tip.at + (self.offsets[axis]? - offsets[axis]?), ..tip })
+        })
     }
 }
 
@@ -31,7 +43,8 @@ impl<'s> Reader<'s> {
         else {
             return;
         };
-        let stored = Stored { tip: self.machine_place(), length: self.modal.tool.length };
+        let (length, offsets) = (self.modal.tool.length, self.modal.tool_offsets);
+        let stored = Stored { tip: self.machine_place(), length, offsets };
         self.stored_places[usize::from(second)] = Some(stored);
     }
 
@@ -40,21 +53,20 @@ impl<'s> Reader<'s> {
         let speed = Speed::Rapid { linear: self.dialect.straight_rapid };
         let known = |of: [Option<f64>; 3]| (0..3).all(|axis| !axes[axis] || of[axis].is_some());
         let (mut tip, in_machine) = (self.machine_place(), place.in_machine());
+        let there = place.tip_with(self.modal.tool.length, self.modal.tool_offsets);
+        for axis in (0..3).filter(|axis| axes[*axis]) {
+            tip[axis] = there[axis];
+        }
         if known(in_machine) {
             let mut joints = [None; 6];
             for axis in (0..3).filter(|axis| axes[*axis]) {
                 joints[axis] = in_machine[axis];
-                let is_tip = axis < 2 || self.modal.tool.length.is_none();
-                tip[axis] = place.tip[axis].filter(|_| is_tip);
             }
             self.flush(Kind::Other);
             let motion = Move { end: Target::Joints(joints), path: Path::Line };
             self.program.push_move(motion, &self.state(speed), self.origin);
             self.modal.position = self.place_of(tip);
             return Ok(());
-        }
-        for axis in (0..3).filter(|axis| axes[*axis]) {
-            tip[axis] = place.tip[axis].filter(|_| self.modal.tool.length == place.length);
         }
         let end = self.place_of(tip);
         if !known(end) {

@@ -9,7 +9,7 @@ use crate::program::WorkOffset;
 
 /// A coordinate along an axis of the machine.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Spot {
+pub(in crate::nc) struct Spot {
     /// The work offset from whose zero, as the setup has it, it counts; `None` is machine zero.
     pub(super) from: Option<WorkOffset>,
     /// The coordinate [mm].
@@ -28,14 +28,14 @@ impl Spot {
     }
 
     /// Distance from another place, not a number where it is not known.
-    pub(super) fn minus(self, other: Spot) -> f64 {
+    pub(in crate::nc) fn minus(self, other: Spot) -> f64 {
         if self.from == other.from { self.at - other.at } else { f64::NAN }
     }
 }
 
 /// The zero of a work offset.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Zero {
+pub(in crate::nc) struct Zero {
     /// Place of the zero that the setup has, where that is known.
     pub(super) first: [Option<Spot>; 3],
     /// The zero that the program has set since, from that one [mm].
@@ -44,7 +44,7 @@ pub(super) struct Zero {
 
 /// Zeros of work offsets; `None` is what is added to all of them.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Zeros {
+pub(in crate::nc) struct Zeros {
     known: Vec<(Option<WorkOffset>, Zero)>,
 }
 
@@ -66,6 +66,20 @@ impl Zeros {
         &mut self.known[index].1
     }
 
+    /// Puts the zero that the setup has, along an axis; zeros that count from it stay where they are.
+    pub(super) fn put(&mut self, offset: Option<WorkOffset>, axis: usize, spot: Spot) {
+        let before = std::mem::replace(&mut self.of_mut(offset).first[axis], Some(spot));
+        let mut base = before;
+        for (other, zero) in self.known.iter_mut().filter(|(o, _)| *o != offset) {
+            let Some(from) = zero.first[axis].filter(|spot| offset.is_some() && spot.from == offset) else {
+                continue;
+            };
+            zero.first[axis] = base.map(|base| Spot { from: base.from, at: base.at + from.at });
+            // Of those that count from a zero without a place, the first becomes the one from which the others count.
+            base = base.or(Some(Spot { from: *other, at: -from.at }));
+        }
+    }
+
     /// Shift of a work offset from the zero that the setup has [mm].
     pub(super) fn shift(&self, offset: WorkOffset) -> DVec3 {
         [Some(offset), None].into_iter().filter_map(|o| self.of(o)).map(|zero| zero.shift).sum()
@@ -80,17 +94,12 @@ impl Zeros {
     }
 
     /// Place of the zero that the setup has.
-    pub(super) fn first(&self, offset: WorkOffset) -> [Spot; 3] {
+    pub(in crate::nc) fn first(&self, offset: WorkOffset) -> [Spot; 3] {
         [0, 1, 2].map(|axis| {
             let spot = self.spot(offset, axis);
             let all = self.of(None).and_then(|zero| zero.first[axis]).map_or(0.0, |all| all.at);
             Spot { at: spot.at + all, ..spot }
         })
-    }
-
-    /// The work offsets whose zero has a place.
-    pub(super) fn offsets(&self) -> impl Iterator<Item = WorkOffset> + '_ {
-        self.known.iter().filter_map(|(offset, _)| *offset)
     }
 
     /// Follows the distances from one zero to the next.
@@ -118,14 +127,21 @@ mod tests {
         let of = |tenths| WorkOffset::from_tenths(tenths).unwrap();
         let (g54, g55, g56) = (of(540), of(550), of(560));
         let mut zeros = Zeros::default();
-        zeros.of_mut(Some(g55)).first[0] = Some(Spot { from: Some(g54), at: 10.0 });
-        zeros.of_mut(Some(g56)).first[0] = Some(Spot { from: Some(g55), at: 5.0 });
+        zeros.put(Some(g55), 0, Spot { from: Some(g54), at: 10.0 });
+        zeros.put(Some(g56), 0, Spot { from: Some(g55), at: 5.0 });
         let x = |zeros: &Zeros, offset| zeros.first(offset)[0];
         assert_eq!(x(&zeros, g56), Spot { from: Some(g54), at: 15.0 });
         assert_eq!(x(&zeros, g56).minus(x(&zeros, g55)), 5.0);
         assert!(zeros.first(g56)[1].minus(zeros.first(g54)[1]).is_nan());
         assert_eq!(zeros.in_machine(Some(g56), 0), None);
-        zeros.of_mut(Some(g54)).first[0] = Some(Spot::machine(100.0));
-        assert_eq!((zeros.in_machine(Some(g56), 0), zeros.in_machine(Some(g54), 1)), (Some(115.0), None));
+        let mut moved = zeros.clone();
+        zeros.put(Some(g55), 0, Spot::machine(7.0));
+        assert_eq!(x(&zeros, g56), Spot { from: Some(g54), at: 15.0 });
+        assert_eq!((zeros.in_machine(Some(g55), 0), zeros.in_machine(Some(g54), 1)), (Some(7.0), None));
+        // G55 and G56 counted from G54, and count from each other now.
+        moved.put(Some(g54), 0, Spot::machine(100.0));
+        assert_eq!(moved.in_machine(Some(g54), 0), Some(100.0));
+        assert_eq!(x(&moved, g56).minus(x(&moved, g55)), 5.0);
+        assert!(x(&moved, g56).minus(x(&moved, g54)).is_nan());
     }
 }

@@ -95,7 +95,7 @@ impl Writer<'_> {
             CompWord::Register | CompWord::ModalRegister if register == 0 => {
                 Err(refused("D0 is no radius register").value(0.0, "").bound(1.0, "").into())
             }
-            CompWord::Register | CompWord::ModalRegister => Ok(match self.own_register(register)? {
+            CompWord::Register | CompWord::ModalRegister => Ok(match self.own_radius(register)? {
                 Some(radius) => format!("{word}.1 D{}", plain(2.0 * radius)),
                 None => format!("{word} D{register}"),
             }),

@@ -68,19 +68,17 @@ impl Writer<'_> {
                 }
                 block
             }
-            ControlData::Length { register, length } if register >= OWN_REGISTERS => {
-                self.own_registers.push((register, length));
+            ControlData::OwnLength { length, .. } => {
+                self.own_lengths.push(length);
                 return Ok(());
             }
             ControlData::Radius { register, radius } if register >= OWN_REGISTERS => {
-                self.own_registers.push((register, radius));
+                self.own_radii.push((register, radius));
                 return Ok(());
             }
             ControlData::LengthCall { register } if self.dialect.has_lengths && !self.klartext() => {
                 return self.length_word(register);
             }
-            ControlData::Lift { length: 0.0 } if linuxcnc => self.dialect.length_off.to_owned(),
-            ControlData::Lift { length } if linuxcnc => format!("G43.1 Z{}", plain(length)),
             ControlData::Orient { degrees, way, seconds } if linuxcnc => {
                 let mut block = "M19".to_owned();
                 for (word, value) in [("R", degrees), ("P", f64::from(way)), ("Q", seconds)] {
@@ -107,7 +105,7 @@ impl Writer<'_> {
             ControlData::Here { .. } => return Err(cannot("the coordinates of the present place").into()),
             ControlData::Probe { .. } => return Err(cannot("a move of a probe").into()),
             ControlData::Orient { .. } => return Err(cannot("the place where the spindle stands").into()),
-            ControlData::Lift { .. } | ControlData::LengthCall { .. } => {
+            ControlData::LengthCall { .. } => {
                 return Err(cannot("a length without a tool").into());
             }
             ControlData::Length { .. } | ControlData::Radius { .. } => {
@@ -118,18 +116,53 @@ impl Writer<'_> {
         Ok(())
     }
 
-    /// A length or radius that the program gives as a number [mm], for a control that takes it so.
-    pub(super) fn own_register(&self, register: u32) -> Result<Option<f64>> {
+    /// A radius that the program gives as a number [mm], for a control that takes it so.
+    pub(super) fn own_radius(&self, register: u32) -> Result<Option<f64>> {
         if register < OWN_REGISTERS {
             return Ok(None);
         }
-        let found = self.own_registers.iter().rev().find(|(own, _)| *own == register);
+        let found = self.own_radii.iter().rev().find(|(own, _)| *own == register);
         let value = found.filter(|_| self.settings.control == Control::LinuxCnc).map(|(_, value)| *value);
         value.map(Some).ok_or_else(|| {
-            unsupported("the program gives a length or radius as a number (G43.1, G41.1), which this control does not take")
+            unsupported("the program gives a radius as a number (G41.1), which this control does not take")
                 .help("give it by a register")
                 .into()
         })
+    }
+
+    /// The blocks that put a length in force behind another one, and whether they count from that.
+    pub(super) fn length_blocks(&self, length: Option<u32>, behind: Option<u32>) -> Result<(Vec<String>, bool)> {
+        let Some(register) = length else { return Ok((vec![self.dialect.length_off.to_owned()], false)) };
+        let Some(index) = register.checked_sub(OWN_REGISTERS) else {
+            return Ok((vec![format!("{}{register}", self.dialect.length_on)], false));
+        };
+        let found = self.own_lengths.get(index as usize).filter(|_| self.settings.control == Control::LinuxCnc);
+        let Some(own) = found else {
+            return Err(unsupported(
+                "the program gives a length as a number or a sum (G43.1, G43.2), which this control does not take",
+            )
+            .help("give it by a register")
+            .into());
+        };
+        let stays = own.set.iter().any(Option::is_none);
+        let (mut blocks, counts) = match own.before {
+            _ if !stays => (Vec::new(), false),
+            before if before == behind => (Vec::new(), true),
+            // Each counts from one before it.
+            before => self.length_blocks(before, behind)?,
+        };
+        if own.set != [None; 3] {
+            let words: Vec<String> = AXES
+                .iter()
+                .zip(own.set)
+                .filter_map(|(axis, value)| Some(format!(" {axis}{}", plain(value?))))
+                .collect();
+            blocks.push(format!("G43.1{}", words.concat()));
+        }
+        if let Some(register) = own.add {
+            blocks.push(format!("G43.2 H{register}"));
+        }
+        Ok((blocks, counts))
     }
 
     /// P of a work offset.

@@ -29,7 +29,9 @@ mod turn;
 use std::collections::BTreeSet;
 
 use crate::base::{Code, Error, Finding, Result};
-use crate::program::{Coolant, Item, Program, Spindle, StopKind, ToolNumber};
+use crate::program::{
+    Coolant, Item, OWN_REGISTERS, OwnLength, Program, Spindle, StopKind, ToolNumber,
+};
 use crate::tool::Tool;
 
 use super::dialect::Dialect;
@@ -112,7 +114,8 @@ pub fn write(program: &Program, tools: &[Tool], settings: &PostSettings) -> Resu
         parameters_used: false,
         turns_kept: false,
         beyond_turn: false,
-        own_registers: Vec::new(),
+        own_lengths: Vec::new(),
+        own_radii: Vec::new(),
         shares: None,
     };
     if writer.klartext() {
@@ -205,8 +208,10 @@ struct Writer<'a> {
     turns_kept: bool,
     /// A rotary axis was written beyond a whole turn.
     beyond_turn: bool,
-    /// Lengths and radii that the program gives as numbers [mm].
-    own_registers: Vec<(u32, f64)>,
+    /// Lengths that the program makes, by the numbers of its own registers.
+    own_lengths: Vec<OwnLength>,
+    /// Radii that the program gives as numbers [mm].
+    own_radii: Vec<(u32, f64)>,
     /// Parts of a move in inverse time.
     shares: Option<shares::Shares>,
 }
@@ -394,21 +399,23 @@ impl Writer<'_> {
 
     /// Calls a length register; heights are then another, so the next move names its Z.
     fn length_word(&mut self, length: Option<u32>) -> Result<()> {
-        let own = length.map_or(Ok(None), |register| self.own_register(register))?;
-        let word = match (length, own) {
-            (_, Some(number)) => format!("G43.1 Z{}", super::grid::plain(number)),
-            (Some(register), None) => format!("{}{register}", self.dialect.length_on),
-            (None, None) => self.dialect.length_off.to_owned(),
-        };
+        let (blocks, counts) = self.length_blocks(length, self.length)?;
         if self.dialect.length_with_z {
-            self.length_pending = Some(word);
+            self.length_pending = blocks.into_iter().next_back();
         } else if self.dialect.has_lengths {
             // A length that the next block replaces does nothing.
-            if self.length_line == Some(self.page.len()) {
+            if self.length_line == Some(self.page.len()) && !counts {
                 self.page.truncate(self.page.len() - 1);
             }
-            self.page.block(word);
-            self.length_line = Some(self.page.len());
+            let replaceable = !counts && blocks.len() == 1;
+            for block in blocks {
+                self.page.block(block);
+            }
+            self.length_line = replaceable.then(|| self.page.len());
+        }
+        // One that the program makes may be across the tool.
+        if [self.length, length].iter().flatten().any(|register| *register >= OWN_REGISTERS) {
+            (self.place.written, self.place.exact) = ([None; 3], [f64::NAN; 3]);
         }
         self.length = length;
         self.length_suspended = false;

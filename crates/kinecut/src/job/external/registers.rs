@@ -38,6 +38,13 @@ impl Registers {
         // What the program sets itself counts.
         let mut lengths = reading.lengths.clone();
         lengths.extend(&given.lengths);
+        for (own, number) in reading.own_lengths.iter().zip(OWN_REGISTERS..) {
+            // Each counts from one before it.
+            let of = |register| lengths.iter().find(|l| l.0 == register).map(|l| [Some(0.0), Some(0.0), Some(l.1)]);
+            if let [.., Some(length)] = own.offset(of) {
+                lengths.push((number, length));
+            }
+        }
         let mut seen: Vec<(ToolNumber, Option<u32>)> = Vec::new();
         // The tool in the spindle: a program may call a length only.
         let mut tool = job.tools.iter().find(|t| Some(t.number) == in_spindle);
@@ -166,7 +173,7 @@ fn length_finding(control: Control, tool: &Tool, length: Option<u32>, held: Opti
             )
         }
         Some(register) if register >= OWN_REGISTERS => (
-            format!("{number} is called with a length that the program gives as a number"),
+            format!("{number} is called with a length that the program makes (G43.1, G43.2)"),
             "give the tool that length: gauge_length".to_owned(),
         ),
         Some(0) if matches!(control, Control::Fanuc | Control::Haas) => (

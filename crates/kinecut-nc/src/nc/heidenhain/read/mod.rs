@@ -203,6 +203,8 @@ impl<'s> Reader<'s> {
             errors: Vec::new(),
             radii: Vec::new(),
             lengths: Vec::new(),
+            own_lengths: Vec::new(),
+            zeros: crate::nc::read::zeros::Zeros::default(),
             rounds_freely: false,
         })
     }
