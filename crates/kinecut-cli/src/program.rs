@@ -160,9 +160,12 @@ pub(crate) struct ProgramOf {
     /// TOML file with the tools ([[tool]], [[holder]]), as a job file is one; or a tool table of LinuxCNC (.tbl)
     #[arg(long, value_name = "FILE")]
     tools: Option<PathBuf>,
-    /// The lengths in the tool table are inches; default: mm
-    #[arg(long, requires = "tools")]
-    table_in_inches: bool,
+    /// Parameter file of a LinuxCNC machine (linuxcnc.var): its work offsets, and the places of G28 and G30
+    #[arg(long, value_name = "FILE")]
+    parameters: Option<PathBuf>,
+    /// The machine counts in inches: lengths in its tool table and its parameters; default: mm
+    #[arg(long)]
+    machine_in_inches: bool,
     /// Number of the tool in the spindle before the program calls one
     #[arg(long, value_name = "N")]
     tool: Option<u32>,
@@ -206,7 +209,8 @@ impl ProgramOf {
             stock: stock.map(RawStock::given).transpose()?,
             position: self.position,
             tool: self.tool,
-            table_in_inches: self.table_in_inches,
+            parameters: self.parameters.as_deref().map(kept_named).transpose()?,
+            machine_in_inches: self.machine_in_inches,
             setup: self.setup,
             ..ProgramWants::default()
         };
@@ -251,11 +255,16 @@ impl ProgramOf {
 /// Name and text of a file of tools; a tool table need not be UTF-8.
 fn tools_named(path: &Path) -> Result<(String, String), Error> {
     let name = path.display().to_string();
-    let text = match is_tool_table(&name) {
-        true => program_text(&files::bytes(path, FileKind::Program)?).0.into_owned(),
-        false => files::text(&name)?,
-    };
-    Ok((name, text))
+    match is_tool_table(&name) {
+        true => kept_named(path),
+        false => files::text(&name).map(|text| (name, text)),
+    }
+}
+
+/// Name and text of a file that a control keeps, which need not be UTF-8.
+fn kept_named(path: &Path) -> Result<(String, String), Error> {
+    let text = program_text(&files::bytes(path, FileKind::Program)?).0.into_owned();
+    Ok((path.display().to_string(), text))
 }
 
 /// A program as a job file names it: from the folder of the job, beside which or below which it lies.

@@ -288,13 +288,13 @@ fn the_tool_table_of_the_machine_tells_lengths_and_diameters() {
     }
     // Inches make another tool of it; a line of another form is refused with its place.
     let args =
-        ["simulate", "P.ngc", "--stock", STOCK, "--tools", "tool.tbl", "--table-in-inches", "--step", "1"];
+        ["simulate", "P.ngc", "--stock", STOCK, "--tools", "tool.tbl", "--machine-in-inches", "--step", "1"];
     assert!(text(&kinecut(&folder, &args).stderr).contains("T1 end-mill 152.4 mm, 1910.08 mm long"));
     std::fs::write(folder.join("old.tbl"), "T1 P1\n 1 1 +0.511 0.125 1/8 end mill\n").unwrap();
     let run = kinecut(&folder, &["check", "P.ngc", "--tools", "old.tbl"]);
     assert_eq!(run.status.code(), Some(2));
     assert!(text(&run.stderr).contains("old.tbl:2:2"), "{}", text(&run.stderr));
-    let run = kinecut(&folder, &["check", "P.ngc", "--tools", "tools.toml", "--table-in-inches"]);
+    let run = kinecut(&folder, &["check", "P.ngc", "--tools", "tools.toml", "--machine-in-inches"]);
     assert!(text(&run.stderr).contains("only the lengths of a tool table (.tbl) may be in inches"));
     std::fs::remove_dir_all(folder).unwrap();
 }

@@ -24,6 +24,7 @@ mod grblhal;
 mod grid;
 mod haas;
 mod heidenhain;
+mod kept;
 mod linuxcnc;
 mod modes;
 mod multi_axis;
@@ -40,6 +41,8 @@ mod write;
 
 pub use control::Control;
 pub use detect::{Detected, detect};
+pub use kept::Kept;
+pub use linuxcnc::parameters::{Parameters, parameters};
 pub use linuxcnc::tool_table::{TableTool, tool_table};
 pub use read::{NumberInput, ReadSettings, Reading, called, read, read_source};
 pub use settings::{PostNotes, PostSettings, Posted};

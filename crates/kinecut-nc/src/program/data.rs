@@ -29,12 +29,12 @@ pub enum ControlData {
         /// The coordinates.
         place: [Option<f64>; 3],
     },
-    /// A length in the tool table (`G10 L1 P Z`, `G10 L10 P R`).
+    /// Offsets along X, Y and Z in the tool table, of the axes that are said (`G10 L1 P Z`; `G10 L10 P R` of FANUC, a length).
     Length {
         /// Its register.
         register: u32,
-        /// The length.
-        length: f64,
+        /// The offsets; that along Z is the length.
+        offset: [Option<f64>; 3],
     },
     /// A length register that is called before the program has called a tool: that of the tool in the spindle. `None` is off.
     LengthCall {

@@ -47,8 +47,8 @@ class Kinecut:
         done = self.run(["--json", "check", path, "--control", control, *on])
         return answer(done)
 
-    def post(self, path, to="linuxcnc", control="linuxcnc", decimals=6, folders=(), machine=None):
-        """The text that it writes again, and what it found."""
+    def post(self, path, to="linuxcnc", control="linuxcnc", decimals=6, folders=(), machine=None, kept=None):
+        """The text that it writes again, and what it found; `kept`: folder with the files of the machine, tool.tbl and kept.var."""
         path = pathlib.Path(path)
         if self.binary in ("same", "altered"):
             text = path.read_bytes().decode(errors="replace")
@@ -57,6 +57,7 @@ class Kinecut:
             out = pathlib.Path(folder) / "post.ngc"
             arguments = ["--json", "post", path, "--from", control, "--to", to, "--decimals", decimals, "-o", out]
             arguments += ["--tools", self.tools] if self.tools else []
+            arguments += ["--tools", kept / "tool.tbl", "--parameters", kept / "kept.var"] if kept else []
             arguments += [word for folder in folders for word in ("--subprograms", folder)]
             arguments += ["--machine", machine, "--position", "0,0,0"] if machine else []
             found = answer(self.run(arguments))

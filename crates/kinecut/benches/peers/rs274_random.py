@@ -43,6 +43,7 @@ def options():
     ask.add_argument("--keep", type=pathlib.Path, default=pathlib.Path("out/rs274_failing"), help="folder for failing programs")
     ask.add_argument("--shrink", type=int, default=0, help="how many failing programs, each of another kind, are made short")
     ask.add_argument("--tolerance", type=float, default=1e-4, help="of places, mm")
+    ask.add_argument("--bare", action="store_true", help="kinecut gets the program alone, without tool table and parameters of the machine")
     ask.add_argument("--path-mode", action="store_true", help="count other G61 and G64 as a failure")
     ask.add_argument("--messages", action="store_true", help="count operator messages that are lost as a failure")
     ask = ask.parse_args()
@@ -74,10 +75,13 @@ def judged(text):
     if any(e["kind"] == "split" for e in events):
         return "none", [next(e["text"] for e in events if e["kind"] == "split")]
     with tempfile.TemporaryDirectory() as folder:
-        path = pathlib.Path(folder) / "p.ngc"
+        folder = pathlib.Path(folder)
+        path = folder / "p.ngc"
         path.write_text(text)
+        (folder / "tool.tbl").write_text(rs274_oracle.tool_lines(rs274_oracle.TABLE, 1))
+        (folder / "kept.var").write_text(rs274_oracle.var_lines({}, 1))
         try:
-            posted, _ = HERE["kinecut"].post(path)
+            posted, _ = HERE["kinecut"].post(path, kept=None if ask.bare else folder)
         except kinecut_reads.Refused as why:
             if error:
                 rightly = not lines or why.line in lines

@@ -40,6 +40,11 @@ pub fn parts(file: &JobFile, loader: &dyn Loader) -> Result<Vec<Subject>> {
     }
     for program in file.setups.iter().filter_map(|s| s.program.as_ref()) {
         parts.push(bytes("external program", &program.file)?);
+        for (role, name) in [("tool table", &program.tool_table), ("parameters", &program.parameters)] {
+            if let Some(name) = name {
+                parts.push(bytes(role, name)?);
+            }
+        }
         let control = Control::parse(program.control.as_deref().unwrap_or(&file.post.control))?;
         let text =
             JobProgram::new(&*program.file, &loader.read_as(&program.file, FileKind::Program)?, control).text;

@@ -45,7 +45,7 @@ impl Guess {
         let text = String::from_utf8_lossy(program.bytes);
         let mut carried = carried(&text, control);
         if let Some((name, table)) = wants.tools.as_ref().filter(|(name, _)| is_tool_table(name)) {
-            carried.tools = TableTools::read(name, table, wants.table_unit())?.tools;
+            carried.tools = TableTools::read(name, table, wants.machine_unit())?.tools;
         }
         let mut unread = None;
         let (stock, of_stock) = match &carried.stock {

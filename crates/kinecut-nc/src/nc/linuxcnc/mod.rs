@@ -22,6 +22,7 @@
 //! Source: the G-code reference of LinuxCNC 2.9 and its interpreter's own test-suite.
 
 pub(super) mod o_word;
+pub(super) mod parameters;
 pub(super) mod tool_table;
 
 use crate::program::{StopKind, WorkOffset};

@@ -5,7 +5,6 @@
 //! followed where the program means it, and that is said.
 
 use crate::base::Result;
-use crate::nc::dialect::AXES;
 use crate::program::{ControlData, OWN_REGISTERS, OwnLength, Speed};
 
 use super::block::Word;
@@ -33,6 +32,17 @@ impl<'s> Reader<'s> {
             if register == 0 {
                 return Ok(());
             }
+            if self.table.called(register).is_some() {
+                let (here, more) = (self.modal.tool_offsets, self.offsets_of(Some(register)));
+                let sum = [0, 1, 2].map(|axis| Some(here[axis]? + more[axis]?));
+                if sum.contains(&None) {
+                    let message = format!("the length of {register} has changed, and is added to one that is not known");
+                    return Err(self.lacks(bytes, &message).help("write G43.1 with their sum").into());
+                }
+                let length = OwnLength { before: None, set: sum, add: None };
+                self.modal.tool.length = Some(self.own_length(length));
+                return Ok(());
+            }
             if self.added(before) >= MOST_ADDED {
                 let finding = self.lacks(bytes, "more lengths are added to one another than kinecut follows");
                 let finding = finding.value(self.added(before) as f64 + 1.0, "").bound(MOST_ADDED as f64, "");
@@ -50,13 +60,6 @@ impl<'s> Reader<'s> {
         if named == [None; 3] {
             return Err(self.lacks(bytes, "G43.1 without an axis").into());
         }
-        if let Some(axis) = (0..2).find(|axis| named[*axis].is_some_and(|v| v != 0.0)) {
-            let message = format!(
-                "a tool is offset across its axis (G43.1 {}): its tip is followed where the program means it",
-                AXES[axis]
-            );
-            self.doubt(bytes, &message, "a tool that turns in the spindle has no such offset");
-        }
         let mut length = match own.filter(|own| own.add.is_none()) {
             Some(own) => OwnLength { set: [0, 1, 2].map(|axis| named[axis].or(own.set[axis])), ..own },
             None => OwnLength { before, set: named, add: None },
@@ -66,6 +69,17 @@ impl<'s> Reader<'s> {
         }
         self.modal.tool.length = Some(self.own_length(length));
         Ok(())
+    }
+
+    /// The register with which a length is called, where the program has changed what it holds: one of the program's own.
+    pub(super) fn called_length(&mut self, register: u32) -> u32 {
+        match self.table.called(register) {
+            Some(set) => {
+                let before = set.contains(&None).then_some(register);
+                self.own_length(OwnLength { before, set, add: None })
+            }
+            None => register,
+        }
     }
 
     /// How many lengths are added in that of a register.
@@ -90,8 +104,8 @@ impl<'s> Reader<'s> {
                 // Each counts from one before it, and few are added.
                 Some(own) => own.offset(|register| Some(self.offsets_of(Some(register)))),
                 None => {
-                    let set = self.lengths_set.iter().find(|l| l.0 == register);
-                    [Some(0.0), Some(0.0), set.map(|l| l.1)]
+                    let [x, y, z] = self.table.offset(register).unwrap_or([None; 3]);
+                    [x.or(Some(0.0)), y.or(Some(0.0)), z]
                 }
             },
         }
@@ -101,6 +115,10 @@ impl<'s> Reader<'s> {
     pub(super) fn offsets_change(&mut self) {
         let after = self.offsets_of(self.modal.tool.length);
         let before = std::mem::replace(&mut self.modal.tool_offsets, after);
+        if after[..2].iter().any(|across| across.is_some_and(|across| across != 0.0)) {
+            let message = "a tool is offset across its axis: its tip is followed where the program means it";
+            self.doubt(&self.here.clone(), message, "a tool that turns in the spindle has no such offset");
+        }
         let same = |axis: usize| before[axis].is_some() && before[axis] == after[axis];
         let turned = self.modal.turned.is_turned() && !(same(0) && same(1));
         for axis in 0..3 {

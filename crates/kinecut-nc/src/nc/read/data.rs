@@ -7,8 +7,7 @@
 //!   FANUC sets the work offsets beyond G59 by `L20 P`.
 //! - `L20 P` (LinuxCNC, GRBL): the zero is put where the present place gets the coordinates that are said. The first of a work
 //!   offset other than that in force tells where it lies from that one.
-//! - `L1 P` (LinuxCNC), `L10 P` and `L12 P` (FANUC): length and radius in the tool table. A radius counts from there on; the first length
-//!   is what the register holds, another one later is refused, and so are lengths that the control finds from the present place.
+//! - `L1`, `L10`, `L11` (LinuxCNC), `L10`, `L12` (FANUC): the tool table, next door.
 //!
 //! Once the zero of a work offset is known in the machine, so is the place behind a move in machine coordinates; once the
 //! distance of two zeros is known, so is the place in one from that in the other.
@@ -16,11 +15,12 @@
 use glam::DVec3;
 
 use crate::base::Result;
-use crate::nc::dialect::{AXES, FlowWords, TurnWord};
+use crate::nc::dialect::{FlowWords, TurnWord};
 use crate::nc::multi_axis::ROTARY;
 use crate::program::{ControlData, Item, Program, Speed, WorkOffset, moved};
 
 use super::block::Word;
+use super::kept::offset_by_number;
 use super::place::Bytes;
 use super::reader::{Kind, Reader, Value, take};
 use super::zeros::{Spot, vector};
@@ -38,9 +38,9 @@ impl<'s> Reader<'s> {
             2 | 20 if number == 2 || fanuc => self.set_zero(words, number == 20, bytes),
             20 if !fanuc => self.set_zero_here(words, bytes),
             10 | 12 if fanuc => self.set_register(words, number == 10, bytes),
-            1 if self.dialect.turn == TurnWord::Offset => self.set_tool(words, bytes),
+            1 | 10 | 11 if self.dialect.turn == TurnWord::Offset => self.set_tool(words, number, bytes),
             _ => {
-                let why = "of G10 only work offsets and the tool table are read (L2, L20; L1; on FANUC L2, L10, L12)";
+                let why = "of G10 only work offsets and the tool table are read (L2, L20; L1, L10, L11; on FANUC L2, L10, L12)";
                 Err(self.place.not_understood(&kind.bytes, why).into())
             }
         }
@@ -159,71 +159,6 @@ impl<'s> Reader<'s> {
         Ok(())
     }
 
-    /// `G10 L1 P Z R`: a line of LinuxCNC's tool table.
-    fn set_tool(&mut self, words: &mut [Word<'s>], bytes: &Bytes) -> Result<()> {
-        let Some(tool) = take(words, "P") else {
-            return Err(self.lacks(bytes, "G10 L1 without the tool P").into());
-        };
-        let number = self.count(&tool, "a tool number")?;
-        for axis in [AXES[0], AXES[1]] {
-            if let Some(word) = take(words, axis).filter(|w| w.value != 0.0) {
-                let why = "a tool that is offset across its axis is not followed";
-                return Err(self.place.not_understood(&word.bytes, why).into());
-            }
-        }
-        let unit = self.modal.length_unit;
-        if let Some(radius) = take(words, "R") {
-            self.radius_is(number, radius.value * unit);
-        }
-        match take(words, AXES[2]) {
-            Some(length) => self.length_is(number, length.value * unit, bytes),
-            None => Ok(()),
-        }
-    }
-
-    /// `G10 L10 P R` and `G10 L12 P R`: registers of lengths and radii.
-    fn set_register(&mut self, words: &mut [Word<'s>], length: bool, bytes: &Bytes) -> Result<()> {
-        let (Some(number), Some(value)) = (take(words, "P"), take(words, "R")) else {
-            return Err(self
-                .lacks(bytes, "a register of the tool table needs its number P and its value R")
-                .into());
-        };
-        if !self.modal.absolute {
-            let finding =
-                self.lacks(bytes, "an increment of a register (G91), which the machine alone knows");
-            return Err(finding.help("program G90").into());
-        }
-        let (number, value) = (self.count(&number, "a register")?, value.value * self.modal.length_unit);
-        if length {
-            return self.length_is(number, value, bytes);
-        }
-        self.radius_is(number, value);
-        Ok(())
-    }
-
-    /// A radius that the program sets [mm].
-    pub(super) fn radius_is(&mut self, register: u32, radius: f64) {
-        self.radii.retain(|r| r.0 != register);
-        self.radii.push((register, radius));
-        self.data(ControlData::Radius { register, radius });
-    }
-
-    /// A length that the program sets [mm].
-    fn length_is(&mut self, register: u32, length: f64, bytes: &Bytes) -> Result<()> {
-        match self.lengths_set.iter().find(|l| l.0 == register) {
-            Some((_, before)) if *before != length => {
-                let message = format!("the length of {register} changes, which is not followed");
-                Err(self.lacks(bytes, &message).value_mm(length).help("set it once").into())
-            }
-            Some(_) => Ok(()),
-            None => {
-                self.lengths_set.push((register, length));
-                self.data(ControlData::Length { register, length });
-                Ok(())
-            }
-        }
-    }
-
     /// The work offset of P; none is what is added to all of them.
     fn offset_of(&self, words: &mut [Word<'s>], further: bool, bytes: &Bytes) -> Result<Option<WorkOffset>> {
         let Some(number) = take(words, "P") else {
@@ -234,8 +169,7 @@ impl<'s> Reader<'s> {
             n if further => WorkOffset::extended(n),
             0 if fanuc => return Ok(None),
             0 => Some(self.modal.offset.unwrap_or(WorkOffset::G54)),
-            n @ 1..=6 => WorkOffset::from_tenths(530 + 10 * n),
-            n @ 7..=9 if !fanuc => WorkOffset::from_tenths(584 + n),
+            n if n <= 6 || !fanuc => offset_by_number(n),
             _ => None,
         };
         let (least, most) = match (further, fanuc) {
@@ -252,7 +186,7 @@ impl<'s> Reader<'s> {
     }
 
     /// Refuses the zero of a rotary axis that is not zero.
-    fn no_turned_zero(&self, words: &mut [Word<'s>]) -> Result<()> {
+    pub(super) fn no_turned_zero(&self, words: &mut [Word<'s>]) -> Result<()> {
         if self.dialect.axes.rotary.is_none() {
             return Ok(());
         }

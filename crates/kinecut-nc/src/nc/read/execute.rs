@@ -336,7 +336,7 @@ impl<'s> Reader<'s> {
                             }
                         },
                     };
-                    self.modal.tool.length = Some(register);
+                    self.modal.tool.length = Some(self.called_length(register));
                     match code {
                         Code::TipControl { vector } => self.tip_control(vector, &bytes)?,
                         _ => self.tip_control_ends(true),

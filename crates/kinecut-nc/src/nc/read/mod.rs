@@ -27,6 +27,7 @@ mod execute;
 mod extended_offset;
 mod hole;
 mod jump;
+mod kept;
 mod knots;
 mod lex;
 mod long_words;
@@ -58,6 +59,7 @@ mod statements;
 mod sticky;
 mod stored;
 mod tap;
+mod tool_data;
 mod turn;
 mod turned;
 mod variables;
@@ -192,6 +194,9 @@ pub fn read_source(
     // Nearly every line of a long program is a move.
     let end = text.len() as u32;
     reader.program.items.reserve(sources.line(Span { file, start: end, end }) as usize);
+    if control == Control::LinuxCnc {
+        reader.begins_with(&settings.kept);
+    }
     if let Some(start) = settings.start {
         reader.modal.position = start.map(Some);
     }

@@ -22,6 +22,8 @@ impl<'s> Reader<'s> {
     pub(super) fn presetting(&mut self, words: &mut [Word<'s>]) -> Result<()> {
         let is = |c: Code| matches!(c, Code::PresetShift | Code::ShiftOff { .. } | Code::ShiftAgain);
         let Some((code, bytes)) = self.code(is) else { return Ok(()) };
+        // `G92.1` and `G92.2` switch it off.
+        self.shift_said = Some(!matches!(code, Code::ShiftOff { .. }));
         match code {
             Code::PresetShift => self.preset(words, &bytes)?,
             Code::ShiftOff { keep } => {

@@ -6,6 +6,7 @@ use crate::base::{Code as FindingCode, Finding, Result, Span, Sum};
 use crate::machine::{CodeEffect, OwnCode};
 use crate::nc::dialect::{AXES, COMMON_G, COMMON_M, Code, Dialect, FlowWords, Mismatch, TurnWord};
 use crate::nc::multi_axis::ROTARY;
+use crate::nc::Parameters;
 use crate::nc::run::Variables;
 use crate::program::{
     Comp, ControlData, Frame, Origin, OriginId, OwnLength, Program, Setup, Speed, State, WorkOffset,
@@ -24,6 +25,7 @@ use super::polar::Polar;
 use super::saved::Saved;
 use super::scaling::Scaling;
 use super::stored::Stored;
+use super::tool_data::Table;
 
 /// A value of a word and its place.
 #[derive(Clone, Debug)]
@@ -89,6 +91,12 @@ pub(super) struct Reader<'s> {
     pub(super) stored_places: [Option<Stored>; 2],
     /// Whether blocks were called by their number (`M97`), which are behind the end as a rule.
     pub(super) called_blocks: bool,
+    /// The tool table, as far as it is known.
+    pub(super) table: Table,
+    /// Parameters that the control has kept.
+    pub(super) kept: Option<Parameters>,
+    /// Whether the program has switched the shift of `G92` on or off (parameter 5210).
+    pub(super) shift_said: Option<bool>,
     /// Lengths that the program makes, by the numbers of its own registers.
     pub(super) own_lengths: Vec<OwnLength>,
     /// Feed moves that start at a place that the program has not set.
@@ -153,6 +161,9 @@ impl<'s> Reader<'s> {
             saved: Vec::new(),
             stored_places: [None; 2],
             called_blocks: false,
+            table: Table::default(),
+            kept: None,
+            shift_said: None,
             own_lengths: Vec::new(),
             from_nowhere: Vec::new(),
             jump: None,

@@ -528,7 +528,10 @@ impl Reader<'_> {
                 self.modal_macros.state(),
                 self.scaling.state(),
             ]);
-        let all = places.chain(shift).chain(numbers).chain(words).enumerate();
+        // What parameters of the control show.
+        let data = modal.turned.numbers().chain(self.table.numbers()).chain(self.stored_shift.to_array());
+        let data = data.chain(modal.tool_offsets.map(|offset| offset.unwrap_or(f64::NAN))).map(f64::to_bits);
+        let all = places.chain(shift).chain(numbers).chain(words).chain(data).enumerate();
         all.fold(self.variables.state(), |state, (i, value)| state ^ mixed(i as u64 | 1 << 63, value))
     }
 }

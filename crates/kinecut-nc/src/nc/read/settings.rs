@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::base::FileId;
 use crate::machine::OwnCode;
+use crate::nc::Kept;
 
 /// Meaning of a coordinate without a decimal point on a FANUC control (parameter 3401#0 DPI).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
@@ -33,6 +34,8 @@ pub struct ReadSettings {
     pub start: Option<[f64; 3]>,
     /// Codes of the machine that the language of the control does not have.
     pub codes: Vec<OwnCode>,
+    /// What the control has kept from programs before (LinuxCNC).
+    pub kept: Kept,
     /// Whether reading goes on behind a block that is wrong or not understood: no axis is where the program says, until the
     /// program says it again. The errors are in [`Reading::errors`](super::Reading::errors).
     pub reads_on: bool,
@@ -51,6 +54,7 @@ impl Default for ReadSettings {
             input: NumberInput::Auto,
             start: None,
             codes: Vec::new(),
+            kept: Kept::default(),
             reads_on: false,
         }
     }

@@ -19,8 +19,13 @@ pub(super) struct Stored {
 }
 
 impl Stored {
+    /// A place in the machine [mm].
+    pub(super) fn at(machine: [f64; 3]) -> Stored {
+        Stored { tip: machine.map(|at| Some(Spot::machine(at))), length: None, offsets: [Some(0.0); 3] }
+    }
+
     /// Of the spindle in the machine [mm], as far as it is known there.
-    fn in_machine(&self) -> [Option<f64>; 3] {
+    pub(super) fn in_machine(&self) -> [Option<f64>; 3] {
         [0, 1, 2].map(|axis| Some(self.tip[axis]?.in_machine()? + self.offsets[axis]?))
     }
 

@@ -178,7 +178,7 @@ impl<'s> Reader<'s> {
         for (axis, value) in named.into_iter().enumerate() {
             shift[axis] = value.unwrap_or(shift[axis]);
         }
-        self.stored_shift = self.modal.turned.shift;
+        (self.stored_shift, self.shift_said) = (self.modal.turned.shift, Some(true));
         Ok(())
     }
 

@@ -75,6 +75,11 @@ impl Turned {
         }
     }
 
+    /// Zeros and rotations of the work offsets, as numbers.
+    pub(super) fn numbers(&self) -> impl Iterator<Item = f64> + '_ {
+        self.offsets.iter().map(|(_, degrees)| *degrees).chain(self.zeros.numbers())
+    }
+
     /// Turns a work offset [deg].
     pub(super) fn turn_offset(&mut self, offset: WorkOffset, degrees: f64) {
         match self.offsets.iter_mut().find(|o| o.0 == offset) {

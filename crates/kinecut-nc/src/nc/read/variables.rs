@@ -16,7 +16,6 @@ use super::reader::Reader;
 
 /// Variables of the machine: what they hold.
 const OFFSETS: &str = "the machine knows its offsets, the program does not set this one";
-const REFERENCE: &str = "the machine knows its reference point, the program does not set it";
 const TABLE: &str = "it is in the tool table of the machine";
 const PROBE: &str = "it is what the machine has probed";
 const SIGNAL: &str = "it is a signal of the machine";
@@ -88,12 +87,10 @@ impl Reader<'_> {
     fn linuxcnc(&self, index: u32) -> Known {
         match index {
             5061..=5070 => Known::Unknown(PROBE),
-            5161..=5169 | 5181..=5189 => Known::Unknown(REFERENCE),
             5220 => number(self.offset_number()),
-            5210..=5219 | 5221..=5390 => Known::Unknown(OFFSETS),
             5399 => Known::Unknown(SIGNAL),
             5400 => number(self.modal.tool.id.map_or(0.0, |t| f64::from(t.0))),
-            5401..=5413 => Known::Unknown(TABLE),
+            5161..=5169 | 5181..=5189 | 5210..=5390 | 5401..=5413 => self.offset_parameter(index),
             5420..=5425 => self.coordinate(index as usize - 5420),
             5426..=5428 => number(0.0),
             _ => Known::Missing,

@@ -85,6 +85,11 @@ impl Zeros {
         [Some(offset), None].into_iter().filter_map(|o| self.of(o)).map(|zero| zero.shift).sum()
     }
 
+    /// What the program has set, as numbers.
+    pub(super) fn numbers(&self) -> impl Iterator<Item = f64> + '_ {
+        self.known.iter().flat_map(|(_, zero)| zero.shift.to_array())
+    }
+
     /// Machine coordinate of the zero that the setup has, without what is added to all work offsets [mm].
     pub(super) fn in_machine(&self, offset: Option<WorkOffset>, axis: usize) -> Option<f64> {
         match offset {

@@ -89,13 +89,13 @@ impl Writer<'_> {
                 block
             }
             ControlData::Orient { degrees: 0.0, way: 0, .. } if fanuc => "M19".to_owned(),
-            ControlData::Length { register, length } if linuxcnc => {
-                format!("G10 L1 P{register} Z{}", plain(length))
+            ControlData::Length { register, offset } if linuxcnc => {
+                format!("G10 L1 P{register}{}", plain_words(offset))
             }
             ControlData::Radius { register, radius } if linuxcnc => {
                 format!("G10 L1 P{register} R{}", plain(radius))
             }
-            ControlData::Length { register, length } if fanuc => {
+            ControlData::Length { register, offset: [None, None, Some(length)] } if fanuc => {
                 format!("G10 L10 P{register} R{}", self.word_number(length))
             }
             ControlData::Radius { register, radius } if fanuc => {
@@ -152,12 +152,7 @@ impl Writer<'_> {
             before => self.length_blocks(before, behind)?,
         };
         if own.set != [None; 3] {
-            let words: Vec<String> = AXES
-                .iter()
-                .zip(own.set)
-                .filter_map(|(axis, value)| Some(format!(" {axis}{}", plain(value?))))
-                .collect();
-            blocks.push(format!("G43.1{}", words.concat()));
+            blocks.push(format!("G43.1{}", plain_words(own.set)));
         }
         if let Some(register) = own.add {
             blocks.push(format!("G43.2 H{register}"));
@@ -189,6 +184,12 @@ impl Writer<'_> {
         }
         number
     }
+}
+
+/// Words of the axes that are said, with all digits.
+fn plain_words(values: [Option<f64>; 3]) -> String {
+    let words = AXES.iter().zip(values);
+    words.filter_map(|(axis, value)| Some(format!(" {axis}{}", plain(value?)))).collect()
 }
 
 fn cannot(what: &str) -> Finding {

@@ -6,6 +6,7 @@ mod body;
 pub(crate) mod control;
 mod feed_limit;
 pub(crate) mod joint;
+mod kept;
 pub(crate) mod machine;
 pub(crate) mod numbers;
 mod program;

@@ -3,10 +3,12 @@
 use std::borrow::Cow;
 use std::sync::Arc;
 
+use super::super::Subject;
 use super::super::file::ProgramTable;
+use super::kept::kept;
 use crate::base::bounded::{MAX_LENGTH, length};
 use crate::base::{Code, FileKind, Finding, Loader, Result};
-use crate::nc::{self, Control, NumberInput, ReadSettings};
+use crate::nc::{self, Control, Kept, NumberInput, ReadSettings};
 use crate::operations::tool_of;
 use crate::tool::{Tool, ToolNumber};
 
@@ -37,6 +39,10 @@ pub struct JobProgram {
     pub detected: Option<String>,
     /// Guesses about its stock and tools, in words.
     pub guessed: Vec<String>,
+    /// What the machine keeps from programs before.
+    pub kept: Kept,
+    /// The files that tell it.
+    pub kept_in: Vec<Subject>,
     /// Files beside it with programs that it calls.
     pub beside: Vec<Subprogram>,
 }
@@ -58,6 +64,8 @@ impl JobProgram {
             start: None,
             detected: None,
             guessed: Vec::new(),
+            kept: Kept::default(),
+            kept_in: Vec::new(),
             beside: Vec::new(),
         }
     }
@@ -158,6 +166,7 @@ pub(super) fn program(
         program.start = Some(start);
     }
     program.beside = subprograms(&program.file, &program.text, control, &t.subprograms, loader);
+    (program.kept, program.kept_in) = kept(t, control, loader)?;
     if let Some(number) = t.tool {
         program.in_spindle = Some(tool_of(number, tools)?.number);
     }

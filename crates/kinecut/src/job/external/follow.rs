@@ -13,7 +13,7 @@ use super::registers::Registers;
 use crate::base::{Code, Error, FileId, Finding, Result, Severity, Sources, Span};
 use crate::geom::Rigid;
 use crate::nc::{self, Control, ReadSettings, Reading};
-use crate::program::{Blend, Frame, Program, Setup};
+use crate::program::{Blend, Frame, Program, Setup, WorkOffset};
 use crate::trace::{RegisterState, Segment, SegmentPace, Taker, Trace, TraceOptions, trace, trace_passing};
 
 /// A program of others, read and followed.
@@ -149,15 +149,20 @@ pub(crate) fn follow_passing(
         input: program.input,
         start: program.start,
         blocks: program.blocks,
+        kept: program.kept.clone(),
         codes: job.machine.as_ref().map(|m| m.codes.to_vec()).unwrap_or_default(),
         reads_on,
     };
     let mut reading = nc::read_source(&sources, file, program.control, &clamping, &settings)?;
     let mut assumed = Vec::new();
     if missing == Missing::StoodFor {
-        let placed = place_offsets(&mut clamping[0], clamped.offset, &reading.program.frames);
+        let (known, placed) = place_offsets(&mut clamping[0], clamped.offset, &reading);
         if !placed.is_empty() {
             assumed.push(format!("{} lies where {} does", placed.join(", "), clamped.offset));
+        }
+        if !known.is_empty() {
+            let which = known.join(", ");
+            assumed.push(format!("{which}: placed from {} as the offsets of the control have it", clamped.offset));
         }
         reading.program.setups = clamping;
     }
@@ -254,19 +259,22 @@ fn in_file(program: &Program, item: usize, file: FileId) -> Option<Span> {
     origin.span
 }
 
-/// Gives a clamping every work offset that a program uses, at the place of the one it has; those that were added.
-fn place_offsets(setup: &mut Setup, first: crate::program::WorkOffset, frames: &[Frame]) -> Vec<String> {
+/// Gives a clamping every work offset that a program uses: where the program or the control's parameters tell its distance from the one
+/// it has, there, the others at its place; those that were added, in these two kinds.
+fn place_offsets(setup: &mut Setup, first: WorkOffset, reading: &Reading) -> (Vec<String>, Vec<String>) {
     let at = setup.work_offsets.get(&first).copied().unwrap_or(Rigid::IDENTITY);
-    let mut placed = Vec::new();
-    for frame in frames {
+    let (mut known, mut placed) = (Vec::new(), Vec::new());
+    for frame in &reading.program.frames {
         if let Frame::Work(offset) = frame
             && !setup.work_offsets.contains_key(offset)
         {
-            setup.work_offsets.insert(*offset, at);
-            placed.push(offset.to_string());
+            let way = reading.zero_from(first, *offset);
+            let there = way.map_or(at, |way| at.after(&Rigid::from_translation(way)));
+            setup.work_offsets.insert(*offset, there);
+            if way.is_some() { known.push(offset.to_string()) } else { placed.push(offset.to_string()) }
         }
     }
-    placed
+    (known, placed)
 }
 
 /// The error of a program that moves before it has a tool.

@@ -47,8 +47,10 @@ pub struct ProgramWants {
     pub stock: Option<GivenStock>,
     /// Name and text of a file with `[[tool]]` and `[[holder]]`, as a job file is one, or of a tool table of LinuxCNC (`.tbl`).
     pub tools: Option<(String, String)>,
-    /// Whether the lengths of that tool table are in inches.
-    pub table_in_inches: bool,
+    /// Name and text of the parameter file of the machine (`linuxcnc.var`); default: that of the job.
+    pub parameters: Option<(String, String)>,
+    /// Whether the machine counts in inches: lengths in its tool table and its parameters.
+    pub machine_in_inches: bool,
     /// Machine position of the work zero [mm].
     pub position: Option<[f64; 3]>,
     /// Distance of the lines of the stock model [mm].
@@ -72,9 +74,9 @@ pub struct ProgramWants {
 }
 
 impl ProgramWants {
-    /// The unit of a tool table [mm].
-    pub(crate) fn table_unit(&self) -> f64 {
-        if self.table_in_inches { 25.4 } else { 1.0 }
+    /// The unit of the machine [mm].
+    pub(crate) fn machine_unit(&self) -> f64 {
+        if self.machine_in_inches { 25.4 } else { 1.0 }
     }
 }
 
@@ -243,6 +245,12 @@ pub fn given_with_job(
         },
         start: wants.start.or(own.as_ref().and_then(|p| p.start)),
         tool: wants.tool.or(own.as_ref().and_then(|p| p.tool)),
+        tool_table: own.as_ref().and_then(|p| p.tool_table.clone()),
+        parameters: match &wants.parameters {
+            Some((name, _)) => Some(name.clone()),
+            None => own.as_ref().and_then(|p| p.parameters.clone()),
+        },
+        machine_in_inches: wants.machine_in_inches || own.as_ref().is_some_and(|p| p.machine_in_inches),
         registers: own.map(|p| p.registers).unwrap_or_default(),
     });
     file.setups = vec![setup];
@@ -252,7 +260,12 @@ pub fn given_with_job(
     let mut subjects =
         vec![of_file("given program", program.name, program.bytes), of_file("job", name, text.as_bytes())];
     subjects.extend(called(&job));
-    subjects.extend(parts(&job_text.file, loader)?);
+    subjects.extend(kept_in(&job));
+    for part in parts(&job_text.file, loader)? {
+        if !subjects.contains(&part) {
+            subjects.push(part);
+        }
+    }
     let place = JobPlace { sources, text: Some(job_text) };
     Ok(GivenJob { name: program.name.to_owned(), job, subjects, place })
 }
@@ -282,12 +295,17 @@ pub fn given_alone(program: GivenFile<'_>, wants: &ProgramWants, needs_stock: bo
     };
     let mut subjects = vec![of_file("given program", program.name, program.bytes)];
     let table = wants.tools.as_ref().is_some_and(|(name, _)| is_tool_table(name));
-    if wants.table_in_inches && !table {
-        let message = "only the lengths of a tool table (.tbl) may be in inches";
-        let help = "a TOML file of tools is in mm; give the tool table by --tools";
+    if wants.machine_in_inches && !table && wants.parameters.is_none() {
+        let message = "only a tool table (.tbl) or a parameter file may be in inches";
+        let help = "a TOML file of tools is in mm; give the tool table by --tools, the parameters by --parameters";
         return Err(Finding::error(Code::JOB_VALUE, message).help(help).into());
     }
     let mut guessed = wants.guessed.clone();
+    // Another control has no such table: only its tools are taken.
+    let of_machine = wants.tools.as_ref().filter(|_| table && control == Control::LinuxCnc);
+    if let Some((name, text)) = of_machine {
+        files.push(GivenFile { name, bytes: text.as_bytes() });
+    }
     let tools = match &wants.tools {
         None => ToolsFile { holders: Vec::new(), tools: Vec::new() },
         Some((name, text)) => {
@@ -295,8 +313,8 @@ pub fn given_alone(program: GivenFile<'_>, wants: &ProgramWants, needs_stock: bo
             let mut sources = Sources::default();
             let text = match table {
                 true => {
-                    let read = TableTools::read(name, text, wants.table_unit())?;
-                    let unit = if wants.table_in_inches { "inches" } else { "mm" };
+                    let read = TableTools::read(name, text, wants.machine_unit())?;
+                    let unit = if wants.machine_in_inches { "inches" } else { "mm" };
                     guessed.push(format!(
                         "the shapes of the tools and their flutes are guessed, their lengths taken in {unit}, from {name}: {}{}",
                         all_in_words(&read.tools),
@@ -336,6 +354,9 @@ pub fn given_alone(program: GivenFile<'_>, wants: &ProgramWants, needs_stock: bo
                 blocks: wants.blocks,
                 subprograms: wants.subprograms.clone(),
                 start: wants.start,
+                tool_table: of_machine.map(|(name, _)| name.clone()),
+                parameters: wants.parameters.as_ref().map(|(name, _)| name.clone()),
+                machine_in_inches: wants.machine_in_inches && (of_machine.is_some() || wants.parameters.is_some()),
                 ..ProgramTable::default()
             })
         }],
@@ -347,6 +368,7 @@ pub fn given_alone(program: GivenFile<'_>, wants: &ProgramWants, needs_stock: bo
         program.guessed = guessed;
     }
     subjects.extend(called(&job));
+    subjects.extend(kept_in(&job).filter(|kept| kept.role != "tool table"));
     if let Some(machine) = &wants.machine {
         super::super::check::machine::three_translations(machine)?;
         let text = super::super::machine::machine_toml(machine);
@@ -356,10 +378,17 @@ pub fn given_alone(program: GivenFile<'_>, wants: &ProgramWants, needs_stock: bo
     Ok(GivenJob { name: program.name.to_owned(), job, subjects, place: JobPlace::default() })
 }
 
-/// A program with the files that it calls.
+/// A program with the files that it calls and the parameters of its machine.
 fn with_beside<'a>(program: GivenFile<'a>, wants: &'a ProgramWants) -> Vec<GivenFile<'a>> {
     let beside = wants.beside.iter().map(|(name, bytes)| GivenFile { name, bytes });
-    std::iter::once(program).chain(beside).collect()
+    let kept = wants.parameters.iter().map(|(name, text)| GivenFile { name, bytes: text.as_bytes() });
+    std::iter::once(program).chain(beside).chain(kept).collect()
+}
+
+/// Files in which the machine of a program keeps its offsets.
+fn kept_in(job: &Job) -> impl Iterator<Item = Subject> {
+    let programs = job.setups.iter().filter_map(|setup| setup.program.as_ref());
+    programs.flat_map(|program| program.kept_in.clone())
 }
 
 /// Files that the program of a job calls.

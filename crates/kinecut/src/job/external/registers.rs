@@ -38,6 +38,14 @@ impl Registers {
         // What the program sets itself counts.
         let mut lengths = reading.lengths.clone();
         lengths.extend(&given.lengths);
+        for tool in given.kept.tools.iter().flatten() {
+            lengths.push((tool.number, tool.offset[2]));
+            if let Some(diameter) = tool.diameter
+                && found.radii.iter().all(|(register, _)| *register != tool.number)
+            {
+                found.radii.push((tool.number, 0.5 * diameter));
+            }
+        }
         for (own, number) in reading.own_lengths.iter().zip(OWN_REGISTERS..) {
             // Each counts from one before it.
             let of = |register| lengths.iter().find(|l| l.0 == register).map(|l| [Some(0.0), Some(0.0), Some(l.1)]);

@@ -33,6 +33,17 @@ pub struct ProgramTable {
     /// if the program calls no tool at all.
     #[serde(default)]
     pub tool: Option<u32>,
+    /// The tool table of the machine (`tool.tbl` of LinuxCNC), as seen from the folder of the job: offsets of its tools. Tools
+    /// themselves are those of the job.
+    #[serde(default)]
+    pub tool_table: Option<String>,
+    /// The parameter file of the machine (`linuxcnc.var`), as seen from the folder of the job: work offsets, the places of G28 and
+    /// G30, parameters that the program reads.
+    #[serde(default)]
+    pub parameters: Option<String>,
+    /// Whether the machine counts in inches: the lengths in these two files; default: in mm.
+    #[serde(default)]
+    pub machine_in_inches: bool,
     /// Values of the control's registers that differ from those of the tools: lengths under `H`, radii under `D`
     /// (diameters on LinuxCNC, as in its tool table), in mm. `registers = { H5 = 120.3, D12 = 5.0 }`. A radius register
     /// that is not given holds the radius of the tool in the spindle.

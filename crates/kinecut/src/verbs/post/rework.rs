@@ -3,7 +3,7 @@
 use crate::base::{Code, Finding, Result};
 use crate::job::external::registers::first_in_z;
 use crate::nc::Control;
-use crate::program::{Blend, Comp, ControlData, Item, Program, State, ToolNumber};
+use crate::program::{Blend, Comp, ControlData, Item, OWN_REGISTERS, Program, State, ToolNumber};
 
 /// A program with the registers of another control, and what was found on the way: the item and the finding.
 #[derive(Debug)]
@@ -116,7 +116,8 @@ fn length_to_come(program: &Program, call: usize, tool: ToolNumber) -> Option<u3
         return None;
     }
     (call + 1..program.items.len()).find_map(|i| match program.items.get(i) {
-        Item::Tool { id, length, .. } => Some(length.filter(|_| id == tool)),
+        // One that the program makes is made behind the call.
+        Item::Tool { id, length, .. } => Some(length.filter(|length| id == tool && *length < OWN_REGISTERS)),
         _ => None,
     })?
 }
