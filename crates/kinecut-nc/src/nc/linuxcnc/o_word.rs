@@ -222,6 +222,14 @@ impl OLines {
         &self.lines[index]
     }
 
+    /// Whether a loop has a `break` behind a line of it.
+    pub(in crate::nc) fn breaks_behind(&self, own: usize) -> bool {
+        let begin = self.lines[own].begin.unwrap_or(own);
+        let end = self.lines[begin].end.unwrap_or(own);
+        let breaks = |line: &OLine| line.word == OWord::Break && line.begin == Some(begin);
+        (own + 1..end).any(|line| breaks(&self.lines[line]))
+    }
+
     /// A subprogram that begins within the one of a line.
     pub(in crate::nc) fn sub_within(&self, own: usize) -> Option<usize> {
         let end = self.lines[own].end?;

@@ -69,7 +69,7 @@ impl<'s> Run<'s> {
             }
             OWord::Break | OWord::Continue => {
                 self.ends_here(behind, end, block)?;
-                self.o_leave(&lines, &o_line, &bytes)
+                self.o_leave(&lines, own, &bytes)
             }
             OWord::Return | OWord::EndSub => self.o_return(word, &bytes, end, block),
             OWord::Call => Ok(()),
@@ -188,13 +188,14 @@ impl<'s> Run<'s> {
             Some(begin) if goes_on && !self.leaving.broke => self.o_back(lines.line(begin).after, bytes),
             Some(_) => {
                 if goes_on {
-                    self.reader.warn(bytes, "LinuxCNC ends this loop although its condition holds: it still counts the break of a while loop before");
+                    self.reader.warn(bytes, "LinuxCNC ends this loop although its condition holds: it still counts a break in a while loop before, or one behind a continue");
                 }
                 self.leaving.broke = false;
                 Ok(())
             }
             None if goes_on => Ok(()),
             None => {
+                self.leaving.broke |= lines.breaks_behind(own);
                 self.leaving.continued = false;
                 self.pass_over(lines, own, bytes)
             }
@@ -238,7 +239,8 @@ impl<'s> Run<'s> {
     }
 
     /// `break` and `continue`.
-    fn o_leave(&mut self, lines: &Rc<OLines>, line: &OLine, bytes: &Bytes) -> Result<()> {
+    fn o_leave(&mut self, lines: &Rc<OLines>, own: usize, bytes: &Bytes) -> Result<()> {
+        let line = lines.line(own);
         let begin = lines.line(self.partner(line.begin, bytes)?);
         if begin.word == OWord::Repeat {
             let why = "LinuxCNC has no break or continue of a repeat";
@@ -258,8 +260,12 @@ impl<'s> Run<'s> {
                 }
                 self.at = last.after;
             }
-            (_, OWord::Do) => (self.at, self.leaving.continued) = (last.start, true),
+            (_, OWord::Do) => {
+                self.leaving.broke |= lines.breaks_behind(own);
+                (self.at, self.leaving.continued) = (last.start, true);
+            }
             _ => {
+                self.leaving.broke |= lines.breaks_behind(own);
                 self.leaving.continued = false;
                 return self.o_back(begin.start, bytes);
             }

@@ -47,10 +47,11 @@ pub(super) struct Turns {
     pub(super) left: u64,
 }
 
-/// What LinuxCNC keeps of a loop that was left: it forgets it in loops of the other kind only (`interp_o_word.cc`, 2.9 and the newest).
+/// What LinuxCNC keeps of a loop that was left: it forgets it in loops of the other kind only, and takes each `break` of a loop for run
+/// that it passes on the way to its end (`interp_o_word.cc`, 2.9 and the newest).
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Leaving {
-    /// A `break` has left a `while` loop: the next `do` loop ends after one turn.
+    /// A `while` loop with a `break` was left: the next `do` loop ends after one turn.
     pub(super) broke: bool,
     /// A `continue` was in a `do` loop: the next `break` of a `while` loop is a `continue`.
     pub(super) continued: bool,
