@@ -5,7 +5,7 @@
 use crate::{moves, read, refused, run};
 use kinecut_nc::base::{Severity, Sources};
 use kinecut_nc::nc::Control::{Fanuc, Grbl, LinuxCnc, Sinumerik840d};
-use kinecut_nc::nc::{self, Control, PostSettings, Reading};
+use kinecut_nc::nc::{self, Control, Kept, PostSettings, ReadSettings, Reading};
 use kinecut_nc::program::{Comp, ControlData, Item, OwnLength, Path, Target, WorkOffset};
 
 /// Ends of the moves of the tip in the coordinates of the work offset as the setup has it.
@@ -102,8 +102,10 @@ fn fanuc_sets_zeros_and_registers() {
     let further =
         read("O1\nG21 G90 G10 L20 P48 X1. Y2. Z3.\nG54.1 P48 G0 X0. Y0. Z0.\nM30\n", Fanuc).unwrap();
     assert!(again(&further, Fanuc).0.contains("G10 L20 P48 X1. Y2. Z3."));
-    let twice = refused("G10 L10 P5 R120.\nG10 L10 P5 R119.", Fanuc);
-    assert!(twice.contains("the length of 5 changes, which is not followed"), "{twice}");
+    let twice = read("O1\nG21 G90 G10 L10 P5 R120.\nG10 L10 P5 R119.\nM30\n", Fanuc).unwrap();
+    assert_eq!(twice.lengths, [(5, 119.0)]);
+    let called = refused("G10 L10 P5 R120.\nT5 M6\nG43 H5 Z50.\nG10 L10 P5 R119.", Fanuc);
+    assert!(called.contains("the length of 5 changes after it was called, which is not followed"), "{called}");
     let settings = PostSettings::new(Sinumerik840d);
     let other = nc::write(&reading.program, &[], &settings).unwrap_err().to_string();
     assert!(
@@ -176,7 +178,7 @@ fn lengths_are_added_and_replaced() {
     // Across its axis the place of the tip on the machine is another.
     let reading = read("G21 T1 M6\nG0 X0 Y0 Z9\nG43.1 X-5.5\nG0 X1 Y1 Z1\nG49\nM2\n", LinuxCnc).unwrap();
     assert!(again(&reading, LinuxCnc).0.contains("G43.1 X-5.5"));
-    let said = reading.findings.iter().find(|f| f.message.contains("offset across its axis (G43.1 X)")).unwrap();
+    let said = reading.findings.iter().find(|f| f.message.contains("offset across its axis")).unwrap();
     assert_eq!(said.severity, Severity::Doubt);
     assert!(refused("T1 M6\nG0 X1 Y1 Z1\nG43.1 X1\nG91 G0 X1", LinuxCnc).contains("an increment from a position"));
     // Before a tool is called it is that of the tool in the spindle.
@@ -185,6 +187,65 @@ fn lengths_are_added_and_replaced() {
     assert!(text.contains("\nG43.1 Z5\n") && text.contains("Z3\nG49\n"), "{text}");
     let many = "G43.2 H1\n".repeat(21);
     assert!(refused(&many, LinuxCnc).contains("write G43.1 with their sum") || refused(&many, LinuxCnc).contains("21"));
+}
+
+/// Reads with the tool table and the parameters of a machine.
+fn kept(text: &str, table: &str, var: &str) -> Result<Reading, String> {
+    let mut sources = Sources::default();
+    let [table, var] = [("tool.tbl", table), ("a.var", var)].map(|(name, text)| sources.add(name, text));
+    let tools = Some(nc::tool_table(&sources, table, 1.0).unwrap());
+    let parameters = Some(nc::parameters(&sources, var, 25.4).unwrap());
+    let settings = ReadSettings { kept: Kept { tools, parameters }, ..ReadSettings::default() };
+    let file = sources.add("a.ngc", text);
+    nc::read_source(&sources, file, LinuxCnc, &[], &settings).map_err(|e| e.to_string())
+}
+
+#[test]
+fn a_program_begins_with_what_the_machine_has_kept() {
+    let table = "T1 Z10 D5\nT2 X1 Y2 Z20 D6\n";
+    // The machine counts in inches.
+    let var = "31 7\n5161 4\n5162 0\n5163 2\n5210 1\n5211 0.5\n5220 2\n5241 1\n5242 2\n5250 90\n5261 3\n";
+    let moved = |text: &str| moves(&kept(&format!("G21\n{text}\nM2\n"), table, var).unwrap());
+    // G55, turned by 90 degrees and shifted by G92, is in force: X of the program is Y of the machine.
+    assert_eq!(moved("G53 G0 X25.4 Y76.2 Z0\nG91 G1 X1 F60"), ["F 13.7 0 0"]);
+    let reads = "#1=[#5161+#5163*10+#5211*100+#5241*1000+#5250]\nG0 X#1 Y#31 Z#5220";
+    assert_eq!(moved(reads), ["R 1164 7 2"]);
+    // #5221 follows what the program sets, in units of the machine.
+    assert_eq!(moved("G10 L2 P3 X50.8\nG0 X#5261 Y0 Z0"), ["R 2 0 0"]);
+    // G28 goes to the place of the file, 101.6 mm along X.
+    let home = kept("G21\nG54 G92.1\nG0 X0 Y0 Z0\nG28 X5\nG91 G1 X1 F60\nM2\n", table, var).unwrap();
+    assert_eq!(moves(&home).last().unwrap(), "F 102.6 0 0");
+    // Lengths: the spindle is 20 mm above the tip.
+    assert_eq!(moved("G54 G92.1\nT1 M6\nG43\nG53 G0 X0 Y0 Z30\nG91 G1 Z1 F60"), ["F 0 0 21"]);
+    assert_eq!(moved("T2 M6\nG0 X#[5401] Y[#5402*25.4] Z[#5403*25.4]\nG0 X#5400"), ["R 0.0394 2 20", "R 2 2 20"]);
+    let none = kept("T3 M6\nM2\n", table, var).unwrap_err();
+    assert!(none.starts_with("a.ngc:1:1: T3 is not in the tool table of the machine"), "{none}");
+    assert!(kept("G43 H9\nM2\n", table, var).unwrap_err().contains("T9 is not in the tool table"));
+}
+
+#[test]
+fn lines_of_the_tool_table_change() {
+    let var = "5220 1\n";
+    let table = "T1 Z10\nT2 Z20\n";
+    let written = |text: &str| {
+        let reading = kept(&format!("G21\n{text}\nM2\n"), table, var).unwrap();
+        again(&reading, LinuxCnc).0
+    };
+    // The spindle is at 40, so that with 35 the tip would be at 5.
+    let text = written("G0 X1 Y2 Z40\nG10 L10 P1 Z5\nG43 H1\nG0 Z0\nX0 Y0");
+    assert!(text.contains("G10 L1 P1 Z35\nG43 H1\n"), "{text}");
+    // With a length in force it is the spindle that counts; G59.3 is where machine zero is, without G92.
+    let text = written("G43 H2\nG0 X1 Y2 Z40\nG92 Z0\nG10 L11 P1 X0 Z5\nG0 Z0");
+    assert!(text.contains("G10 L1 P1 X1 Z55"), "{text}");
+    // A line that was called before is another one from now on.
+    let text = written("G43 H1\nG0 X0 Y0 Z5\nG10 L1 P1 Z12\nG0 X1\nG43 H1\nG0 Z6 X1 Y0\nG10 L1 P1 Y1\nG43 H1\nG0 Z6 X1 Y0");
+    assert!(text.contains("G10 L1 P1 Z12\nG0 X1\nG43.1 X0 Y0 Z12\n"), "{text}");
+    assert!(text.contains("G10 L1 P1 Y1\nG43.1 X0 Y1 Z12\n"), "{text}");
+    let far = kept("G21\nG28 X0\nG10 L10 P1 X5\nM2\n", table, "5161 1\n5220 1\n");
+    assert!(far.is_ok(), "{far:?}");
+    let unknown = refused("G28 X0\nG10 L10 P1 X5", LinuxCnc);
+    assert!(unknown.contains("G10 L10 sets an offset along X from a place that is not known"), "{unknown}");
+    assert!(refused("G10 L1 P1", LinuxCnc).contains("without an offset or radius"));
 }
 
 #[test]

@@ -63,6 +63,32 @@ fn branches_go_one_way() {
 }
 
 #[test]
+fn loops_end_as_the_interpreter_ends_them() {
+    // A `while` loop with a `break` that was not run: the next `do` loop ends after one turn.
+    let while_loop = "#1=0\no1 while [#1 LT 2]\n#1=[#1+1]\no2 if [#1 EQ 9]\no1 break\no2 endif\no1 endwhile\n";
+    let do_loop = "#1=0\no3 do\n#1=[#1+1]\nX#1\no3 while [#1 LT 3]";
+    assert_eq!(run(&format!("{while_loop}{do_loop}"), LinuxCnc), ["R 1 0 0"]);
+    assert_eq!(run(do_loop, LinuxCnc).len(), 3);
+    assert_eq!(run(&format!("{while_loop}{do_loop}\n{}", do_loop.replace("o3", "o4")), LinuxCnc).len(), 4);
+    let reading = read(&format!("G21 G54 G0 X0 Y0 Z0\n{while_loop}{do_loop}\nM2\n"), LinuxCnc).unwrap();
+    let said = reading.findings.iter().filter(|f| f.message.contains("ends this loop although")).count();
+    assert_eq!(said, 1);
+    // A `continue` of a `do` loop passes its `break`; without one it makes the next `break` of a `while` a `continue`.
+    let passes = "#1=0\no1 do\n#1=[#1+1]\nX#1\no2 if [#1 EQ 2]\no1 continue\no2 endif\no3 if [0]\no1 break\no3 endif\no1 while [#1 LT 5]";
+    assert_eq!(run(passes, LinuxCnc).len(), 2);
+    let goes_on = "o1 do\no1 continue\no1 while [0]\n#1=0\no2 while [#1 LT 5]\n#1=[#1+1]\nX#1\no2 break\no2 endwhile";
+    assert_eq!(run(goes_on, LinuxCnc), ["R 1 0 0", "R 2 0 0"]);
+    assert_eq!(run("G91\no1 repeat [2.5]\nX1\no1 endrepeat\no2 repeat [0.5]\nX1\no2 endrepeat", LinuxCnc).len(), 2);
+    let nested = refused("o1 sub\no2 sub\no2 endsub\no1 endsub", LinuxCnc);
+    assert!(nested.contains("a subprogram begins within another one"), "{nested}");
+    // A bottom above R is refused in every cycle.
+    for cycle in ["G81", "G85", "S100 M3\nG84", "G82 P1"] {
+        let up = refused(&format!("F100\n{cycle} X1 R-5 Z-2"), LinuxCnc);
+        assert!(up.contains("its bottom below the reference height"), "{cycle}: {up}");
+    }
+}
+
+#[test]
 fn loops_turn_as_often_as_they_say() {
     assert_eq!(
         run(

@@ -61,7 +61,7 @@ class Program:
         self.mode, self.turning, self.at = 94, 0, [None] * 3
         self.values, self.named, self.labels, self.subs, self.fanuc = {}, {}, 100, [], []
         self.tool, self.length = False, None  # the unit in which a length was taken up
-        self.set_tools = set()
+        self.table_set = False
         self.wrong = self.on("wrong") and r.random() < 0.06
         while True:
             self.draw()
@@ -423,20 +423,19 @@ class Program:
             self.say(code + (str(r.randint(1, 4)) if code.endswith("H") else " " + self.offset_words() if code == "G43.1" else ""))
             self.stand()
         elif what == "tools":
-            # The module gcode loads a tool with the offsets that the table had at first.
-            able = [n for n in range(1, 5) if n not in self.set_tools]
-            if not able:
+            # At a change of tool the module gcode takes the whole table anew, as it was at first.
+            if self.table_set:
                 return
             self.tool = True
             if self.mode == 95:
                 self.choose_mode(94)
-            self.say(r.choice(["T{} M6", "T{}\nM6", "M6 T{}"]).format(r.choice(able)))
+            self.say(r.choice(["T{} M6", "T{}\nM6", "M6 T{}"]).format(r.randint(1, 4)))
             self.turning = 0  # a tool change stops it
             self.stand()  # the module gcode forgets where an arc ended
         elif what == "table":
             n, l = r.randint(1, 4), r.choice([1, 10, 11])
             self.say(f"G10 L{l} P{n} {self.offset_words()}\nG43 H{n}")
-            self.set_tools.add(n)
+            self.table_set = True
             self.length = self.unit
             self.stand()
         elif what == "dwell":

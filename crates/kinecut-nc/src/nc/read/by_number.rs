@@ -29,6 +29,7 @@ impl<'s> Reader<'s> {
                 return Err(self.lacks(bytes, "G43.2 without the tool H whose length it adds").into());
             };
             let register = self.count(&word, "a tool number")?;
+            self.in_table(register, &word.bytes)?;
             if register == 0 {
                 return Ok(());
             }

@@ -171,6 +171,12 @@ impl<'s> Reader<'s> {
             }
             _ => (reference, bottom),
         };
+        // Back boring goes up, which is checked with its step aside.
+        if bottom > reference && kind != CycleKind::BackBore {
+            let message = "a cycle must have its bottom below the reference height";
+            let finding = self.lacks(&here, message).value_mm(bottom).bound_mm(reference);
+            return Err(finding.help("R is above Z").into());
+        }
         // A height that is not known stays so.
         let higher = begun > reference || begun.is_nan();
         let retract = if self.modal.return_to_start && higher { begun } else { reference };

@@ -36,7 +36,9 @@ impl<'s> Reader<'s> {
         }
         let mut chosen = false;
         if let Some(tool) = take(words, "T") {
-            self.modal.chosen = Some(self.count(&tool, "a tool number")?);
+            let number = self.count(&tool, "a tool number")?;
+            self.in_table(number, &tool.bytes)?;
+            self.modal.chosen = Some(number);
             chosen = true;
         }
         if let Some((_, bytes)) = self.code(|c| c == Code::ToolChange) {
@@ -291,10 +293,12 @@ impl<'s> Reader<'s> {
             }
             (Some(_), Some(turns)) => return Err(self.twice(&turns.bytes).into()),
         };
-        if time.value < 0.0 {
+        // An expression that comes to nothing may be below it by its rounding.
+        const NOTHING: f64 = 1e-6;
+        if time.value < -NOTHING {
             return Err(self.place.malformed(&time.bytes, "a dwell is not negative").into());
         }
-        self.push_dwell(time.value * unit);
+        self.push_dwell(time.value.max(0.0) * unit);
         Ok(())
     }
 
@@ -326,7 +330,11 @@ impl<'s> Reader<'s> {
                 Some((code @ (Code::LengthOn | Code::TipControl { .. }), bytes)) => {
                     self.length_lost = false;
                     let register = match take(words, "H") {
-                        Some(register) => self.count(&register, "a register")?,
+                        Some(register) => {
+                            let number = self.count(&register, "a register")?;
+                            self.in_table(number, &register.bytes)?;
+                            number
+                        }
                         None => match self.modal.tool.id.filter(|_| !self.dialect.length_with_z) {
                             Some(tool) => tool.0,
                             None => {

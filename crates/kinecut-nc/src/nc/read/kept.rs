@@ -32,6 +32,7 @@ pub(super) fn offset_by_number(number: u32) -> Option<WorkOffset> {
 impl Reader<'_> {
     /// Begins with what the control has kept.
     pub(super) fn begins_with(&mut self, kept: &Kept) {
+        self.table.given = kept.tools.is_some();
         for tool in kept.tools.iter().flatten() {
             self.table.keeps(tool);
         }

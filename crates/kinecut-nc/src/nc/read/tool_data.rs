@@ -29,6 +29,8 @@ struct Line {
 #[derive(Clone, Debug, Default)]
 pub(super) struct Table {
     lines: Vec<Line>,
+    /// Whether the control's own table is given: it has no other tools.
+    pub(super) given: bool,
 }
 
 impl Table {
@@ -74,6 +76,7 @@ impl<'s> Reader<'s> {
         };
         let number = self.count(&tool, "a tool number")?;
         let radius = take(words, "R").map(|radius| radius.value * self.modal.length_unit);
+        self.in_table(number, &tool.bytes)?;
         // Angles and the side of turning tools.
         let turning = ["I", "J", "Q"].map(|word| take(words, word).is_some()).contains(&true);
         let named = self.lengths(words);
@@ -92,6 +95,15 @@ impl<'s> Reader<'s> {
             _ => self.offset_from_here(number, named, kind == 11, bytes)?,
         };
         self.offset_is(number, offset, bytes)
+    }
+
+    /// Refuses a tool that the control does not have, where its table is given.
+    pub(super) fn in_table(&self, tool: u32, bytes: &Bytes) -> Result<()> {
+        if tool == 0 || !self.table.given || self.table.offset(tool).is_some() {
+            return Ok(());
+        }
+        let finding = self.lacks(bytes, &format!("T{tool} is not in the tool table of the machine"));
+        Err(finding.help("LinuxCNC stops here: give the table that the machine has").into())
     }
 
     /// Offsets with which the present place would have coordinates: in the work offset in force, or in G59.3 without `G92`.
