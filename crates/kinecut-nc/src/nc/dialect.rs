@@ -137,6 +137,8 @@ pub(super) struct Dialect {
     /// Whether it has a feed per revolution, and mist.
     pub(super) per_revolution: bool,
     pub(super) mist: bool,
+    /// Whether `M7` and `M8` switch on one coolant each, so that both may be on; otherwise each replaces the other.
+    pub(super) both_coolants: bool,
     /// Source of the radius of G41 and G42.
     pub(super) comp: CompWord,
     /// Word of a dwell, and the unit of its number [s].

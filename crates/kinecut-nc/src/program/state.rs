@@ -179,6 +179,8 @@ pub enum Coolant {
     /// Flood (`M8`).
     #[default]
     Flood,
+    /// Mist and flood (`M7` and `M8`).
+    Both,
 }
 
 /// The modal state of an item.

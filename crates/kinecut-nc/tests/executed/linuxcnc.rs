@@ -4,9 +4,9 @@
 
 use crate::{moves, read, refused, run};
 use kinecut_nc::base::Sources;
-use kinecut_nc::nc::Control::LinuxCnc;
-use kinecut_nc::nc::{self, ReadSettings};
-use kinecut_nc::program::Item;
+use kinecut_nc::nc::Control::{Fanuc, LinuxCnc};
+use kinecut_nc::nc::{self, PostSettings, ReadSettings};
+use kinecut_nc::program::{Coolant, Item};
 
 #[test]
 fn words_take_values() {
@@ -78,6 +78,8 @@ fn loops_end_as_the_interpreter_ends_them() {
     assert_eq!(run(passes, LinuxCnc).len(), 2);
     let goes_on = "o1 do\no1 continue\no1 while [0]\n#1=0\no2 while [#1 LT 5]\n#1=[#1+1]\nX#1\no2 break\no2 endwhile";
     assert_eq!(run(goes_on, LinuxCnc), ["R 1 0 0", "R 2 0 0"]);
+    let again = "o1 do\no1 continue\no1 while [0]\nG91\no2 repeat [2]\nX1\no2 endrepeat";
+    assert_eq!(run(again, LinuxCnc).len(), 4);
     assert_eq!(run("G91\no1 repeat [2.5]\nX1\no1 endrepeat\no2 repeat [0.5]\nX1\no2 endrepeat", LinuxCnc).len(), 2);
     let nested = refused("o1 sub\no2 sub\no2 endsub\no1 endsub", LinuxCnc);
     assert!(nested.contains("a subprogram begins within another one"), "{nested}");
@@ -86,6 +88,25 @@ fn loops_end_as_the_interpreter_ends_them() {
         let up = refused(&format!("F100\n{cycle} X1 R-5 Z-2"), LinuxCnc);
         assert!(up.contains("its bottom below the reference height"), "{cycle}: {up}");
     }
+}
+
+#[test]
+fn mist_and_flood_are_on_together() {
+    let states = |text: &str, control| {
+        let reading = read(&format!("G21 G54 G0 X0 Y0 Z0\n{text}\nM30\n"), control).unwrap();
+        let items = &reading.program.items;
+        let moves = (0..items.len()).filter(|i| matches!(items.get(*i), Item::Move(_)));
+        moves.map(|i| reading.program.state(i).coolant).collect::<Vec<_>>().split_off(1)
+    };
+    let text = "M7\nX1\nM8\nX2\nM7\nX3\nM9\nX4";
+    assert_eq!(states(text, LinuxCnc), [Coolant::Mist, Coolant::Both, Coolant::Both, Coolant::Off]);
+    // What a FANUC machine makes of it is its builder's.
+    assert_eq!(states(text, Fanuc), [Coolant::Mist, Coolant::Flood, Coolant::Mist, Coolant::Off]);
+    let reading = read("G21 G54 G0 X0 Y0 Z0\nM7\nM8\nX2\nM30\n", LinuxCnc).unwrap();
+    let written = nc::write(&reading.program, &[], &PostSettings::new(LinuxCnc)).unwrap().text;
+    assert!(written.contains("M7\nM8\nG0 X2"), "{written}");
+    let other = nc::write(&reading.program, &[], &PostSettings::new(Fanuc)).unwrap_err();
+    assert!(other.to_string().contains("mist and flood on together"), "{other}");
 }
 
 #[test]

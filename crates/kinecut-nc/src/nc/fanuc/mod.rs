@@ -99,6 +99,7 @@ pub(super) const DIALECT: Dialect = Dialect {
     tool_change: " M6",
     per_revolution: true,
     mist: true,
+    both_coolants: false,
     dwell: ("G4 P", 0.001),
     turns: None,
     turns_in_plane: false,

@@ -56,6 +56,7 @@ pub(super) const DIALECT: Dialect = Dialect {
     tool_change: " M0",
     per_revolution: false,
     mist: false,
+    both_coolants: true,
     dwell: ("G4 P", 1.0),
     turns: None,
     turns_in_plane: false,

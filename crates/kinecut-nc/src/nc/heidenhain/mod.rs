@@ -106,6 +106,7 @@ pub(super) const DIALECT: Dialect = Dialect {
     tool_change: "",
     per_revolution: true,
     mist: true,
+    both_coolants: false,
     dwell: ("", 1.0),
     turns: Some(("", 0)),
     turns_in_plane: false,

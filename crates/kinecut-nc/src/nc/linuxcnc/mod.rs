@@ -73,6 +73,7 @@ pub(super) const DIALECT: Dialect = Dialect {
     tool_change: " M6",
     per_revolution: true,
     mist: true,
+    both_coolants: true,
     dwell: ("G4 P", 1.0),
     turns: Some(("P", 1)),
     turns_in_plane: true,

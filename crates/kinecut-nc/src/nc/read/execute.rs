@@ -200,8 +200,12 @@ impl<'s> Reader<'s> {
                         if clockwise { Spindle::Clockwise(rate) } else { Spindle::CounterClockwise(rate) };
                 }
                 Code::SpindleOff => self.modal.spindle = Spindle::Off,
-                Code::Mist => self.modal.coolant = Coolant::Mist,
-                Code::Flood => self.modal.coolant = Coolant::Flood,
+                Code::Mist | Code::Flood => {
+                    let on = if code == Code::Mist { Coolant::Mist } else { Coolant::Flood };
+                    let before = self.modal.coolant;
+                    let joins = self.dialect.both_coolants && before != Coolant::Off && before != on;
+                    self.modal.coolant = if joins { Coolant::Both } else { on };
+                }
                 Code::CoolantOff => self.modal.coolant = Coolant::Off,
                 Code::Harmless(what) => {
                     let message =

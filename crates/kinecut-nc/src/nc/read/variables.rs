@@ -141,8 +141,8 @@ impl Reader<'_> {
             "_selected_tool" => number(modal.chosen.map_or(0.0, f64::from)),
             "_spindle_on" => truth(modal.spindle != Spindle::Off),
             "_spindle_cw" => truth(matches!(modal.spindle, Spindle::Clockwise(_))),
-            "_mist" => truth(modal.coolant == Coolant::Mist),
-            "_flood" => truth(modal.coolant == Coolant::Flood),
+            "_mist" => truth(matches!(modal.coolant, Coolant::Mist | Coolant::Both)),
+            "_flood" => truth(matches!(modal.coolant, Coolant::Flood | Coolant::Both)),
             "_rpm" => number(modal.speed.map_or(0.0, per_minute)),
             "_feed" => match (modal.feed_mode, modal.feed) {
                 (_, None) => number(0.0),

@@ -62,6 +62,7 @@ pub(super) const DIALECT: Dialect = Dialect {
     tool_change: " M6",
     per_revolution: true,
     mist: true,
+    both_coolants: false,
     dwell: ("G4 F", 1.0),
     turns: Some(("TURN=", 0)),
     turns_in_plane: false,

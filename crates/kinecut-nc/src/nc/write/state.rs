@@ -144,17 +144,24 @@ impl Writer<'_> {
         if self.modal.coolant == Some(coolant) {
             return Ok(None);
         }
-        if coolant == Coolant::Mist && !self.dialect.mist {
-            let title = self.settings.control.title();
+        let title = self.settings.control.title();
+        if matches!(coolant, Coolant::Mist | Coolant::Both) && !self.dialect.mist {
             return Err(unsupported(format!("{title} has no mist (M7)")).help("use flood, or none").into());
+        }
+        if coolant == Coolant::Both && !self.dialect.both_coolants {
+            let what = format!("whether {title} has mist and flood on together (M7, M8) is up to the machine");
+            return Err(unsupported(what).help("use one of them").into());
         }
         let before = self.modal.coolant.replace(coolant);
         let word = match coolant {
             Coolant::Off if before.is_none() => return Ok(None),
             Coolant::Off => "M9",
             // The two do not replace each other on every control.
-            Coolant::Mist if before == Some(Coolant::Flood) => "M9\nM7",
-            Coolant::Flood if before == Some(Coolant::Mist) => "M9\nM8",
+            Coolant::Mist if matches!(before, Some(Coolant::Flood | Coolant::Both)) => "M9\nM7",
+            Coolant::Flood if matches!(before, Some(Coolant::Mist | Coolant::Both)) => "M9\nM8",
+            Coolant::Both if before == Some(Coolant::Flood) => "M7",
+            Coolant::Both if before == Some(Coolant::Mist) => "M8",
+            Coolant::Both => "M7\nM8",
             Coolant::Mist => "M7",
             Coolant::Flood => "M8",
         };
