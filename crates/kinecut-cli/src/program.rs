@@ -160,6 +160,9 @@ pub(crate) struct ProgramOf {
     /// TOML file with the tools ([[tool]], [[holder]]), as a job file is one; or a tool table of LinuxCNC (.tbl)
     #[arg(long, value_name = "FILE")]
     tools: Option<PathBuf>,
+    /// Pass over M codes of the machine that move no axis by custom (clamps, chip conveyors, relays), each with a warning
+    #[arg(long)]
+    tolerant: bool,
     /// Parameter file of a LinuxCNC machine (linuxcnc.var): its work offsets, and the places of G28 and G30
     #[arg(long, value_name = "FILE")]
     parameters: Option<PathBuf>,
@@ -209,6 +212,7 @@ impl ProgramOf {
             stock: stock.map(RawStock::given).transpose()?,
             position: self.position,
             tool: self.tool,
+            tolerant: self.tolerant,
             parameters: self.parameters.as_deref().map(kept_named).transpose()?,
             machine_in_inches: self.machine_in_inches,
             setup: self.setup,

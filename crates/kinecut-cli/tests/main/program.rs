@@ -295,6 +295,56 @@ fn the_tool_table_of_the_machine_tells_lengths_and_diameters() {
     assert_eq!(run.status.code(), Some(2));
     assert!(text(&run.stderr).contains("old.tbl:2:2"), "{}", text(&run.stderr));
     let run = kinecut(&folder, &["check", "P.ngc", "--tools", "tools.toml", "--machine-in-inches"]);
-    assert!(text(&run.stderr).contains("only the lengths of a tool table (.tbl) may be in inches"));
+    assert!(text(&run.stderr).contains("only a tool table (.tbl) or a parameter file may be in inches"));
+    std::fs::remove_dir_all(folder).unwrap();
+}
+
+#[test]
+fn the_machine_keeps_offsets_for_a_program() {
+    let folder = folder("kept");
+    let text_of = "G21 G17 G40 G49 G80 G90 G94 G64 P0.01\nT1 M6\nG43\nG54 G0 X0 Y0 Z5 S3000 M3\nG1 Z-1 F200\nG0 Z5\nG55\nX0 Y0 Z5\nG1 Z-1\nG0 Z5\nG28\nM2\n";
+    std::fs::write(folder.join("P.ngc"), text_of).unwrap();
+    std::fs::write(folder.join("linuxcnc.var"), "5161 200\n5162 100\n5163 90\n5220 1\n5221 50\n5241 70\n").unwrap();
+    std::fs::write(folder.join("tool.tbl"), "T1 Z75.2 D6 ;end mill\n").unwrap();
+    let given = ["--tools", "tool.tbl", "--parameters", "linuxcnc.var"];
+    let check = |more: &[&str]| kinecut(&folder, &[&["check", "P.ngc"], more].concat());
+    // Without them G55 is taken to lie where G54 does; with them it is 20 mm away.
+    assert!(text(&check(&[]).stdout).contains("G55 lies where G54 does"), "{}", text(&check(&[]).stdout));
+    let known = text(&check(&given).stdout);
+    assert!(known.contains("G55: placed from G54 as the offsets of the control have it"), "{known}");
+    assert!(!known.contains("taken to be machine zero"), "{known}");
+    let post = kinecut(&folder, &[&["post", "P.ngc", "--to", "linuxcnc", "-o", "out.ngc"], &given[..]].concat());
+    assert_eq!(post.status.code(), Some(0), "{}", text(&post.stderr));
+    let out = std::fs::read_to_string(folder.join("out.ngc")).unwrap();
+    assert!(out.contains("G53 G0 X200 Y100 Z90"), "{out}");
+    // The files of a machine that the tool is not in, or that are no such files.
+    std::fs::write(folder.join("other.tbl"), "T2 Z75.2 D6\n").unwrap();
+    let run = check(&["--tools", "other.tbl"]);
+    assert_eq!(run.status.code(), Some(2));
+    assert!(text(&run.stderr).contains("T1 is not in the tool table of the machine"), "{}", text(&run.stderr));
+    std::fs::write(folder.join("wrong.var"), "5220 1\nX 5\n").unwrap();
+    let run = check(&["--parameters", "wrong.var"]);
+    assert!(text(&run.stderr).contains("wrong.var:2:1"), "{}", text(&run.stderr));
+    let run = kinecut(&folder, &["check", "P.ngc", "--control", "fanuc", "--parameters", "linuxcnc.var"]);
+    assert_eq!(run.status.code(), Some(2));
+    assert!(text(&run.stderr).contains("`linuxcnc.var` is a file of LinuxCNC"), "{}", text(&run.stderr));
+    // In a job they are files beside it.
+    let job = format!(
+        "format = 1\npost = {{ control = \"linuxcnc\" }}\nstock = {{ box = {{ min = [-10, -10, -5], max = [50, 10, 0] }} }}\n{}\n[[setup]]\noffset = \"G54\"\noffsets = {{ G55 = [20, 0, 0] }}\nprogram = {{ file = \"P.ngc\", tool_table = \"tool.tbl\", parameters = \"linuxcnc.var\" }}\n",
+        "[[tool]]\nnumber = 1\nname = \"mill\"\ntype = \"end-mill\"\ndiameter = 6\nflute_length = 20\nstickout = 40\ngauge_length = 80\n"
+    );
+    std::fs::write(folder.join("job.toml"), job).unwrap();
+    let run = kinecut(&folder, &["simulate", "job.toml", "--step", "1", "--out", "out"]);
+    assert!(text(&run.stdout).contains("SAFE"), "{}{}", text(&run.stdout), text(&run.stderr));
+    let said = text(&run.stderr);
+    assert!(said.contains("the length register of T1 does not hold the length of the tool"), "{said}");
+    let verdict = std::fs::read_to_string(folder.join("out/verdict.json")).unwrap();
+    assert!(verdict.contains("linuxcnc.var") && verdict.contains("tool.tbl"), "the verdict names the files");
+    // Where the job and the control have an offset in two places, neither is proven.
+    let there = std::fs::read_to_string(folder.join("job.toml")).unwrap();
+    std::fs::write(folder.join("job.toml"), there.replace("G55 = [20, 0, 0]", "G55 = [20, 0, 1]")).unwrap();
+    let run = kinecut(&folder, &["simulate", "job.toml", "--step", "1", "--out", "out"]);
+    let said = text(&run.stderr);
+    assert!(said.contains("G55 lies 1 mm from where the control has it, as seen from G54"), "{said}");
     std::fs::remove_dir_all(folder).unwrap();
 }

@@ -1,5 +1,6 @@
 //! Differences between controls, as data: the words to write, and the meanings of the words read.
 
+use super::tolerated::Functions;
 use crate::program::{Blend, StopKind, WorkOffset};
 use crate::tool::Hand;
 
@@ -176,6 +177,8 @@ pub(super) struct Dialect {
     pub(super) g_codes: &'static [(u32, Code)],
     /// Further G codes, which it shares with others or has beyond its everyday ones.
     pub(super) further_g_codes: &'static [(u32, Code)],
+    /// M codes of the machine that move no axis by custom.
+    pub(super) tolerated: Functions,
     pub(super) m_codes: &'static [(u32, Code)],
     pub(super) keywords: &'static [(&'static str, Code)],
     /// Whether cycles return to R before the program says `G98` or `G99`, as the interpreter begins.
@@ -403,6 +406,8 @@ pub(super) enum Code {
     Device(&'static str),
     /// Moves no axis and changes no coordinate; the text says what it does.
     Harmless(&'static str),
+    /// A function of the machine that moves no axis by custom, and is passed over.
+    Tolerated(&'static str),
     /// `G30`: as G28, to the second, third or fourth reference point.
     FurtherReference,
     /// `G54.1`, `G154`: the work offset of a number.
@@ -569,7 +574,11 @@ impl Code {
                 23
             }
             Code::Mist | Code::Flood | Code::CoolantOff | Code::Rigid => return None,
-            Code::Mode(_) | Code::NotRead(_) | Code::Device(_) | Code::Harmless(_) => return None,
+            Code::Mode(_)
+            | Code::NotRead(_)
+            | Code::Device(_)
+            | Code::Harmless(_)
+            | Code::Tolerated(_) => return None,
         })
     }
 }

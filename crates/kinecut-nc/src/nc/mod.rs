@@ -36,6 +36,7 @@ mod scan;
 mod settings;
 mod sinumerik;
 mod tilt;
+mod tolerated;
 mod turn;
 mod write;
 

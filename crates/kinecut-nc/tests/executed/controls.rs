@@ -4,7 +4,7 @@
 
 use crate::{moves, read, refused, run};
 use kinecut_nc::base::Sources;
-use kinecut_nc::nc::Control::{Fanuc, Grbl, GrblHal, Haas, LinuxCnc};
+use kinecut_nc::nc::Control::{Fanuc, Grbl, GrblHal, Haas, LinuxCnc, Sinumerik840d};
 use kinecut_nc::nc::{self, ReadSettings};
 
 #[test]
@@ -224,4 +224,29 @@ fn grbl_answers_by_number() {
     let tape = read("%\nG21 G54 G0 X1\nM2\n", Grbl).unwrap();
     assert!(tape.findings.iter().any(|f| f.message.starts_with("GRBL answers error 1 to a line with `%`")));
     assert!(refused("G1 X1", GrblHal).contains("grblHAL answers error 22 here"));
+}
+
+#[test]
+fn functions_of_the_machine_are_passed_over_where_that_is_asked_for() {
+    let read = |text: &str, control, tolerant| {
+        let mut sources = Sources::default();
+        let file = sources.add("a.nc", text);
+        let settings = ReadSettings { tolerant, ..ReadSettings::default() };
+        nc::read_source(&sources, file, control, &[], &settings).map_err(|e| e.to_string())
+    };
+    let program = |code: &str| format!("O1\nG21 G90 G54\nG0 X1. Y1. Z1.\n{code}\nG1 X2. F100.\nM30\n");
+    for (control, code) in [(Fanuc, "M10"), (Haas, "M83"), (Haas, "M52 M61"), (Sinumerik840d, "M40")] {
+        let text = if control == Sinumerik840d { program(code).replace("O1\nG21", "G71") } else { program(code) };
+        let refused = read(&text, control, false).unwrap_err();
+        assert!(refused.contains("pass it over with --tolerant"), "{code}: {refused}");
+        let said = read(&text, control, true).unwrap().findings;
+        let passed: Vec<_> = said.iter().filter(|f| f.message.contains("is passed over")).collect();
+        assert_eq!(passed.len(), code.split(' ').count(), "{code}");
+        assert!(passed.iter().all(|f| f.severity == kinecut_nc::base::Severity::Warning));
+    }
+    let own = read("G21 G54 G0 X1 Y1 Z1\nM101 P3 Q4\nM2\n", LinuxCnc, true).unwrap();
+    assert!(own.findings.iter().any(|f| f.message == "`M101` (program of the machine) is passed over: it moves no axis by custom"));
+    // One that is in no table, and words that move an axis, stay errors.
+    assert!(!read(&program("M77"), Fanuc, true).unwrap_err().contains("--tolerant"));
+    assert!(read(&program("G77 X1."), Fanuc, true).is_err());
 }

@@ -167,6 +167,7 @@ pub(super) const DIALECT: Dialect = Dialect {
         (880, Code::Cycle(CycleKind::LeftByHand)),
     ],
     further_g_codes: modes::FANUC,
+    tolerated: crate::nc::tolerated::MACHINE,
     m_codes: &[
         (29, Code::Rigid),
         (98, Code::CallProgram),

@@ -81,6 +81,7 @@ pub(super) const DIALECT: Dialect = Dialect {
         (911, Code::CentreAbsolute(false)),
     ],
     further_g_codes: modes::NGC,
+    tolerated: &[],
     m_codes: &[],
     keywords: &[],
     starts_at_r: false,

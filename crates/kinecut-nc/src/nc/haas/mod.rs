@@ -71,6 +71,7 @@ pub(super) const DIALECT: Dialect = Dialect {
         (880, Code::Cycle(CycleKind::LeftByHand)),
     ],
     further_g_codes: modes::HAAS,
+    tolerated: crate::nc::tolerated::HAAS,
     m_codes: &[
         (19, Code::Harmless("orients the spindle")),
         (31, Code::Harmless("chip conveyor")),

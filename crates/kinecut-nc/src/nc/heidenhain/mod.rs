@@ -125,6 +125,7 @@ pub(super) const DIALECT: Dialect = Dialect {
     round_comments: false,
     g_codes: &[],
     further_g_codes: &[],
+    tolerated: &[],
     m_codes: &[],
     keywords: &[],
     starts_at_r: false,

@@ -129,6 +129,7 @@ pub(super) const DIALECT: Dialect = Dialect {
         (990, Code::ReturnToStart(false)),
     ],
     further_g_codes: modes::NGC,
+    tolerated: crate::nc::tolerated::LINUXCNC,
     m_codes: &[
         (19, Code::Orientation),
         (50, Code::Device("feed override")),

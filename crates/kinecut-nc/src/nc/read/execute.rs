@@ -4,7 +4,7 @@
 use std::f64::consts::TAU;
 
 use crate::base::{Code as FindingCode, Finding, Result};
-use crate::nc::dialect::{AXES, Code};
+use crate::nc::dialect::{AXES, Code, FlowWords};
 use crate::program::{Coolant, SetupId, Speed, Spindle, StopKind, Tcp, ToolNumber, WorkOffset};
 
 use super::block::Word;
@@ -223,6 +223,15 @@ impl<'s> Reader<'s> {
 
     /// Codes that switch or read devices, with their words: the program goes on as it would without them.
     fn devices(&mut self, words: &mut [Word<'s>]) {
+        for (code, bytes) in self.codes.clone() {
+            let Code::Tolerated(what) = code else { continue };
+            if self.dialect.flow == FlowWords::OWords {
+                // Arguments of the program that it calls.
+                let _ = (take(words, "P"), take(words, "Q"));
+            }
+            let shown = self.place.shown(&bytes).to_owned();
+            self.warn(&bytes, &format!("`{shown}` ({what}) is passed over: it moves no axis by custom"));
+        }
         let Some((Code::Device(what), bytes)) = self.code(|c| matches!(c, Code::Device(_))) else { return };
         for name in ["P", "E", "L", "Q"] {
             take(words, name);

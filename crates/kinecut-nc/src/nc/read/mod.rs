@@ -190,6 +190,7 @@ pub fn read_source(
     let mut reader = Reader::new(place, dialect, setups);
     reader.points = Points::of(text, dialect, settings.input);
     reader.own_codes = settings.codes.clone();
+    reader.tolerant = settings.tolerant;
     reader.check_own_codes()?;
     // Nearly every line of a long program is a move.
     let end = text.len() as u32;

@@ -93,6 +93,8 @@ pub(super) struct Reader<'s> {
     pub(super) called_blocks: bool,
     /// The tool table, as far as it is known.
     pub(super) table: Table,
+    /// Whether functions of the machine that move no axis by custom are passed over.
+    pub(super) tolerant: bool,
     /// Parameters that the control has kept.
     pub(super) kept: Option<Parameters>,
     /// Whether the program has switched the shift of `G92` on or off (parameter 5210).
@@ -162,6 +164,7 @@ impl<'s> Reader<'s> {
             stored_places: [None; 2],
             called_blocks: false,
             table: Table::default(),
+            tolerant: false,
             kept: None,
             shift_said: None,
             own_lengths: Vec::new(),
@@ -459,7 +462,11 @@ impl<'s> Reader<'s> {
 
     fn unknown(&self, word: &Word<'_>) -> Finding {
         let answer = self.dialect.answer.unwrap_or("kinecut does not know what the control does with it");
-        self.place.not_understood(&word.bytes, answer)
+        let finding = self.place.not_understood(&word.bytes, answer);
+        match word.value.filter(|_| word.is("M")).and_then(whole).and_then(|number| self.tolerated(number)) {
+            Some(what) => finding.help(format!("it moves no axis by custom ({what}): pass it over with --tolerant, or say what it does in the machine file: codes")),
+            None => finding,
+        }
     }
 
     /// A finding with the number of the error that GRBL or grblHAL answers there.
@@ -478,9 +485,17 @@ impl<'s> Reader<'s> {
         self.g_code_of_language(tenths).or_else(|| self.own_code('G', tenths))
     }
 
+    /// A function of the machine that is passed over where that is asked for.
+    fn tolerated(&self, number: u32) -> Option<&'static str> {
+        let found = self.dialect.tolerated.iter().find(|(first, last, _)| (*first..=*last).contains(&number))?;
+        Some(found.2)
+    }
+
     fn m_code(&self, value: f64) -> Option<Code> {
         let number = whole(value)?;
-        self.m_code_of_language(number).or_else(|| self.own_code('M', number.saturating_mul(10)))
+        let known = self.m_code_of_language(number).or_else(|| self.own_code('M', number.saturating_mul(10)));
+        let passed = || self.tolerated(number).filter(|_| self.tolerant).map(Code::Tolerated);
+        known.or_else(passed)
     }
 
     /// Refuses codes of the machine that the language has: their meaning there would be lost.

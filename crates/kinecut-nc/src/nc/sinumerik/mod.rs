@@ -99,6 +99,7 @@ pub(super) const DIALECT: Dialect = Dialect {
         (6030, Code::Harmless("exact stop at the end of interpolation")),
     ],
     further_g_codes: &[],
+    tolerated: crate::nc::tolerated::MACHINE,
     m_codes: &[],
     keywords: &[
         ("INVCW", Code::Involute { ccw: false }),

@@ -39,6 +39,8 @@ pub struct JobProgram {
     pub detected: Option<String>,
     /// Guesses about its stock and tools, in words.
     pub guessed: Vec<String>,
+    /// Whether M codes of the machine that move no axis by custom are passed over.
+    pub tolerant: bool,
     /// What the machine keeps from programs before.
     pub kept: Kept,
     /// The files that tell it.
@@ -64,6 +66,7 @@ impl JobProgram {
             start: None,
             detected: None,
             guessed: Vec::new(),
+            tolerant: false,
             kept: Kept::default(),
             kept_in: Vec::new(),
             beside: Vec::new(),
@@ -158,6 +161,7 @@ pub(super) fn program(
     let bytes = loader.lend_as(&t.file, FileKind::Program).map_err(|e| e.under("file"))?;
     let mut program = JobProgram::new(t.file.clone(), &bytes, control);
     program.input = t.input;
+    program.tolerant = t.tolerant;
     program.blocks = t.blocks.unwrap_or(program.blocks);
     if let Some(start) = t.start {
         for value in start {

@@ -150,6 +150,7 @@ pub(crate) fn follow_passing(
         start: program.start,
         blocks: program.blocks,
         kept: program.kept.clone(),
+        tolerant: program.tolerant,
         codes: job.machine.as_ref().map(|m| m.codes.to_vec()).unwrap_or_default(),
         reads_on,
     };
@@ -166,6 +167,8 @@ pub(crate) fn follow_passing(
         }
         reading.program.setups = clamping;
     }
+    let misplaced =
+        reading.program.setups.first().map(|setup| misplaced(setup, clamped.offset, &reading)).unwrap_or_default();
     let read_radii = reading.radii.clone();
     let read = &reading.program;
     let line = |item: u32| line_of(&reading.program, &sources, file, item);
@@ -239,6 +242,7 @@ pub(crate) fn follow_passing(
         .iter()
         .cloned()
         .chain(registers.findings)
+        .chain(misplaced)
         .chain(program.guessed.iter().map(|what| guessed(what)))
         .partition(|f| f.severity == Severity::Note);
     let unfollowed = notes
@@ -275,6 +279,28 @@ fn place_offsets(setup: &mut Setup, first: WorkOffset, reading: &Reading) -> (Ve
         }
     }
     (known, placed)
+}
+
+/// Work offsets that the setup has elsewhere than the control, as far as the program or the control's parameters tell their distance.
+fn misplaced(setup: &Setup, first: WorkOffset, reading: &Reading) -> Vec<Finding> {
+    /// Resolution of a touch probe [mm].
+    const SAME: f64 = 1e-3;
+    let Some(at) = setup.work_offsets.get(&first) else { return Vec::new() };
+    let used = reading.program.frames.iter().filter_map(|frame| match frame {
+        Frame::Work(offset) => Some(*offset),
+        _ => None,
+    });
+    let apart = used.filter_map(|offset| {
+        let (there, way) = (setup.work_offsets.get(&offset)?, reading.zero_from(first, offset)?);
+        let apart = (there.translation - at.point(way)).length();
+        (apart > SAME).then(|| {
+            let apart = (apart * 1e3).round() / 1e3;
+            let message = format!("{offset} lies {apart} mm from where the control has it, as seen from {first}");
+            let finding = Finding::doubt(Code::NC_ASSUMED, message);
+            finding.help("compare the offsets of the setup with the program and the parameters of the control")
+        })
+    });
+    apart.collect()
 }
 
 /// The error of a program that moves before it has a tool.

@@ -47,6 +47,8 @@ pub struct ProgramWants {
     pub stock: Option<GivenStock>,
     /// Name and text of a file with `[[tool]]` and `[[holder]]`, as a job file is one, or of a tool table of LinuxCNC (`.tbl`).
     pub tools: Option<(String, String)>,
+    /// Whether M codes of the machine that move no axis by custom are passed over; default: as the job says.
+    pub tolerant: bool,
     /// Name and text of the parameter file of the machine (`linuxcnc.var`); default: that of the job.
     pub parameters: Option<(String, String)>,
     /// Whether the machine counts in inches: lengths in its tool table and its parameters.
@@ -245,6 +247,7 @@ pub fn given_with_job(
         },
         start: wants.start.or(own.as_ref().and_then(|p| p.start)),
         tool: wants.tool.or(own.as_ref().and_then(|p| p.tool)),
+        tolerant: wants.tolerant || own.as_ref().is_some_and(|p| p.tolerant),
         tool_table: own.as_ref().and_then(|p| p.tool_table.clone()),
         parameters: match &wants.parameters {
             Some((name, _)) => Some(name.clone()),
@@ -354,6 +357,7 @@ pub fn given_alone(program: GivenFile<'_>, wants: &ProgramWants, needs_stock: bo
                 blocks: wants.blocks,
                 subprograms: wants.subprograms.clone(),
                 start: wants.start,
+                tolerant: wants.tolerant,
                 tool_table: of_machine.map(|(name, _)| name.clone()),
                 parameters: wants.parameters.as_ref().map(|(name, _)| name.clone()),
                 machine_in_inches: wants.machine_in_inches && (of_machine.is_some() || wants.parameters.is_some()),

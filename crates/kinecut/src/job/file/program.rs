@@ -33,6 +33,10 @@ pub struct ProgramTable {
     /// if the program calls no tool at all.
     #[serde(default)]
     pub tool: Option<u32>,
+    /// Whether M codes of the machine that move no axis by custom (clamps, chip conveyors, relays) are passed over with a warning;
+    /// default: they are errors.
+    #[serde(default)]
+    pub tolerant: bool,
     /// The tool table of the machine (`tool.tbl` of LinuxCNC), as seen from the folder of the job: offsets of its tools. Tools
     /// themselves are those of the job.
     #[serde(default)]
