@@ -228,7 +228,14 @@ impl ProgramOf {
         if lacks || save.is_some() {
             let guess = Guess::of(program, &wants)?;
             if let Some(file) = save {
-                files::write_one(file, &guess.job(&seen_from(file, &self.program)?))?;
+                let mut kept = Vec::new();
+                let table = self.tools.as_ref().filter(|name| is_tool_table(&name.display().to_string()));
+                for (key, name) in [("tool_table", table), ("parameters", self.parameters.as_ref())] {
+                    if let Some(name) = name.filter(|_| guess.control() == Control::LinuxCnc) {
+                        kept.push((key, seen_from(file, name, &format!("`{}`", name.display()))?));
+                    }
+                }
+                files::write_one(file, &guess.job(&seen_from(file, &self.program, "its program")?, &kept))?;
             }
             if cut {
                 guess.complete(&mut wants)?;
@@ -271,16 +278,15 @@ fn kept_named(path: &Path) -> Result<(String, String), Error> {
     Ok((path.display().to_string(), text))
 }
 
-/// A program as a job file names it: from the folder of the job, beside which or below which it lies.
-fn seen_from(job: &Path, program: &Path) -> Result<String, Error> {
+/// A program, or `what` else, as a job file names it: from the folder of the job, beside which or below which it lies.
+fn seen_from(job: &Path, program: &Path, what: &str) -> Result<String, Error> {
     let whole = |path: &Path| std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
     let (own, program) = (whole(job), whole(program));
     let folder = own.parent().unwrap_or(Path::new(""));
     match program.strip_prefix(folder) {
         Ok(file) => Ok(file.display().to_string()),
         Err(_) => {
-            let message =
-                format!("the job `{}` would lie neither beside its program nor above it", job.display());
+            let message = format!("the job `{}` would lie neither beside {what} nor above it", job.display());
             let beside = program.with_file_name("job.toml");
             Err(Finding::error(Code::OUTPUT_NOT_WRITTEN, message)
                 .help(format!("write it to {}", beside.display()))

@@ -304,7 +304,8 @@ fn the_machine_keeps_offsets_for_a_program() {
     let folder = folder("kept");
     let text_of = "G21 G17 G40 G49 G80 G90 G94 G64 P0.01\nT1 M6\nG43\nG54 G0 X0 Y0 Z5 S3000 M3\nG1 Z-1 F200\nG0 Z5\nG55\nX0 Y0 Z5\nG1 Z-1\nG0 Z5\nG28\nM2\n";
     std::fs::write(folder.join("P.ngc"), text_of).unwrap();
-    std::fs::write(folder.join("linuxcnc.var"), "5161 200\n5162 100\n5163 90\n5220 1\n5221 50\n5241 70\n").unwrap();
+    std::fs::write(folder.join("linuxcnc.var"), "5161 200\n5162 100\n5163 90\n5220 1\n5221 50\n5241 70\n")
+        .unwrap();
     std::fs::write(folder.join("tool.tbl"), "T1 Z75.2 D6 ;end mill\n").unwrap();
     let given = ["--tools", "tool.tbl", "--parameters", "linuxcnc.var"];
     let check = |more: &[&str]| kinecut(&folder, &[&["check", "P.ngc"], more].concat());
@@ -313,7 +314,8 @@ fn the_machine_keeps_offsets_for_a_program() {
     let known = text(&check(&given).stdout);
     assert!(known.contains("G55: placed from G54 as the offsets of the control have it"), "{known}");
     assert!(!known.contains("taken to be machine zero"), "{known}");
-    let post = kinecut(&folder, &[&["post", "P.ngc", "--to", "linuxcnc", "-o", "out.ngc"], &given[..]].concat());
+    let post =
+        kinecut(&folder, &[&["post", "P.ngc", "--to", "linuxcnc", "-o", "out.ngc"], &given[..]].concat());
     assert_eq!(post.status.code(), Some(0), "{}", text(&post.stderr));
     let out = std::fs::read_to_string(folder.join("out.ngc")).unwrap();
     assert!(out.contains("G53 G0 X200 Y100 Z90"), "{out}");
@@ -321,7 +323,11 @@ fn the_machine_keeps_offsets_for_a_program() {
     std::fs::write(folder.join("other.tbl"), "T2 Z75.2 D6\n").unwrap();
     let run = check(&["--tools", "other.tbl"]);
     assert_eq!(run.status.code(), Some(2));
-    assert!(text(&run.stderr).contains("T1 is not in the tool table of the machine"), "{}", text(&run.stderr));
+    assert!(
+        text(&run.stderr).contains("T1 is not in the tool table of the machine"),
+        "{}",
+        text(&run.stderr)
+    );
     std::fs::write(folder.join("wrong.var"), "5220 1\nX 5\n").unwrap();
     let run = check(&["--parameters", "wrong.var"]);
     assert!(text(&run.stderr).contains("wrong.var:2:1"), "{}", text(&run.stderr));

@@ -574,11 +574,9 @@ impl Code {
                 23
             }
             Code::Mist | Code::Flood | Code::CoolantOff | Code::Rigid => return None,
-            Code::Mode(_)
-            | Code::NotRead(_)
-            | Code::Device(_)
-            | Code::Harmless(_)
-            | Code::Tolerated(_) => return None,
+            Code::Mode(_) | Code::NotRead(_) | Code::Device(_) | Code::Harmless(_) | Code::Tolerated(_) => {
+                return None;
+            }
         })
     }
 }

@@ -236,7 +236,8 @@ fn functions_of_the_machine_are_passed_over_where_that_is_asked_for() {
     };
     let program = |code: &str| format!("O1\nG21 G90 G54\nG0 X1. Y1. Z1.\n{code}\nG1 X2. F100.\nM30\n");
     for (control, code) in [(Fanuc, "M10"), (Haas, "M83"), (Haas, "M52 M61"), (Sinumerik840d, "M40")] {
-        let text = if control == Sinumerik840d { program(code).replace("O1\nG21", "G71") } else { program(code) };
+        let text =
+            if control == Sinumerik840d { program(code).replace("O1\nG21", "G71") } else { program(code) };
         let refused = read(&text, control, false).unwrap_err();
         assert!(refused.contains("pass it over with --tolerant"), "{code}: {refused}");
         let said = read(&text, control, true).unwrap().findings;
@@ -245,7 +246,11 @@ fn functions_of_the_machine_are_passed_over_where_that_is_asked_for() {
         assert!(passed.iter().all(|f| f.severity == kinecut_nc::base::Severity::Warning));
     }
     let own = read("G21 G54 G0 X1 Y1 Z1\nM101 P3 Q4\nM2\n", LinuxCnc, true).unwrap();
-    assert!(own.findings.iter().any(|f| f.message == "`M101` (program of the machine) is passed over: it moves no axis by custom"));
+    assert!(
+        own.findings.iter().any(
+            |f| f.message == "`M101` (program of the machine) is passed over: it moves no axis by custom"
+        )
+    );
     // One that is in no table, and words that move an axis, stay errors.
     assert!(!read(&program("M77"), Fanuc, true).unwrap_err().contains("--tolerant"));
     assert!(read(&program("G77 X1."), Fanuc, true).is_err());

@@ -105,7 +105,10 @@ fn fanuc_sets_zeros_and_registers() {
     let twice = read("O1\nG21 G90 G10 L10 P5 R120.\nG10 L10 P5 R119.\nM30\n", Fanuc).unwrap();
     assert_eq!(twice.lengths, [(5, 119.0)]);
     let called = refused("G10 L10 P5 R120.\nT5 M6\nG43 H5 Z50.\nG10 L10 P5 R119.", Fanuc);
-    assert!(called.contains("the length of 5 changes after it was called, which is not followed"), "{called}");
+    assert!(
+        called.contains("the length of 5 changes after it was called, which is not followed"),
+        "{called}"
+    );
     let settings = PostSettings::new(Sinumerik840d);
     let other = nc::write(&reading.program, &[], &settings).unwrap_err().to_string();
     assert!(
@@ -173,20 +176,26 @@ fn lengths_are_added_and_replaced() {
     assert_eq!(text("G43.2 H7\nG43.2 H7\nG43.1 Z-3").0, "G43.2 H7\nG43.2 H7\nG43.1 Z-3");
     assert_eq!(text("G43.1 Z5\nG43.1 Z6").0, "G43.1 Z6");
     // The program's own numbers: with 3 mm in the table the spindle is 8 mm above the tip.
-    let down = "G10 L1 P7 Z3\nG10 L2 P1 X0 Y0 Z0\nG49\nG43.1 Z5\nG43.2 H7\nG53 G0 X4 Y4 Z20\nG91 G1 Z-1 F60\nM2\n";
+    let down =
+        "G10 L1 P7 Z3\nG10 L2 P1 X0 Y0 Z0\nG49\nG43.1 Z5\nG43.2 H7\nG53 G0 X4 Y4 Z20\nG91 G1 Z-1 F60\nM2\n";
     assert_eq!(moves(&read(&format!("G21\n{down}"), LinuxCnc).unwrap()), ["F 4 4 11"]);
     // Across its axis the place of the tip on the machine is another.
     let reading = read("G21 T1 M6\nG0 X0 Y0 Z9\nG43.1 X-5.5\nG0 X1 Y1 Z1\nG49\nM2\n", LinuxCnc).unwrap();
     assert!(again(&reading, LinuxCnc).0.contains("G43.1 X-5.5"));
     let said = reading.findings.iter().find(|f| f.message.contains("offset across its axis")).unwrap();
     assert_eq!(said.severity, Severity::Doubt);
-    assert!(refused("T1 M6\nG0 X1 Y1 Z1\nG43.1 X1\nG91 G0 X1", LinuxCnc).contains("an increment from a position"));
+    assert!(
+        refused("T1 M6\nG0 X1 Y1 Z1\nG43.1 X1\nG91 G0 X1", LinuxCnc).contains("an increment from a position")
+    );
     // Before a tool is called it is that of the tool in the spindle.
     let lifted = read("G21 G43.1 Z5\nG53 G0 X1 Y2 Z3\nG49\nM2\n", LinuxCnc).unwrap();
     let text = again(&lifted, LinuxCnc).0;
     assert!(text.contains("\nG43.1 Z5\n") && text.contains("Z3\nG49\n"), "{text}");
     let many = "G43.2 H1\n".repeat(21);
-    assert!(refused(&many, LinuxCnc).contains("write G43.1 with their sum") || refused(&many, LinuxCnc).contains("21"));
+    assert!(
+        refused(&many, LinuxCnc).contains("write G43.1 with their sum")
+            || refused(&many, LinuxCnc).contains("21")
+    );
 }
 
 /// Reads with the tool table and the parameters of a machine.
@@ -217,7 +226,10 @@ fn a_program_begins_with_what_the_machine_has_kept() {
     assert_eq!(moves(&home).last().unwrap(), "F 102.6 0 0");
     // Lengths: the spindle is 20 mm above the tip.
     assert_eq!(moved("G54 G92.1\nT1 M6\nG43\nG53 G0 X0 Y0 Z30\nG91 G1 Z1 F60"), ["F 0 0 21"]);
-    assert_eq!(moved("T2 M6\nG0 X#[5401] Y[#5402*25.4] Z[#5403*25.4]\nG0 X#5400"), ["R 0.0394 2 20", "R 2 2 20"]);
+    assert_eq!(
+        moved("T2 M6\nG0 X#[5401] Y[#5402*25.4] Z[#5403*25.4]\nG0 X#5400"),
+        ["R 0.0394 2 20", "R 2 2 20"]
+    );
     let none = kept("T3 M6\nM2\n", table, var).unwrap_err();
     assert!(none.starts_with("a.ngc:1:1: T3 is not in the tool table of the machine"), "{none}");
     assert!(kept("G43 H9\nM2\n", table, var).unwrap_err().contains("T9 is not in the tool table"));
@@ -238,7 +250,9 @@ fn lines_of_the_tool_table_change() {
     let text = written("G43 H2\nG0 X1 Y2 Z40\nG92 Z0\nG10 L11 P1 X0 Z5\nG0 Z0");
     assert!(text.contains("G10 L1 P1 X1 Z55"), "{text}");
     // A line that was called before is another one from now on.
-    let text = written("G43 H1\nG0 X0 Y0 Z5\nG10 L1 P1 Z12\nG0 X1\nG43 H1\nG0 Z6 X1 Y0\nG10 L1 P1 Y1\nG43 H1\nG0 Z6 X1 Y0");
+    let text = written(
+        "G43 H1\nG0 X0 Y0 Z5\nG10 L1 P1 Z12\nG0 X1\nG43 H1\nG0 Z6 X1 Y0\nG10 L1 P1 Y1\nG43 H1\nG0 Z6 X1 Y0",
+    );
     assert!(text.contains("G10 L1 P1 Z12\nG0 X1\nG43.1 X0 Y0 Z12\n"), "{text}");
     assert!(text.contains("G10 L1 P1 Y1\nG43.1 X0 Y1 Z12\n"), "{text}");
     let far = kept("G21\nG28 X0\nG10 L10 P1 X5\nM2\n", table, "5161 1\n5220 1\n");
@@ -246,6 +260,59 @@ fn lines_of_the_tool_table_change() {
     let unknown = refused("G28 X0\nG10 L10 P1 X5", LinuxCnc);
     assert!(unknown.contains("G10 L10 sets an offset along X from a place that is not known"), "{unknown}");
     assert!(refused("G10 L1 P1", LinuxCnc).contains("without an offset or radius"));
+}
+
+#[test]
+fn a_length_in_force_is_that_of_its_call() {
+    let (table, var) = ("T1 Z10\nT2 X1 Y2 Z20\n", "5220 1\n");
+    let moved = |text: &str| moves(&kept(&format!("G21\n{text}\nM2\n"), table, var).unwrap());
+    let written = |text: &str| again(&kept(&format!("G21\n{text}\nM2\n"), table, var).unwrap(), LinuxCnc).0;
+    // The table changes, the length in force does not.
+    let changed = "T1 M6\nG43 H1\nG0 X0 Y0 Z9\nG10 L1 P1 Z50\n";
+    assert_eq!(moved(&format!("{changed}G43.1 X5\nG53 G0 X0 Y0 Z0\nG91 G1 X1 F60"))[1..], ["F -4 0 -10"]);
+    assert!(written(&format!("{changed}G43.2 H2\nG0 X1 Y1 Z1")).contains("G43.1 X0 Y0 Z10\nG43.2 H2\n"));
+    let unknown = refused("T1 M6\nG43 H1\nG10 L1 P1 Z50\nG43.2 H2", LinuxCnc);
+    assert!(unknown.contains("another length than the one in force"), "{unknown}");
+    // A length may be across: all axes are written again behind it.
+    assert!(
+        written("T1 M6\nG43\nG0 X0 Y0 Z9\nG43 H2\nG0 X0 Y0 Z9").ends_with("G43 H2\nG0 X0 Y0 Z9\nM2\n%\n")
+    );
+    // H0 is the tool in the spindle.
+    assert_eq!(moved("T2 M6\nG43 H0\nG53 G0 X0 Y0 Z0\nG91 G1 X1 F60"), ["F 0 -2 -20"]);
+    // M72 takes again whether a length was on, as that of the tool in the spindle.
+    let saved = "T1 M6\nG43\nM70\nT2 M6\nG43\nM72\nG0 X0 Y0 Z9";
+    assert!(written(saved).contains("T2 M6\nG43 H2\n"), "{}", written(saved));
+    let off = "T1 M6\nG43 H2\nM70\nG49\nM72\nG0 X0 Y0 Z9";
+    assert!(written(off).contains("T1 M6\nG43 H1\n"), "{}", written(off));
+}
+
+#[test]
+fn a_stored_place_is_gone_to_in_the_coordinates_in_force() {
+    let table = "T1 Z10\nT2 A5 Z1\n";
+    // One axis of turned coordinates: both axes of the machine move.
+    let var = "5161 7\n5162 8\n5163 9\n5220 1\n5221 10\n5230 90\n";
+    let text = "G21\nG0 X1 Y1 Z1\nG91 G28 X0\nM2\n";
+    // (7, 8) in is (8, 3) in there.
+    assert_eq!(moves(&kept(text, table, var).unwrap()), ["R 1 1 1", "R 203.2 1 1"]);
+    // Rotary axes: the place of the file, and no shifted zero.
+    let home = |var: &str| kept("G21\nG0 X0 Y0 Z10 A0\nG91 G28 Z0 A0\nM2\n", table, var);
+    let reading = home("5163 100\n5164 50\n5220 1\n").unwrap();
+    let joints = (0..reading.program.items.len()).find_map(|i| match reading.program.items.get(i) {
+        Item::Move(motion) => match motion.end {
+            Target::Joints(joints) => Some(joints),
+            _ => None,
+        },
+        _ => None,
+    });
+    assert_eq!(joints, Some([None, None, Some(2540.0), Some(50f64.to_radians()), None, None]));
+    let shifted = home("5220 1\n5224 30\n").unwrap_err();
+    assert!(shifted.contains("a rotary axis A whose zero is shifted (#5224)"), "{shifted}");
+    let turned = kept("T2 M6\nG43\nM2\n", table, "5220 1\n").unwrap_err();
+    assert!(turned.contains("T2 has offsets of rotary axes"), "{turned}");
+    // A loop that waits for a stored place ends.
+    let waits =
+        "G20\nG0 X0 Y0 Z10\nG28.1\no1 while [#5161 LT 5]\nG0 X[#5161+1]\nG28.1\nG0 X0\no1 endwhile\nM2\n";
+    assert_eq!(moves(&kept(waits, table, "5220 1\n").unwrap()).len(), 11);
 }
 
 #[test]
@@ -328,7 +395,7 @@ fn a_length_is_called_for_the_tool_that_is_in_the_spindle() {
     let call = |register| ControlData::LengthCall { register };
     assert!(has(&reading, call(Some(4))) && has(&reading, call(None)));
     let (text, second) = again(&reading, LinuxCnc);
-    assert!(text.contains("G43 H4\n") && text.contains("\nG49\nG0 Z5"), "{text}");
+    assert!(text.contains("G43 H4\n") && text.contains("\nG49\nG0 X1 Y2 Z5"), "{text}");
     assert_eq!(in_work(&second), in_work(&reading));
     assert!(again(&reading, Fanuc).0.contains("G43 H4"));
 }

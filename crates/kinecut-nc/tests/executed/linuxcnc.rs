@@ -65,7 +65,8 @@ fn branches_go_one_way() {
 #[test]
 fn loops_end_as_the_interpreter_ends_them() {
     // A `while` loop with a `break` that was not run: the next `do` loop ends after one turn.
-    let while_loop = "#1=0\no1 while [#1 LT 2]\n#1=[#1+1]\no2 if [#1 EQ 9]\no1 break\no2 endif\no1 endwhile\n";
+    let while_loop =
+        "#1=0\no1 while [#1 LT 2]\n#1=[#1+1]\no2 if [#1 EQ 9]\no1 break\no2 endif\no1 endwhile\n";
     let do_loop = "#1=0\no3 do\n#1=[#1+1]\nX#1\no3 while [#1 LT 3]";
     assert_eq!(run(&format!("{while_loop}{do_loop}"), LinuxCnc), ["R 1 0 0"]);
     assert_eq!(run(do_loop, LinuxCnc).len(), 3);
@@ -76,11 +77,15 @@ fn loops_end_as_the_interpreter_ends_them() {
     // A `continue` of a `do` loop passes its `break`; without one it makes the next `break` of a `while` a `continue`.
     let passes = "#1=0\no1 do\n#1=[#1+1]\nX#1\no2 if [#1 EQ 2]\no1 continue\no2 endif\no3 if [0]\no1 break\no3 endif\no1 while [#1 LT 5]";
     assert_eq!(run(passes, LinuxCnc).len(), 2);
-    let goes_on = "o1 do\no1 continue\no1 while [0]\n#1=0\no2 while [#1 LT 5]\n#1=[#1+1]\nX#1\no2 break\no2 endwhile";
+    let goes_on =
+        "o1 do\no1 continue\no1 while [0]\n#1=0\no2 while [#1 LT 5]\n#1=[#1+1]\nX#1\no2 break\no2 endwhile";
     assert_eq!(run(goes_on, LinuxCnc), ["R 1 0 0", "R 2 0 0"]);
     let again = "o1 do\no1 continue\no1 while [0]\nG91\no2 repeat [2]\nX1\no2 endrepeat";
     assert_eq!(run(again, LinuxCnc).len(), 4);
-    assert_eq!(run("G91\no1 repeat [2.5]\nX1\no1 endrepeat\no2 repeat [0.5]\nX1\no2 endrepeat", LinuxCnc).len(), 2);
+    assert_eq!(
+        run("G91\no1 repeat [2.5]\nX1\no1 endrepeat\no2 repeat [0.5]\nX1\no2 endrepeat", LinuxCnc).len(),
+        2
+    );
     let nested = refused("o1 sub\no2 sub\no2 endsub\no1 endsub", LinuxCnc);
     assert!(nested.contains("a subprogram begins within another one"), "{nested}");
     // A bottom above R is refused in every cycle.

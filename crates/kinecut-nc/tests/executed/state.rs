@@ -50,7 +50,7 @@ fn a_place_is_stored_for_the_reference_move() {
     let text = written(&reading.unwrap()).unwrap();
     assert!(text.contains("G0 X5 Y5 Z5\nG53 G0 X11 Y22 Z33"), "{text}");
     let other = refused("X1\nG28.1\nG55 X2\nG28 X3", LinuxCnc);
-    assert!(other.contains("the place that was stored here (G28.1, G30.1) is not known"), "{other}");
+    assert!(other.contains("the place to which G28 or G30 goes is not known"), "{other}");
 }
 
 #[test]

@@ -21,10 +21,17 @@ pub struct Guess {
     of_stock: String,
     /// The reason why nothing is known of its moves.
     unread: Option<Error>,
+    /// Whether the machine counts in inches.
+    in_inches: bool,
     program: String,
 }
 
 impl Guess {
+    /// The control that runs the program.
+    pub fn control(&self) -> Control {
+        self.control
+    }
+
     /// Guesses the stock and the tools of a program.
     ///
     /// ```
@@ -35,7 +42,7 @@ impl Guess {
     /// let guess = Guess::of(program, &ProgramWants::default()).unwrap();
     /// // The feed moves and the radius of the tool about them.
     /// assert_eq!(guess.stock(), Some([-3.0, -3.0, -1.0, 33.0, 3.0, 0.0]));
-    /// assert!(guess.job("slot.ngc").contains("type = \"end-mill\""));
+    /// assert!(guess.job("slot.ngc", &[]).contains("type = \"end-mill\""));
     /// ```
     ///
     /// # Errors
@@ -71,7 +78,8 @@ impl Guess {
                 }
             }
         };
-        Ok(Guess { control, carried, stock, of_stock, unread, program: program.name.to_owned() })
+        let in_inches = wants.machine_in_inches;
+        Ok(Guess { control, carried, stock, of_stock, unread, in_inches, program: program.name.to_owned() })
     }
 
     /// The block of the stock: its least and its greatest corner [mm]; none where the program cuts nothing.
@@ -102,8 +110,9 @@ impl Guess {
         Ok(())
     }
 
-    /// A job file with the guess, to be corrected; `file` is the program as seen from there.
-    pub fn job(&self, file: &str) -> String {
+    /// A job file with the guess, to be corrected; `file` is the program as seen from there, `kept` are further keys of its table with
+    /// their values: files of the machine as seen from there.
+    pub fn job(&self, file: &str, kept: &[(&str, String)]) -> String {
         let mut out =
             format!("# A guess from {}: correct it, then simulate this file.\nformat = 1\n", self.program);
         let _ = writeln!(out, "post = {{ control = \"{}\" }}", self.control.name());
@@ -122,7 +131,10 @@ impl Guess {
             }
         }
         out.push_str(&toml_of(&self.carried.tools));
-        let _ = writeln!(out, "[[setup]]\noffset = \"G54\"\nprogram = {{ file = {} }}", quoted(file));
+        let kept: String = kept.iter().map(|(key, name)| format!(", {key} = {}", quoted(name))).collect();
+        let inches = if self.in_inches && !kept.is_empty() { ", machine_in_inches = true" } else { "" };
+        let file = quoted(file);
+        let _ = writeln!(out, "[[setup]]\noffset = \"G54\"\nprogram = {{ file = {file}{kept}{inches} }}");
         out
     }
 }
@@ -189,7 +201,8 @@ mod tests {
     fn the_job_of_a_guess_is_a_job() {
         let guess =
             Guess::of(GivenFile { name: "x/a \"b\".ngc", bytes: PROGRAM }, &ProgramWants::default()).unwrap();
-        let job = guess.job("a \"b\".ngc");
+        let job = guess.job("a \"b\".ngc", &[("parameters", "m.var".to_owned())]);
+        assert!(job.contains("file = \"a \\\"b\\\".ngc\", parameters = \"m.var\" }"), "{job}");
         assert!(
             job.contains("min = [0, 0, -12], max = [60, 40, 0]") && job.contains("point_angle = 118"),
             "{job}"

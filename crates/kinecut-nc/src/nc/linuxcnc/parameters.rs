@@ -69,10 +69,11 @@ pub fn parameters(sources: &Sources, file: FileId, unit: f64) -> Result<Paramete
         };
         if !(1..=LAST).contains(&number) {
             let finding = wrong("is no parameter").value(f64::from(number), "").bound(f64::from(LAST), "");
-            return Err(finding.into());
+            return Err(finding.help("parameters are 1 to 5601").into());
         }
         if number <= before {
-            return Err(wrong("is out of order: LinuxCNC refuses such a file").into());
+            let finding = wrong("is out of order: LinuxCNC refuses such a file");
+            return Err(finding.help("sort the lines by their numbers, each once").into());
         }
         before = number;
         values.insert(number, value);

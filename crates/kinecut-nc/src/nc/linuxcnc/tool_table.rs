@@ -13,6 +13,8 @@ pub struct TableTool {
     pub number: u32,
     /// Offsets along X, Y and Z; the last is the length of a tool that stands along Z.
     pub offset: [f64; 3],
+    /// Whether it has offsets of rotary axes, too.
+    pub turned: bool,
     /// Diameter, where it is said and not nought.
     pub diameter: Option<f64>,
     /// The remark.
@@ -104,6 +106,7 @@ fn one(code: &str, wrong: impl Fn(usize, usize, &str) -> Finding) -> Result<Tabl
     Ok(TableTool {
         number: number as u32,
         offset: ['X', 'Y', 'Z'].map(|axis| value(axis).unwrap_or(0.0)),
+        turned: "ABC".chars().any(|axis| value(axis).is_some_and(|turned| turned != 0.0)),
         diameter: value('D').filter(|d| *d != 0.0).map(f64::abs),
         remark: String::new(),
         line: 0,

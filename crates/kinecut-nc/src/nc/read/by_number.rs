@@ -5,6 +5,7 @@
 //! followed where the program means it, and that is said.
 
 use crate::base::Result;
+use crate::nc::dialect::{AXES, TurnWord};
 use crate::program::{ControlData, OWN_REGISTERS, OwnLength, Speed};
 
 use super::block::Word;
@@ -23,12 +24,19 @@ impl<'s> Reader<'s> {
         bytes: &Bytes,
     ) -> Result<()> {
         let before = self.modal.tool.length.filter(|register| *register != 0);
+        let replaced = !add && AXES.iter().all(|axis| words.iter().any(|word| !word.used && word.is(axis)));
+        if self.modal.length_stale && !replaced {
+            let message =
+                "the tool table has another length than the one in force, to which this one is added";
+            return Err(self.lacks(bytes, message).help("call the length again first (G43 H)").into());
+        }
+        self.modal.length_stale = false;
         let own = before.and_then(|register| self.own_length_of(register)).copied();
         if add {
             let Some(word) = take(words, "H") else {
                 return Err(self.lacks(bytes, "G43.2 without the tool H whose length it adds").into());
             };
-            let register = self.count(&word, "a tool number")?;
+            let register = self.spindle_for_zero(self.count(&word, "a tool number")?);
             self.in_table(register, &word.bytes)?;
             if register == 0 {
                 return Ok(());
@@ -37,7 +45,9 @@ impl<'s> Reader<'s> {
                 let (here, more) = (self.modal.tool_offsets, self.offsets_of(Some(register)));
                 let sum = [0, 1, 2].map(|axis| Some(here[axis]? + more[axis]?));
                 if sum.contains(&None) {
-                    let message = format!("the length of {register} has changed, and is added to one that is not known");
+                    let message = format!(
+                        "the length of {register} has changed, and is added to one that is not known"
+                    );
                     return Err(self.lacks(bytes, &message).help("write G43.1 with their sum").into());
                 }
                 let length = OwnLength { before: None, set: sum, add: None };
@@ -70,6 +80,42 @@ impl<'s> Reader<'s> {
         }
         self.modal.tool.length = Some(self.own_length(length));
         Ok(())
+    }
+
+    /// The tool whose length `H` names: `H0` is that of the tool in the spindle (LinuxCNC); 0 where there is none.
+    pub(super) fn spindle_for_zero(&self, register: u32) -> u32 {
+        match (register, self.modal.tool.id) {
+            (0, Some(tool)) if self.dialect.turn == TurnWord::Offset => tool.0,
+            _ => register,
+        }
+    }
+
+    /// Whether the length in force counts from a register.
+    pub(super) fn length_counts_from(&self, register: u32) -> bool {
+        let mut at = self.modal.tool.length;
+        while let Some(number) = at {
+            let own = self.own_length_of(number);
+            if number == register || own.is_some_and(|own| own.add == Some(register)) {
+                return true;
+            }
+            at = own.and_then(|own| own.before);
+        }
+        false
+    }
+
+    /// Keeps the length in force as numbers, since a register from which it counts changes.
+    pub(super) fn keep_length_in_force(&mut self) {
+        let set = self.modal.tool_offsets;
+        if set.contains(&None) {
+            self.modal.length_stale = true;
+        } else {
+            let kept = Some(self.own_length(OwnLength { before: None, set, add: None }));
+            // It is the same length: no item tells it.
+            if self.modal.told.length == self.modal.tool.length {
+                self.modal.told.length = kept;
+            }
+            self.modal.tool.length = kept;
+        }
     }
 
     /// The register with which a length is called, where the program has changed what it holds: one of the program's own.
@@ -131,10 +177,11 @@ impl<'s> Reader<'s> {
 
     /// Register of a length that the program makes.
     fn own_length(&mut self, length: OwnLength) -> u32 {
-        let found = self.own_lengths.iter().position(|own| *own == length);
-        let index = found.unwrap_or(self.own_lengths.len());
-        let register = OWN_REGISTERS + index as u32;
-        if found.is_none() {
+        let bits = |value: Option<f64>| value.map_or(u64::MAX, f64::to_bits);
+        let key = (length.before, length.set.map(bits), length.add);
+        let next = OWN_REGISTERS + self.own_lengths.len() as u32;
+        let register = *self.own_numbers.entry(key).or_insert(next);
+        if register == next {
             self.own_lengths.push(length);
             let data = ControlData::OwnLength { register, length };
             // It does nothing yet: an item of the tool that waits stays behind it.

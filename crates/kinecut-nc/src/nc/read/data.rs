@@ -67,7 +67,8 @@ impl<'s> Reader<'s> {
             return Ok(());
         }
         let known = |axis: usize| self.modal.turned.zeros.in_machine(offset, axis);
-        let first: Vec<usize> = (0..3).filter(|axis| named[*axis].is_some() && known(*axis).is_none()).collect();
+        let first: Vec<usize> =
+            (0..3).filter(|axis| named[*axis].is_some() && known(*axis).is_none()).collect();
         if !first.is_empty() {
             self.unmoved(offset, bytes)?;
         }

@@ -344,7 +344,7 @@ impl<'s> Reader<'s> {
                     self.length_lost = false;
                     let register = match take(words, "H") {
                         Some(register) => {
-                            let number = self.count(&register, "a register")?;
+                            let number = self.spindle_for_zero(self.count(&register, "a register")?);
                             self.in_table(number, &register.bytes)?;
                             number
                         }
@@ -358,6 +358,7 @@ impl<'s> Reader<'s> {
                         },
                     };
                     self.modal.tool.length = Some(self.called_length(register));
+                    self.modal.length_stale = false;
                     match code {
                         Code::TipControl { vector } => self.tip_control(vector, &bytes)?,
                         _ => self.tip_control_ends(true),
@@ -366,6 +367,7 @@ impl<'s> Reader<'s> {
                 Some((Code::LengthByNumber { add }, bytes)) => self.length_by_number(words, add, &bytes)?,
                 Some(_) => {
                     self.length_lost = false;
+                    self.modal.length_stale = false;
                     self.modal.tool.length = None;
                     self.tip_control_ends(false);
                 }

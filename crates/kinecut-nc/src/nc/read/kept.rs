@@ -3,10 +3,13 @@
 //! Parameters 5161 to 5186 are the places of `G28` and `G30`, 5210 to 5219 the shift of `G92`, 5220 the work offset in force, 5221 to
 //! 5390 the zeros and rotations of the work offsets, all in machine units whatever `G20` and `G21` say.
 
+use crate::base::Result;
 use crate::nc::Kept;
+use crate::nc::multi_axis::ROTARY;
 use crate::nc::run::{Known, Value};
 use crate::program::WorkOffset;
 
+use super::place::Bytes;
 use super::reader::Reader;
 use super::stored::Stored;
 use super::zeros::Spot;
@@ -16,8 +19,10 @@ const EACH: u32 = 20;
 /// The first of G54.
 const FIRST: u32 = 5221;
 /// What is not known without the files.
-const OFFSETS: &str = "the machine knows its offsets, the program does not set this one: give its parameter file";
-const REFERENCE: &str = "the machine knows its reference point, the program does not set it: give its parameter file";
+const OFFSETS: &str =
+    "the machine knows its offsets, the program does not set this one: give its parameter file";
+const REFERENCE: &str =
+    "the machine knows its reference point, the program does not set it: give its parameter file";
 const TABLE: &str = "it is in the tool table of the machine, which is not given";
 
 /// The work offset of a number from 1 on.
@@ -51,7 +56,8 @@ impl Reader<'_> {
             self.modal.turned.turn_offset(offset, parameters.value(base + 9));
         }
         for (second, base) in [(0, 5161), (1, 5181)] {
-            self.stored_places[second] = Some(Stored::at([0, 1, 2].map(|axis| length(base + axis))));
+            let turned = [3, 4, 5].map(|axis| parameters.value(base + axis));
+            self.stored_places[second] = Some(Stored::at([0, 1, 2].map(|axis| length(base + axis)), turned));
         }
         self.stored_shift = glam::DVec3::from_array([0, 1, 2].map(|axis| length(5211 + axis)));
         if parameters.value(5210) != 0.0 {
@@ -60,6 +66,21 @@ impl Reader<'_> {
         self.kept = Some(parameters.clone());
         self.modal.offset = offset_by_number(parameters.value(5220).round().max(0.0) as u32);
         self.set_frame();
+    }
+
+    /// Refuses to turn an axis whose zero the control has kept elsewhere.
+    pub(super) fn zero_kept(&self, axis: usize, bytes: &Bytes) -> Result<()> {
+        let Some(kept) = &self.kept else { return Ok(()) };
+        let numbers = (0..9).map(|offset| FIRST + EACH * offset).chain([5211]);
+        let Some(number) = numbers.map(|base| base + 3 + axis as u32).find(|n| kept.value(*n) != 0.0) else {
+            return Ok(());
+        };
+        let message = format!(
+            "the machine has a rotary axis {} whose zero is shifted (#{number}), which is not followed",
+            ROTARY[axis]
+        );
+        let finding = self.lacks(bytes, &message).value(kept.value(number), "deg");
+        Err(finding.help("set it to 0 at the machine, and turn the part in the setup").into())
     }
 
     /// A parameter of offsets and of the tool in the spindle.
@@ -78,11 +99,16 @@ impl Reader<'_> {
                 known(length(place.and_then(|p| p.in_machine()[(index % 20 - 1) as usize])), REFERENCE)
             }
             5164..=5169 | 5184..=5189 => known(as_kept(), REFERENCE),
-            5210 => known(as_kept().map(|_| f64::from(u8::from(self.shift_said.unwrap_or(as_kept() != Some(0.0))))), OFFSETS),
+            5210 => known(
+                as_kept().map(|_| f64::from(u8::from(self.shift_said.unwrap_or(as_kept() != Some(0.0))))),
+                OFFSETS,
+            ),
             5211..=5213 => known(length(Some(self.stored_shift[(index - 5211) as usize])), OFFSETS),
             5214..=5219 => known(as_kept(), OFFSETS),
             FIRST..=5390 => {
-                let Some(offset) = offset_by_number((index - FIRST) / EACH + 1) else { return Known::Missing };
+                let Some(offset) = offset_by_number((index - FIRST) / EACH + 1) else {
+                    return Known::Missing;
+                };
                 match (index - FIRST) % EACH {
                     axis @ 0..=2 => {
                         let zeros = &self.modal.turned.zeros;

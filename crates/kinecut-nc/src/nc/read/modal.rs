@@ -73,6 +73,8 @@ pub(super) struct Modal {
     pub(super) tool: ToolState,
     /// Offsets of the length in force along X, Y and Z [mm], as far as they are known.
     pub(super) tool_offsets: [Option<f64>; 3],
+    /// Whether a register from which the length in force counts has changed since, and its offsets are not known.
+    pub(super) length_stale: bool,
     /// State in the program's last tool item.
     pub(super) told: ToolState,
     /// Tool of the program's last tool item.
@@ -129,6 +131,7 @@ impl Modal {
             tool: ToolState::default(),
             told: ToolState::default(),
             tool_offsets: [Some(0.0); 3],
+            length_stale: false,
             called: None,
             tool_item: None,
             length_hidden: false,

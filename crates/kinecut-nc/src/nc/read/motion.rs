@@ -301,7 +301,8 @@ impl<'s> Reader<'s> {
             if let Some(word) = take(words, AXES[axis]) {
                 joints[axis] = Some(word.value * self.modal.length_unit);
                 // It is the spindle that is there, and the tip below it.
-                let tip = joints[axis].zip(self.modal.tool_offsets[axis]).map(|(spindle, tool)| spindle - tool);
+                let tip =
+                    joints[axis].zip(self.modal.tool_offsets[axis]).map(|(spindle, tool)| spindle - tool);
                 machine[axis] = tip.map(Spot::machine);
                 self.modal.position[axis] = None;
             }

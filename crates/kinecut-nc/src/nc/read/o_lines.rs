@@ -236,7 +236,10 @@ impl<'s> Run<'s> {
         }
         self.loops.pop();
         if std::mem::take(&mut self.leaving.continued) {
-            self.reader.warn(bytes, "LinuxCNC runs this repeat once more: it still counts the continue of a do loop before");
+            self.reader.warn(
+                bytes,
+                "LinuxCNC runs this repeat once more: it still counts the continue of a do loop before",
+            );
             return self.o_back(lines.line(begin).start, bytes);
         }
         Ok(())

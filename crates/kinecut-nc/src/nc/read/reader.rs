@@ -1,12 +1,13 @@
 //! The reader: its state, the words of a block as codes, and the items it makes of them.
 
 use std::cell::Cell;
+use std::collections::HashMap;
 
 use crate::base::{Code as FindingCode, Finding, Result, Span, Sum};
 use crate::machine::{CodeEffect, OwnCode};
+use crate::nc::Parameters;
 use crate::nc::dialect::{AXES, COMMON_G, COMMON_M, Code, Dialect, FlowWords, Mismatch, TurnWord};
 use crate::nc::multi_axis::ROTARY;
-use crate::nc::Parameters;
 use crate::nc::run::Variables;
 use crate::program::{
     Comp, ControlData, Frame, Origin, OriginId, OwnLength, Program, Setup, Speed, State, WorkOffset,
@@ -101,6 +102,8 @@ pub(super) struct Reader<'s> {
     pub(super) shift_said: Option<bool>,
     /// Lengths that the program makes, by the numbers of its own registers.
     pub(super) own_lengths: Vec<OwnLength>,
+    /// Those numbers, by what the lengths are made of.
+    pub(super) own_numbers: HashMap<OwnKey, u32>,
     /// Feed moves that start at a place that the program has not set.
     pub(super) from_nowhere: Vec<Span>,
     /// The jump that the present block asks for.
@@ -114,6 +117,9 @@ pub(super) struct Reader<'s> {
     /// Corner behind the last move, which waits for the next.
     pub(super) corner: Option<Corner>,
 }
+
+/// What a length that the program makes is made of: register before, bits of the numbers, register added.
+pub(super) type OwnKey = (Option<u32>, [u64; 3], Option<u32>);
 
 /// The kinds of item that decide whether a switched-off length becomes an item.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -168,6 +174,7 @@ impl<'s> Reader<'s> {
             kept: None,
             shift_said: None,
             own_lengths: Vec::new(),
+            own_numbers: HashMap::new(),
             from_nowhere: Vec::new(),
             jump: None,
             length_lost: false,
@@ -487,7 +494,8 @@ impl<'s> Reader<'s> {
 
     /// A function of the machine that is passed over where that is asked for.
     fn tolerated(&self, number: u32) -> Option<&'static str> {
-        let found = self.dialect.tolerated.iter().find(|(first, last, _)| (*first..=*last).contains(&number))?;
+        let found =
+            self.dialect.tolerated.iter().find(|(first, last, _)| (*first..=*last).contains(&number))?;
         Some(found.2)
     }
 

@@ -46,6 +46,7 @@ impl<'s> Reader<'s> {
                 break;
             }
             let Some((word, _)) = take_way(words, ROTARY[axis]) else { continue };
+            self.zero_kept(axis, bytes)?;
             let there = self.modal.rotary_axes.rotaries.at[axis] == Some(word.value);
             if !(there || word.value == 0.0) {
                 let finding =
@@ -60,6 +61,12 @@ impl<'s> Reader<'s> {
                 return Err(self.lacks(bytes, "the way to the reference point without an axis").into());
             }
             joints[..3].fill(Some(0.0));
+            // An axis that stands elsewhere than at zero there goes, too.
+            for axis in 0..3 {
+                if stored.is_some_and(|place| place.turned[axis].is_some_and(|turned| turned != 0.0)) {
+                    joints[3 + axis] = Some(0.0);
+                }
+            }
         }
         if goes_over {
             self.check_along()?;
@@ -74,8 +81,9 @@ impl<'s> Reader<'s> {
                 self.modal.tool_item = None;
             }
         }
-        if let Some(place) = stored.filter(|_| joints[3..] == [None; 3]) {
-            return self.goes_to_stored(place, [0, 1, 2].map(|axis| joints[axis].is_some()), bytes);
+        if let Some(place) = stored {
+            let named = |first: usize| [0, 1, 2].map(|axis| joints[first + axis].is_some());
+            return self.goes_to_stored(place, named(0), named(3), bytes);
         }
         for axis in 0..3 {
             if joints[axis].is_some() {

@@ -51,6 +51,7 @@ impl<'s> Reader<'s> {
         }
         for (axis, name) in ROTARY.into_iter().enumerate() {
             let Some((word, way)) = take_way(words, name) else { continue };
+            self.zero_kept(axis, &word.bytes)?;
             if self.modal.rotary_axes.plane.is_some() {
                 let finding = self.lacks(&word.bytes, "a rotary axis moves in a tilted plane");
                 return Err(finding.help("end the plane first").into());

@@ -531,7 +531,11 @@ impl Reader<'_> {
             ]);
         // What parameters of the control show.
         let data = modal.turned.numbers().chain(self.table.numbers()).chain(self.stored_shift.to_array());
-        let data = data.chain(modal.tool_offsets.map(|offset| offset.unwrap_or(f64::NAN))).map(f64::to_bits);
+        let stored = self.stored_places.iter().flatten().flat_map(|place| place.in_machine());
+        let known = stored.chain(modal.tool_offsets).map(|value| value.unwrap_or(f64::NAN));
+        let shifted = self.shift_said.map_or(2, u8::from);
+        let flags = [f64::from(shifted), f64::from(u8::from(modal.length_stale))];
+        let data = data.chain(known).chain(flags).map(f64::to_bits);
         let all = places.chain(shift).chain(numbers).chain(words).chain(data).enumerate();
         all.fold(self.variables.state(), |state, (i, value)| state ^ mixed(i as u64 | 1 << 63, value))
     }

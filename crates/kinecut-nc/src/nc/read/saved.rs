@@ -1,7 +1,7 @@
 //! `M70` to `M73` of LinuxCNC: the modal state is saved, and taken again.
 //!
-//! Saved are units, plane, distances, feed and its mode, work offset, tool length, height of the return, path mode, spindle and coolant, not the
-//! motion code. `M70` and `M73` save it for the subprogram that says so, `M72` takes it again, `M71` forgets it; behind `M73` the
+//! Saved are units, plane, distances, feed and its mode, work offset, whether a tool length is on (not which: it is taken again as that
+//! of the tool in the spindle), height of the return, path mode, spindle and coolant, not the motion code. `M70` and `M73` save it for the subprogram that says so, `M72` takes it again, `M71` forgets it; behind `M73` the
 //! return from the subprogram takes it too.
 
 use crate::base::Result;
@@ -73,9 +73,15 @@ impl<'s> Reader<'s> {
         (modal.speed, modal.spindle, modal.coolant) = (saved.speed, saved.spindle, saved.coolant);
         (modal.blend, modal.rounding) = (saved.blend, saved.rounding);
         (modal.return_to_start, modal.return_said) = (saved.return_to_start, saved.return_said);
-        if modal.tool.length != saved.tool.length {
-            modal.tool.length = saved.tool.length;
+        // Only whether a length is on is saved (`interp_write.cc`), which counts where an offset is not zero.
+        let on = |modal: &Modal| {
+            modal.tool.length.is_some_and(|length| length != 0) && modal.tool_offsets != [Some(0.0); 3]
+        };
+        if on(modal) != on(&saved) {
+            let called = on(&saved).then_some(modal.tool.id).flatten().map(|tool| tool.0);
             modal.length_hidden = false;
+            modal.length_stale = false;
+            self.modal.tool.length = called.map(|register| self.called_length(register));
             self.tool_origin = self.origin;
             self.offsets_change();
         }

@@ -16,12 +16,19 @@ pub(super) struct Stored {
     length: Option<u32>,
     /// Offsets of that length [mm].
     offsets: [Option<f64>; 3],
+    /// Of the rotary axes, as far as it is known [deg].
+    pub(super) turned: [Option<f64>; 3],
 }
 
 impl Stored {
-    /// A place in the machine [mm].
-    pub(super) fn at(machine: [f64; 3]) -> Stored {
-        Stored { tip: machine.map(|at| Some(Spot::machine(at))), length: None, offsets: [Some(0.0); 3] }
+    /// A place in the machine: of the linear axes [mm], and of the rotary ones [deg].
+    pub(super) fn at(machine: [f64; 3], turned: [f64; 3]) -> Stored {
+        Stored {
+            tip: machine.map(|at| Some(Spot::machine(at))),
+            length: None,
+            offsets: [Some(0.0); 3],
+            turned: turned.map(Some),
+        }
     }
 
     /// Of the spindle in the machine [mm], as far as it is known there.
@@ -49,35 +56,60 @@ impl<'s> Reader<'s> {
             return;
         };
         let (length, offsets) = (self.modal.tool.length, self.modal.tool_offsets);
-        let stored = Stored { tip: self.machine_place(), length, offsets };
+        let turned = self.modal.rotary_axes.rotaries.at;
+        let stored = Stored { tip: self.machine_place(), length, offsets, turned };
         self.stored_places[usize::from(second)] = Some(stored);
     }
 
-    /// Goes to a stored place with the axes that are named.
-    pub(super) fn goes_to_stored(&mut self, place: Stored, axes: [bool; 3], bytes: &Bytes) -> Result<()> {
+    /// Goes to a stored place with the axes that are named; `turned` are those of the rotary ones.
+    pub(super) fn goes_to_stored(
+        &mut self,
+        place: Stored,
+        axes: [bool; 3],
+        turned: [bool; 3],
+        bytes: &Bytes,
+    ) -> Result<()> {
         let speed = Speed::Rapid { linear: self.dialect.straight_rapid };
         let known = |of: [Option<f64>; 3]| (0..3).all(|axis| !axes[axis] || of[axis].is_some());
-        let (mut tip, in_machine) = (self.machine_place(), place.in_machine());
+        let in_machine = place.in_machine();
         let there = place.tip_with(self.modal.tool.length, self.modal.tool_offsets);
-        for axis in (0..3).filter(|axis| axes[*axis]) {
-            tip[axis] = there[axis];
+        let unknown = || {
+            let message = "the place to which G28 or G30 goes is not known as far as the program goes there";
+            self.lacks(bytes, message).help("store it at a place that the program has set (G28.1, G30.1)")
+        };
+        let mut joints = [None; 6];
+        for axis in (0..3).filter(|axis| turned[*axis]) {
+            let Some(degrees) = place.turned[axis] else { return Err(unknown().into()) };
+            joints[3 + axis] = Some(degrees.to_radians());
         }
-        if known(in_machine) {
-            let mut joints = [None; 6];
+        // The control turns the place into the coordinates in force, and goes there with the axes that are named in them.
+        let askew = self.modal.turned.is_turned() && axes[0] != axes[1];
+        if known(in_machine) && !askew {
+            let mut tip = self.machine_place();
             for axis in (0..3).filter(|axis| axes[*axis]) {
-                joints[axis] = in_machine[axis];
+                (joints[axis], tip[axis]) = (in_machine[axis], there[axis]);
             }
             self.flush(Kind::Other);
             let motion = Move { end: Target::Joints(joints), path: Path::Line };
             self.program.push_move(motion, &self.state(speed), self.origin);
             self.modal.position = self.place_of(tip);
+            for axis in (0..3).filter(|axis| turned[*axis]) {
+                self.modal.rotary_axes.rotaries.set(axis, place.turned[axis].unwrap_or_default());
+                self.modal.rotary_axes.along = None;
+            }
+            let upright = self.modal.rotary_axes.rotaries.at.iter().all(|a| a.is_none_or(|a| a == 0.0));
+            if turned.contains(&true) && !upright {
+                self.modal.position = [None; 3];
+            }
             return Ok(());
         }
-        let end = self.place_of(tip);
-        if !known(end) {
-            let finding = self
-                .lacks(bytes, "the place that was stored here (G28.1, G30.1) is not known to the program");
-            return Err(finding.help("move to a known place before it is stored").into());
+        let whole = self.place_of(there);
+        let mut end = self.modal.position;
+        for axis in (0..3).filter(|axis| axes[*axis]) {
+            end[axis] = whole[axis];
+        }
+        if !known(end) || turned.contains(&true) || askew && (end[0].is_none() || end[1].is_none()) {
+            return Err(unknown().into());
         }
         self.modal.rotary_axes.next = Some(ToolAxis::Fixed);
         self.push_tip(end, Path::Line, speed);

@@ -19,6 +19,8 @@ struct Line {
     register: u32,
     /// Offsets along X, Y and Z [mm].
     offset: [Option<f64>; 3],
+    /// Whether it has offsets of rotary axes, which are not followed.
+    turned: bool,
     /// Whether its length was called.
     called: bool,
     /// Whether the program has changed it since.
@@ -36,7 +38,8 @@ pub(super) struct Table {
 impl Table {
     /// Takes a line that the control has kept.
     pub(super) fn keeps(&mut self, tool: &TableTool) {
-        self.line(tool.number).offset = tool.offset.map(Some);
+        let line = self.line(tool.number);
+        (line.offset, line.turned) = (tool.offset.map(Some), tool.turned);
     }
 
     fn line(&mut self, register: u32) -> &mut Line {
@@ -52,7 +55,9 @@ impl Table {
 
     /// All that it holds, as numbers.
     pub(super) fn numbers(&self) -> impl Iterator<Item = f64> + '_ {
-        self.lines.iter().flat_map(|line| line.offset.map(|offset| offset.unwrap_or(f64::NAN)))
+        let flags = |line: &Line| f64::from(u8::from(line.called) + 2 * u8::from(line.changed));
+        let offsets = |line: &Line| line.offset.map(|offset| offset.unwrap_or(f64::NAN));
+        self.lines.iter().flat_map(move |line| offsets(line).into_iter().chain([flags(line)]))
     }
 
     /// Offsets along X, Y and Z [mm] of a line that is known in part.
@@ -99,7 +104,13 @@ impl<'s> Reader<'s> {
 
     /// Refuses a tool that the control does not have, where its table is given.
     pub(super) fn in_table(&self, tool: u32, bytes: &Bytes) -> Result<()> {
-        if tool == 0 || !self.table.given || self.table.offset(tool).is_some() {
+        let line = self.table.lines.iter().find(|line| line.register == tool);
+        if line.is_some_and(|line| line.turned) {
+            let message =
+                format!("T{tool} has offsets of rotary axes in the tool table, which are not followed");
+            return Err(self.lacks(bytes, &message).help("set them to 0").into());
+        }
+        if tool == 0 || !self.table.given || line.is_some() {
             return Ok(());
         }
         let finding = self.lacks(bytes, &format!("T{tool} is not in the tool table of the machine"));
@@ -139,8 +150,10 @@ impl<'s> Reader<'s> {
                 offset[axis] = within[axis] - value;
             }
         }
-        let offset = moved(&crate::geom::Rigid { rotation: motion.rotation, ..crate::geom::Rigid::IDENTITY }, offset);
-        let counts = |axis: usize| named[axis].is_some() || askew && axis < 2 && (named[0].or(named[1])).is_some();
+        let offset =
+            moved(&crate::geom::Rigid { rotation: motion.rotation, ..crate::geom::Rigid::IDENTITY }, offset);
+        let counts =
+            |axis: usize| named[axis].is_some() || askew && axis < 2 && (named[0].or(named[1])).is_some();
         if let Some(axis) = (0..3).find(|axis| counts(*axis) && offset[*axis].is_nan()) {
             let message = format!(
                 "G10 L{} sets an offset along {} from a place that is not known",
@@ -153,12 +166,7 @@ impl<'s> Reader<'s> {
     }
 
     /// `G10 L10 P R` and `G10 L12 P R` of FANUC: registers of lengths and radii.
-    pub(super) fn set_register(
-        &mut self,
-        words: &mut [Word<'s>],
-        length: bool,
-        bytes: &Bytes,
-    ) -> Result<()> {
+    pub(super) fn set_register(&mut self, words: &mut [Word<'s>], length: bool, bytes: &Bytes) -> Result<()> {
         let (Some(number), Some(value)) = (take(words, "P"), take(words, "R")) else {
             return Err(self
                 .lacks(bytes, "a register of the tool table needs its number P and its value R")
@@ -190,14 +198,20 @@ impl<'s> Reader<'s> {
         let line = self.table.line(register);
         let differs = (0..3).any(|axis| offset[axis].is_some() && offset[axis] != line.offset[axis]);
         if line.called && differs && !own {
-            let message = format!("the length of {register} changes after it was called, which is not followed");
+            let message =
+                format!("the length of {register} changes after it was called, which is not followed");
             let finding = self.lacks(bytes, &message).value_mm(offset[2].unwrap_or(0.0));
             return Err(finding.help("set it once").into());
         }
         line.changed |= line.called && differs;
+        let changes = line.called && differs;
         for axis in 0..3 {
             line.offset[axis] = offset[axis].or(line.offset[axis]);
         }
+        if changes && self.length_counts_from(register) {
+            self.keep_length_in_force();
+        }
+        let line = self.table.line(register);
         // What the register holds where it is called by its number.
         if let (false, Some(length)) = (line.called, offset[2]) {
             self.lengths_set.retain(|l| l.0 != register);

@@ -87,7 +87,10 @@ impl Zeros {
 
     /// What the program has set, as numbers.
     pub(super) fn numbers(&self) -> impl Iterator<Item = f64> + '_ {
-        self.known.iter().flat_map(|(_, zero)| zero.shift.to_array())
+        let first = |spot: Option<Spot>| spot.map_or(f64::NAN, |spot| spot.at);
+        self.known
+            .iter()
+            .flat_map(move |(_, zero)| zero.shift.to_array().into_iter().chain(zero.first.map(first)))
     }
 
     /// Machine coordinate of the zero that the setup has, without what is added to all work offsets [mm].

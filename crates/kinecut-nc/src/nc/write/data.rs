@@ -68,6 +68,9 @@ impl Writer<'_> {
                 }
                 block
             }
+            ControlData::OwnLength { .. } if self.klartext() => {
+                return Err(cannot("a length made of numbers (G43.1, G43.2)").into());
+            }
             ControlData::OwnLength { length, .. } => {
                 self.own_lengths.push(length);
                 return Ok(());
@@ -131,12 +134,17 @@ impl Writer<'_> {
     }
 
     /// The blocks that put a length in force behind another one, and whether they count from that.
-    pub(super) fn length_blocks(&self, length: Option<u32>, behind: Option<u32>) -> Result<(Vec<String>, bool)> {
+    pub(super) fn length_blocks(
+        &self,
+        length: Option<u32>,
+        behind: Option<u32>,
+    ) -> Result<(Vec<String>, bool)> {
         let Some(register) = length else { return Ok((vec![self.dialect.length_off.to_owned()], false)) };
         let Some(index) = register.checked_sub(OWN_REGISTERS) else {
             return Ok((vec![format!("{}{register}", self.dialect.length_on)], false));
         };
-        let found = self.own_lengths.get(index as usize).filter(|_| self.settings.control == Control::LinuxCnc);
+        let found =
+            self.own_lengths.get(index as usize).filter(|_| self.settings.control == Control::LinuxCnc);
         let Some(own) = found else {
             return Err(unsupported(
                 "the program gives a length as a number or a sum (G43.1, G43.2), which this control does not take",

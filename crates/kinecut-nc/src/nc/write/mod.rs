@@ -29,9 +29,7 @@ mod turn;
 use std::collections::BTreeSet;
 
 use crate::base::{Code, Error, Finding, Result};
-use crate::program::{
-    Coolant, Item, OWN_REGISTERS, OwnLength, Program, Spindle, StopKind, ToolNumber,
-};
+use crate::program::{Coolant, Item, OwnLength, Program, Spindle, StopKind, ToolNumber};
 use crate::tool::Tool;
 
 use super::dialect::Dialect;
@@ -413,8 +411,8 @@ impl Writer<'_> {
             }
             self.length_line = replaceable.then(|| self.page.len());
         }
-        // One that the program makes may be across the tool.
-        if [self.length, length].iter().flatten().any(|register| *register >= OWN_REGISTERS) {
+        // On LinuxCNC a length may be across the tool, too.
+        if self.settings.control == Control::LinuxCnc {
             (self.place.written, self.place.exact) = ([None; 3], [f64::NAN; 3]);
         }
         self.length = length;

@@ -149,7 +149,8 @@ impl Writer<'_> {
             return Err(unsupported(format!("{title} has no mist (M7)")).help("use flood, or none").into());
         }
         if coolant == Coolant::Both && !self.dialect.both_coolants {
-            let what = format!("whether {title} has mist and flood on together (M7, M8) is up to the machine");
+            let what =
+                format!("whether {title} has mist and flood on together (M7, M8) is up to the machine");
             return Err(unsupported(what).help("use one of them").into());
         }
         let before = self.modal.coolant.replace(coolant);

@@ -156,19 +156,28 @@ pub(crate) fn follow_passing(
     };
     let mut reading = nc::read_source(&sources, file, program.control, &clamping, &settings)?;
     let mut assumed = Vec::new();
-    if missing == Missing::StoodFor {
-        let (known, placed) = place_offsets(&mut clamping[0], clamped.offset, &reading);
+    // Offsets that are known are no guess.
+    let guess = missing == Missing::StoodFor;
+    let (known, placed) = place_offsets(&mut clamping[0], clamped.offset, &reading, guess);
+    if guess || !known.is_empty() {
         if !placed.is_empty() {
             assumed.push(format!("{} lies where {} does", placed.join(", "), clamped.offset));
         }
         if !known.is_empty() {
             let which = known.join(", ");
-            assumed.push(format!("{which}: placed from {} as the offsets of the control have it", clamped.offset));
+            assumed.push(format!(
+                "{which}: placed from {} as the offsets of the control have it",
+                clamped.offset
+            ));
         }
         reading.program.setups = clamping;
     }
-    let misplaced =
-        reading.program.setups.first().map(|setup| misplaced(setup, clamped.offset, &reading)).unwrap_or_default();
+    let misplaced = reading
+        .program
+        .setups
+        .first()
+        .map(|setup| misplaced(setup, clamped.offset, &reading))
+        .unwrap_or_default();
     let read_radii = reading.radii.clone();
     let read = &reading.program;
     let line = |item: u32| line_of(&reading.program, &sources, file, item);
@@ -264,8 +273,13 @@ fn in_file(program: &Program, item: usize, file: FileId) -> Option<Span> {
 }
 
 /// Gives a clamping every work offset that a program uses: where the program or the control's parameters tell its distance from the one
-/// it has, there, the others at its place; those that were added, in these two kinds.
-fn place_offsets(setup: &mut Setup, first: WorkOffset, reading: &Reading) -> (Vec<String>, Vec<String>) {
+/// it has, there, and, where it may be guessed, the others at its place; those that were added, in these two kinds.
+fn place_offsets(
+    setup: &mut Setup,
+    first: WorkOffset,
+    reading: &Reading,
+    guess: bool,
+) -> (Vec<String>, Vec<String>) {
     let at = setup.work_offsets.get(&first).copied().unwrap_or(Rigid::IDENTITY);
     let (mut known, mut placed) = (Vec::new(), Vec::new());
     for frame in &reading.program.frames {
@@ -273,6 +287,9 @@ fn place_offsets(setup: &mut Setup, first: WorkOffset, reading: &Reading) -> (Ve
             && !setup.work_offsets.contains_key(offset)
         {
             let way = reading.zero_from(first, *offset);
+            if way.is_none() && !guess {
+                continue;
+            }
             let there = way.map_or(at, |way| at.after(&Rigid::from_translation(way)));
             setup.work_offsets.insert(*offset, there);
             if way.is_some() { known.push(offset.to_string()) } else { placed.push(offset.to_string()) }
@@ -295,9 +312,11 @@ fn misplaced(setup: &Setup, first: WorkOffset, reading: &Reading) -> Vec<Finding
         let apart = (there.translation - at.point(way)).length();
         (apart > SAME).then(|| {
             let apart = (apart * 1e3).round() / 1e3;
-            let message = format!("{offset} lies {apart} mm from where the control has it, as seen from {first}");
+            let message =
+                format!("{offset} lies {apart} mm from where the control has it, as seen from {first}");
             let finding = Finding::doubt(Code::NC_ASSUMED, message);
-            finding.help("compare the offsets of the setup with the program and the parameters of the control")
+            finding
+                .help("compare the offsets of the setup with the program and the parameters of the control")
         })
     });
     apart.collect()

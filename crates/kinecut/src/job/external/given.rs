@@ -300,7 +300,8 @@ pub fn given_alone(program: GivenFile<'_>, wants: &ProgramWants, needs_stock: bo
     let table = wants.tools.as_ref().is_some_and(|(name, _)| is_tool_table(name));
     if wants.machine_in_inches && !table && wants.parameters.is_none() {
         let message = "only a tool table (.tbl) or a parameter file may be in inches";
-        let help = "a TOML file of tools is in mm; give the tool table by --tools, the parameters by --parameters";
+        let help =
+            "a TOML file of tools is in mm; give the tool table by --tools, the parameters by --parameters";
         return Err(Finding::error(Code::JOB_VALUE, message).help(help).into());
     }
     let mut guessed = wants.guessed.clone();
@@ -360,7 +361,8 @@ pub fn given_alone(program: GivenFile<'_>, wants: &ProgramWants, needs_stock: bo
                 tolerant: wants.tolerant,
                 tool_table: of_machine.map(|(name, _)| name.clone()),
                 parameters: wants.parameters.as_ref().map(|(name, _)| name.clone()),
-                machine_in_inches: wants.machine_in_inches && (of_machine.is_some() || wants.parameters.is_some()),
+                machine_in_inches: wants.machine_in_inches
+                    && (of_machine.is_some() || wants.parameters.is_some()),
                 ..ProgramTable::default()
             })
         }],

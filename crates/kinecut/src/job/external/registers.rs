@@ -3,6 +3,8 @@
 //! A tool that is called with the length of another one is the classic crash: the control lifts it by the wrong length. The
 //! simulation does the same where both lengths are known.
 
+use std::collections::HashMap;
+
 use super::super::check::{Job, JobProgram, JobSetup};
 use crate::base::{Code, Finding, Location};
 use crate::nc::{Control, Reading};
@@ -46,10 +48,13 @@ impl Registers {
                 found.radii.push((tool.number, 0.5 * diameter));
             }
         }
+        let mut of_register: HashMap<u32, f64> = lengths.iter().rev().copied().collect();
         for (own, number) in reading.own_lengths.iter().zip(OWN_REGISTERS..) {
             // Each counts from one before it.
-            let of = |register| lengths.iter().find(|l| l.0 == register).map(|l| [Some(0.0), Some(0.0), Some(l.1)]);
+            let of =
+                |register| of_register.get(&register).map(|length| [Some(0.0), Some(0.0), Some(*length)]);
             if let [.., Some(length)] = own.offset(of) {
+                of_register.insert(number, length);
                 lengths.push((number, length));
             }
         }

@@ -134,6 +134,8 @@ fn moved(
     let (here, there) = (from.title(), to.title());
     let (what, help) = match order {
         _ if from == to => return None,
+        // The writer refuses it, or says that the control has no lengths.
+        _ if old >= OWN_REGISTERS => return None,
         Order::Kept => (
             format!("register {old} is not the tool's own on {here}: it keeps its number on {there}"),
             "check what stands in this register on the other machine".to_owned(),

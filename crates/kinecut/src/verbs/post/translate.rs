@@ -6,6 +6,7 @@
 
 use glam::DVec3;
 use std::borrow::Cow;
+use std::sync::Arc;
 
 use serde::{Serialize, Serializer};
 
@@ -14,7 +15,7 @@ use super::rework::{blend_on, rework};
 use crate::base::{Code, Error, Finding, Result, Severity, Sources, at_most};
 use crate::job::external::given::GivenJob;
 use crate::job::external::{Errors, Missing, follow};
-use crate::nc::{self, Control, PostSettings};
+use crate::nc::{self, Control, Kept, PostSettings, ReadSettings};
 use crate::page::{Block, Fact, Section};
 use crate::program::{Blend, Item, Origin, Program};
 use crate::trace::{RegisterState, Trace, TraceOptions, trace};
@@ -113,7 +114,11 @@ pub fn translate(
     let posted = nc::write(&said.program, &job.tools, &post).map_err(at_said)?;
     let file = format!("{}.{}", post.program_name, to.extension());
     let mut sources = Sources::default();
-    let back = nc::read(&mut sources, &file, &posted.text, to, &read.setups)?;
+    let written = sources.add(&file, Arc::clone(&posted.text));
+    // The same machine keeps the same offsets.
+    let kept = if to == from { program.kept.clone() } else { Kept::default() };
+    let settings = ReadSettings { kept, ..ReadSettings::default() };
+    let back = nc::read_source(&sources, written, to, &read.setups, &settings)?;
     let lines: Vec<Option<u32>> = (0..back.program.items.len())
         .map(|i| back.program.origin(i).span.map(|s| sources.line(s).saturating_sub(1)))
         .collect();

@@ -210,7 +210,7 @@ fn linuxcnc_turns_its_work_offset() {
     let head = "G17 G21 G90\nG54\nG0 X0 Y0 Z0\n";
     for (block, code, words) in [
         ("G10 L2 P1 X0 Y0", Code::NC_STATE, "changes after moves in it"),
-        ("G10 L11 P1 X0", Code::NC_WORD, "only work offsets and the tool table are read"),
+        ("G10 L13 P1 X0", Code::NC_WORD, "only work offsets and the tool table are read"),
         ("G10 L2 R30", Code::NC_STATE, "P"),
         ("G10 L2 P1", Code::NC_STATE, "rotation"),
         ("G10 L2 P10 R1", Code::NC_SYNTAX, "P9"),
