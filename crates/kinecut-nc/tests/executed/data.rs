@@ -202,8 +202,8 @@ fn lengths_are_added_and_replaced() {
 fn kept(text: &str, table: &str, var: &str) -> Result<Reading, String> {
     let mut sources = Sources::default();
     let [table, var] = [("tool.tbl", table), ("a.var", var)].map(|(name, text)| sources.add(name, text));
-    let tools = Some(nc::tool_table(&sources, table, 1.0).unwrap());
-    let parameters = Some(nc::parameters(&sources, var, 25.4).unwrap());
+    let tools = Some(nc::tool_table(&sources, table, 1.0).map_err(|e| e.to_string())?);
+    let parameters = Some(nc::parameters(&sources, var, 25.4).map_err(|e| e.to_string())?);
     let settings = ReadSettings { kept: Kept { tools, parameters }, ..ReadSettings::default() };
     let file = sources.add("a.ngc", text);
     nc::read_source(&sources, file, LinuxCnc, &[], &settings).map_err(|e| e.to_string())

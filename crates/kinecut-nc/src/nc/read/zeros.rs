@@ -68,7 +68,7 @@ impl Zeros {
 
     /// Puts the zero that the setup has, along an axis; zeros that count from it stay where they are.
     pub(super) fn put(&mut self, offset: Option<WorkOffset>, axis: usize, spot: Spot) {
-        let before = std::mem::replace(&mut self.of_mut(offset).first[axis], Some(spot));
+        let before = self.of_mut(offset).first[axis].replace(spot);
         let mut base = before;
         for (other, zero) in self.known.iter_mut().filter(|(o, _)| *o != offset) {
             let Some(from) = zero.first[axis].filter(|spot| offset.is_some() && spot.from == offset) else {
