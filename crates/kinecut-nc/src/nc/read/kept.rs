@@ -37,9 +37,8 @@ pub(super) fn offset_by_number(number: u32) -> Option<WorkOffset> {
 impl Reader<'_> {
     /// Begins with what the control has kept.
     pub(super) fn begins_with(&mut self, kept: &Kept) {
-        self.table.given = kept.tools.is_some();
-        for tool in kept.tools.iter().flatten() {
-            self.table.keeps(tool);
+        if let Some(tools) = &kept.tools {
+            self.table.keeps(tools);
         }
         let Some(parameters) = &kept.parameters else { return };
         let length = |number: u32| parameters.value(number) * parameters.unit();

@@ -4,7 +4,12 @@
 //!   G59.3 without the shift of `G92`. They count from the next call of the length on.
 //! - A length that was called is another one from then on: on LinuxCNC it is followed as one that the program makes.
 
+use std::collections::BTreeMap;
+
+use glam::{DMat3, DVec3};
+
 use crate::base::Result;
+use crate::geom::Rigid;
 use crate::nc::TableTool;
 use crate::nc::dialect::{AXES, TurnWord};
 use crate::program::{ControlData, WorkOffset, moved};
@@ -16,7 +21,6 @@ use super::reader::{Reader, take};
 /// A line of the tool table, as far as it is known.
 #[derive(Clone, Debug, Default)]
 struct Line {
-    register: u32,
     /// Offsets along X, Y and Z [mm].
     offset: [Option<f64>; 3],
     /// Whether it has offsets of rotary axes, which are not followed.
@@ -27,42 +31,42 @@ struct Line {
     changed: bool,
 }
 
-/// The tool table.
+/// The tool table: lines by their numbers.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Table {
-    lines: Vec<Line>,
-    /// Whether the control's own table is given: it has no other tools.
-    pub(super) given: bool,
+    /// Lines that the program has called or set.
+    used: BTreeMap<u32, Line>,
+    /// Those that the control has kept; none where its table is not given.
+    kept: Option<BTreeMap<u32, Line>>,
 }
 
 impl Table {
-    /// Takes a line that the control has kept.
-    pub(super) fn keeps(&mut self, tool: &TableTool) {
-        let line = self.line(tool.number);
-        (line.offset, line.turned) = (tool.offset.map(Some), tool.turned);
+    /// Takes what the control has kept: it has no other tools.
+    pub(super) fn keeps(&mut self, tools: &[TableTool]) {
+        let line =
+            |tool: &TableTool| Line { offset: tool.offset.map(Some), turned: tool.turned, ..Line::default() };
+        self.kept = Some(tools.iter().map(|tool| (tool.number, line(tool))).collect());
+    }
+
+    fn get(&self, register: u32) -> Option<&Line> {
+        self.used.get(&register).or_else(|| self.kept.as_ref()?.get(&register))
     }
 
     fn line(&mut self, register: u32) -> &mut Line {
-        let index = match self.lines.iter().position(|line| line.register == register) {
-            Some(index) => index,
-            None => {
-                self.lines.push(Line { register, ..Line::default() });
-                self.lines.len() - 1
-            }
-        };
-        &mut self.lines[index]
+        let kept = || self.kept.as_ref().and_then(|kept| kept.get(&register)).cloned().unwrap_or_default();
+        self.used.entry(register).or_insert_with(kept)
     }
 
-    /// All that it holds, as numbers.
+    /// All in it that may change, as numbers.
     pub(super) fn numbers(&self) -> impl Iterator<Item = f64> + '_ {
         let flags = |line: &Line| f64::from(u8::from(line.called) + 2 * u8::from(line.changed));
         let offsets = |line: &Line| line.offset.map(|offset| offset.unwrap_or(f64::NAN));
-        self.lines.iter().flat_map(move |line| offsets(line).into_iter().chain([flags(line)]))
+        self.used.values().flat_map(move |line| offsets(line).into_iter().chain([flags(line)]))
     }
 
     /// Offsets along X, Y and Z [mm] of a line that is known in part.
     pub(super) fn offset(&self, register: u32) -> Option<[Option<f64>; 3]> {
-        self.lines.iter().find(|line| line.register == register).map(|line| line.offset)
+        self.get(register).map(|line| line.offset)
     }
 
     /// Calls a length; its offsets where the program has changed them since the first call.
@@ -104,13 +108,13 @@ impl<'s> Reader<'s> {
 
     /// Refuses a tool that the control does not have, where its table is given.
     pub(super) fn in_table(&self, tool: u32, bytes: &Bytes) -> Result<()> {
-        let line = self.table.lines.iter().find(|line| line.register == tool);
+        let line = self.table.get(tool);
         if line.is_some_and(|line| line.turned) {
             let message =
                 format!("T{tool} has offsets of rotary axes in the tool table, which are not followed");
             return Err(self.lacks(bytes, &message).help("set them to 0").into());
         }
-        if tool == 0 || !self.table.given || line.is_some() {
+        if tool == 0 || self.table.kept.is_none() || line.is_some() {
             return Ok(());
         }
         let finding = self.lacks(bytes, &format!("T{tool} is not in the tool table of the machine"));
@@ -140,18 +144,17 @@ impl<'s> Reader<'s> {
             let tip = here[axis].map_or(f64::NAN, |here| here.minus(zero[axis]));
             tip + self.modal.tool_offsets[axis].unwrap_or(f64::NAN)
         });
-        let within = moved(&motion.inverse(), glam::DVec3::from_array(within));
+        let within = moved(&motion.inverse(), DVec3::from_array(within));
         let own = self.table.offset(tool).unwrap_or([None; 3]);
         let own = own.map(|offset| offset.unwrap_or(0.0));
-        let askew = motion.rotation != glam::DMat3::IDENTITY;
-        let mut offset = motion.rotation.transpose() * glam::DVec3::from_array(own);
+        let askew = motion.rotation != DMat3::IDENTITY;
+        let mut offset = motion.rotation.transpose() * DVec3::from_array(own);
         for axis in 0..3 {
             if let Some(value) = named[axis] {
                 offset[axis] = within[axis] - value;
             }
         }
-        let offset =
-            moved(&crate::geom::Rigid { rotation: motion.rotation, ..crate::geom::Rigid::IDENTITY }, offset);
+        let offset = moved(&Rigid { rotation: motion.rotation, ..Rigid::IDENTITY }, offset);
         let counts =
             |axis: usize| named[axis].is_some() || askew && axis < 2 && (named[0].or(named[1])).is_some();
         if let Some(axis) = (0..3).find(|axis| counts(*axis) && offset[*axis].is_nan()) {

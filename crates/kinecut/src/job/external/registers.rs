@@ -3,7 +3,7 @@
 //! A tool that is called with the length of another one is the classic crash: the control lifts it by the wrong length. The
 //! simulation does the same where both lengths are known.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
 use super::super::check::{Job, JobProgram, JobSetup};
 use crate::base::{Code, Finding, Location};
@@ -40,9 +40,10 @@ impl Registers {
         // What the program sets itself counts.
         let mut lengths = reading.lengths.clone();
         lengths.extend(&given.lengths);
+        let compensated = compensated(program);
         for tool in given.kept.tools.iter().flatten() {
             lengths.push((tool.number, tool.offset[2]));
-            if let Some(diameter) = tool.diameter
+            if let Some(diameter) = tool.diameter.filter(|_| compensated.contains(&tool.number))
                 && found.radii.iter().all(|(register, _)| *register != tool.number)
             {
                 found.radii.push((tool.number, 0.5 * diameter));
@@ -118,6 +119,16 @@ impl Registers {
         }
         found
     }
+}
+
+/// The radius registers that a program calls.
+fn compensated(program: &Program) -> HashSet<u32> {
+    let every = if program.compensates() { program.items.len() } else { 0 };
+    let register = |item| match program.state(item).comp {
+        Comp::Left(register) | Comp::Right(register) => Some(register),
+        Comp::Off => None,
+    };
+    (0..every).filter_map(register).collect()
 }
 
 /// The tool whose own register this is, if it is another one than that in the spindle.
