@@ -316,7 +316,8 @@ fn the_machine_keeps_offsets_for_a_program() {
     assert!(!known.contains("taken to be machine zero"), "{known}");
     let post =
         kinecut(&folder, &[&["post", "P.ngc", "--to", "linuxcnc", "-o", "out.ngc"], &given[..]].concat());
-    assert_eq!(post.status.code(), Some(0), "{}", text(&post.stderr));
+    // Its tools are a guess.
+    assert_eq!(post.status.code(), Some(1), "{}", text(&post.stderr));
     let out = std::fs::read_to_string(folder.join("out.ngc")).unwrap();
     assert!(out.contains("G53 G0 X200 Y100 Z90"), "{out}");
     // The files of a machine that the tool is not in, or that are no such files.
