@@ -160,7 +160,7 @@ pub(crate) struct ProgramOf {
     /// TOML file with the tools ([[tool]], [[holder]]), as a job file is one; or a tool table of LinuxCNC (.tbl)
     #[arg(long, value_name = "FILE")]
     tools: Option<PathBuf>,
-    /// Pass over M codes of the machine that move no axis by custom (clamps, chip conveyors, relays), each with a warning
+    /// Pass over M codes of the machine that move no axis by custom (clamps, gears, relays), each with a warning
     #[arg(long)]
     tolerant: bool,
     /// Parameter file of a LinuxCNC machine (linuxcnc.var): its work offsets, and the places of G28 and G30

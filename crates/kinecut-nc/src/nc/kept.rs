@@ -1,4 +1,4 @@
-//! What a machine with LinuxCNC keeps from one program to the next.
+//! Tool table and parameters, which a machine with LinuxCNC keeps from one program to the next.
 
 use super::{Parameters, TableTool};
 

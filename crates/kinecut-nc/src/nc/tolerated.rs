@@ -6,21 +6,18 @@
 /// Numbers of M codes, the first and the last, and what they are for.
 pub(super) type Functions = &'static [(u32, u32, &'static str)];
 
-/// FANUC, SINUMERIK: clamps of rotary axes, chip conveyors, gears, coolants.
+/// FANUC, SINUMERIK: clamps of rotary axes, gears, coolants.
 pub(super) const MACHINE: Functions = &[
-    (10, 15, "clamp of a rotary axis"),
-    (31, 38, "chip conveyor, washing"),
+    (10, 11, "clamp of a rotary axis"),
     (40, 46, "gear of the spindle"),
     (50, 51, "coolant through the spindle, air"),
-    (83, 84, "air blast"),
-    (88, 89, "coolant through the spindle"),
 ];
 
-/// Haas: those, and relays.
+/// Haas: brakes, gears, coolant, relays.
 pub(super) const HAAS: Functions = &[
-    (10, 15, "clamp of a rotary axis"),
+    (10, 13, "brake of a rotary axis"),
     (21, 28, "relay and its answer"),
-    (31, 38, "chip conveyor, washing"),
+    (34, 35, "place of the coolant"),
     (41, 42, "gear of the spindle"),
     (51, 58, "relay on"),
     (61, 68, "relay off"),

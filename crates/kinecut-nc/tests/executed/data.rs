@@ -255,6 +255,9 @@ fn lines_of_the_tool_table_change() {
     );
     assert!(text.contains("G10 L1 P1 Z12\nG0 X1\nG43.1 X0 Y0 Z12\n"), "{text}");
     assert!(text.contains("G10 L1 P1 Y1\nG43.1 X0 Y1 Z12\n"), "{text}");
+    // Of a turned work offset, one axis: the part of the offset along the other stays.
+    let turned = kept("G21\nG10 L2 P1 R90\nG0 X5 Y6 Z7\nG10 L10 P2 X1\nM2\n", "T2 X1 Y2 Z20\n", var).unwrap();
+    assert!(again(&turned, LinuxCnc).0.contains("G10 L1 P2 X1 Y4"), "{}", again(&turned, LinuxCnc).0);
     let far = kept("G21\nG28 X0\nG10 L10 P1 X5\nM2\n", table, "5161 1\n5220 1\n");
     assert!(far.is_ok(), "{far:?}");
     let unknown = refused("G28 X0\nG10 L10 P1 X5", LinuxCnc);
@@ -294,6 +297,9 @@ fn a_stored_place_is_gone_to_in_the_coordinates_in_force() {
     let text = "G21\nG0 X1 Y1 Z1\nG91 G28 X0\nM2\n";
     // (7, 8) in is (8, 3) in there.
     assert_eq!(moves(&kept(text, table, var).unwrap()), ["R 1 1 1", "R 203.2 1 1"]);
+    // The spindle goes where it was: with a length the tip is that much lower.
+    let stored = "G10 L1 P1 Z10\nT1 M6\nG0 X0 Y0 Z30\nG28.1\nG43 H1\nG0 X5 Y5 Z50\nG28";
+    assert_eq!(run(stored, LinuxCnc).last().unwrap(), "R 0 0 20");
     // Rotary axes: the place of the file, and no shifted zero.
     let home = |var: &str| kept("G21\nG0 X0 Y0 Z10 A0\nG91 G28 Z0 A0\nM2\n", table, var);
     let reading = home("5163 100\n5164 50\n5220 1\n").unwrap();

@@ -77,6 +77,8 @@ fn loops_end_as_the_interpreter_ends_them() {
     // A `continue` of a `do` loop passes its `break`; without one it makes the next `break` of a `while` a `continue`.
     let passes = "#1=0\no1 do\n#1=[#1+1]\nX#1\no2 if [#1 EQ 2]\no1 continue\no2 endif\no3 if [0]\no1 break\no3 endif\no1 while [#1 LT 5]";
     assert_eq!(run(passes, LinuxCnc).len(), 2);
+    let before = "#1=0\no1 do\n#1=[#1+1]\nX#1\no2 if [#1 EQ 9]\no1 break\no2 endif\no3 if [#1 EQ 2]\no1 continue\no3 endif\no1 while [#1 LT 4]";
+    assert_eq!(run(before, LinuxCnc).len(), 4);
     let goes_on =
         "o1 do\no1 continue\no1 while [0]\n#1=0\no2 while [#1 LT 5]\n#1=[#1+1]\nX#1\no2 break\no2 endwhile";
     assert_eq!(run(goes_on, LinuxCnc), ["R 1 0 0", "R 2 0 0"]);
@@ -88,6 +90,8 @@ fn loops_end_as_the_interpreter_ends_them() {
     );
     let nested = refused("o1 sub\no2 sub\no2 endsub\no1 endsub", LinuxCnc);
     assert!(nested.contains("a subprogram begins within another one"), "{nested}");
+    let called = refused("o1 call\nM2\no1 sub\nX1\no2 sub\no2 endsub\no1 endsub", LinuxCnc);
+    assert!(called.contains("a subprogram begins within another one"), "{called}");
     // A bottom above R is refused in every cycle.
     for cycle in ["G81", "G85", "S100 M3\nG84", "G82 P1"] {
         let up = refused(&format!("F100\n{cycle} X1 R-5 Z-2"), LinuxCnc);

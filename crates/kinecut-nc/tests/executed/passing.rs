@@ -50,3 +50,25 @@ fn what_is_handed_over_is_what_is_kept() {
     assert_eq!((passed.assumed, passed.dwells), (kept.assumed, kept.dwells));
     assert_eq!(passed.untraced, kept.untraced);
 }
+
+#[test]
+fn the_zero_of_another_offset_moves_no_tool() {
+    let mut setup = setup();
+    let g55 = WorkOffset::from_tenths(550).unwrap();
+    setup.work_offsets.insert(g55, Rigid::from_translation(glam::DVec3::new(-100.0, 0.0, 0.0)));
+    let text = "G21 G54 G64\nG0 X0 Y0 Z5\nG10 L20 P2 X100 Y0 Z5\nG1 X10 F300\nM2\n";
+    let read = nc::read(&mut Sources::default(), "a.ngc", text, Control::LinuxCnc, &[setup]).unwrap();
+    let options = TraceOptions {
+        machine: None,
+        tools: &[],
+        retract_height: 0.0,
+        radii: &[],
+        operator: RegisterState::default(),
+        comp_start: CompStart::default(),
+        chord: 1e-3,
+    };
+    let segments = trace(&read.program, &options).unwrap().segments;
+    let feed = segments.last().unwrap();
+    let way = feed.curve.end() - feed.curve.start();
+    assert_eq!(way.to_array(), [10.0, 0.0, 0.0]);
+}

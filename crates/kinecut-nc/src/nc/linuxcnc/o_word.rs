@@ -61,6 +61,16 @@ pub(in crate::nc) struct OLine {
     pub(in crate::nc) next: Option<usize>,
     /// The last line of the same branch or loop; of a line that opens one.
     pub(in crate::nc) end: Option<usize>,
+    /// The last `break` of a loop, of the line that opens it.
+    last_break: Option<usize>,
+    /// A subprogram that begins within this one.
+    pub(in crate::nc) inner: Option<usize>,
+}
+
+impl OLine {
+    fn new(start: usize, after: usize, word: OWord) -> OLine {
+        OLine { start, after, word, begin: None, next: None, end: None, last_break: None, inner: None }
+    }
 }
 
 /// The o words of a file.
@@ -156,10 +166,23 @@ impl OLines {
                 && let Some((label, end)) = label(bytes, at + 1)
             {
                 let (word, _) = word(bytes, end);
-                all.add(OLine { start, after, word, begin: None, next: None, end: None }, label, &mut open);
+                all.add(OLine::new(start, after, word), label, &mut open);
             }
         }
+        all.nest();
         all
+    }
+
+    /// Finds the subprograms that begin within another one.
+    fn nest(&mut self) {
+        let mut next = None;
+        for index in (0..self.lines.len()).rev().filter(|_| !self.subs.is_empty()) {
+            if self.lines[index].word == OWord::Sub {
+                let end = self.lines[index].end;
+                self.lines[index].inner = next.filter(|next| end.is_some_and(|end| *next < end));
+                next = Some(index);
+            }
+        }
     }
 
     fn add(&mut self, line: OLine, label: String, open: &mut HashMap<String, Vec<[usize; 2]>>) {
@@ -192,6 +215,9 @@ impl OLines {
             return;
         }
         self.lines[this].begin = Some(begin);
+        if word == OWord::Break {
+            self.lines[begin].last_break = Some(this);
+        }
         if matches!(word, OWord::Break | OWord::Continue) {
             return;
         }
@@ -225,15 +251,7 @@ impl OLines {
     /// Whether a loop has a `break` behind a line of it.
     pub(in crate::nc) fn breaks_behind(&self, own: usize) -> bool {
         let begin = self.lines[own].begin.unwrap_or(own);
-        let end = self.lines[begin].end.unwrap_or(own);
-        let breaks = |line: &OLine| line.word == OWord::Break && line.begin == Some(begin);
-        (own + 1..end).any(|line| breaks(&self.lines[line]))
-    }
-
-    /// A subprogram that begins within the one of a line.
-    pub(in crate::nc) fn sub_within(&self, own: usize) -> Option<usize> {
-        let end = self.lines[own].end?;
-        (own + 1..end).find(|line| self.lines[*line].word == OWord::Sub)
+        self.lines[begin].last_break.is_some_and(|last| last > own)
     }
 
     /// The subprogram of a label.

@@ -7,7 +7,7 @@ use crate::base::{Code, FileId, Finding, Result, Sources, Span};
 /// Greatest number of a parameter.
 const LAST: u32 = 5601;
 
-/// What LinuxCNC keeps in its parameters from one program to the next.
+/// Parameters that LinuxCNC keeps from one program to the next.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Parameters {
     values: BTreeMap<u32, f64>,

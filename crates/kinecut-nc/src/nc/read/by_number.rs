@@ -82,7 +82,7 @@ impl<'s> Reader<'s> {
         Ok(())
     }
 
-    /// The tool whose length `H` names: `H0` is that of the tool in the spindle (LinuxCNC); 0 where there is none.
+    /// The tool that `H` names: on LinuxCNC `H0` is the one in the spindle, or no length where none was called.
     pub(super) fn spindle_for_zero(&self, register: u32) -> u32 {
         match (register, self.modal.tool.id) {
             (0, Some(tool)) if self.dialect.turn == TurnWord::Offset => tool.0,
@@ -129,7 +129,7 @@ impl<'s> Reader<'s> {
         }
     }
 
-    /// How many lengths are added in that of a register.
+    /// Count of the lengths that are added in that of a register.
     fn added(&self, mut register: Option<u32>) -> usize {
         let mut count = 0;
         while let Some(own) = register.and_then(|register| self.own_length_of(register)) {
@@ -152,6 +152,8 @@ impl<'s> Reader<'s> {
                 Some(own) => own.offset(|register| Some(self.offsets_of(Some(register)))),
                 None => {
                     let [x, y, z] = self.table.offset(register).unwrap_or([None; 3]);
+                    // A FANUC adds a wear that no file tells.
+                    let z = z.filter(|_| self.dialect.turn == TurnWord::Offset);
                     [x.or(Some(0.0)), y.or(Some(0.0)), z]
                 }
             },

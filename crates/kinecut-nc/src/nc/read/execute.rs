@@ -230,7 +230,10 @@ impl<'s> Reader<'s> {
                 let _ = (take(words, "P"), take(words, "Q"));
             }
             let shown = self.place.shown(&bytes).to_owned();
-            self.warn(&bytes, &format!("`{shown}` ({what}) is passed over: it moves no axis by custom"));
+            let message = format!(
+                "`{shown}` ({what}) is passed over, neither followed nor written: it moves no axis unless the builder of the machine has put a macro behind it"
+            );
+            self.warn(&bytes, &message);
         }
         let Some((Code::Device(what), bytes)) = self.code(|c| matches!(c, Code::Device(_))) else { return };
         for name in ["P", "E", "L", "Q"] {

@@ -18,7 +18,7 @@ use super::zeros::Spot;
 const EACH: u32 = 20;
 /// The first of G54.
 const FIRST: u32 = 5221;
-/// What is not known without the files.
+/// Reasons why a parameter is not known without the files.
 const OFFSETS: &str =
     "the machine knows its offsets, the program does not set this one: give its parameter file";
 const REFERENCE: &str =

@@ -2,13 +2,13 @@
 
 use std::rc::Rc;
 
-use crate::base::{Error, Finding, Result};
+use crate::base::{Code, Finding, Result};
 use crate::nc::linuxcnc::o_word::{self, OLine, OLines, OWord};
 use crate::nc::run::{Expression, Level};
 
 use super::block::Block;
 use super::lex::range;
-use super::place::Bytes;
+use super::place::{Bytes, SourceText};
 use super::run::{Run, Turns, nothing_else};
 
 /// Arguments of a call.
@@ -47,9 +47,7 @@ impl<'s> Run<'s> {
         match word {
             OWord::Program => self.ends_here(behind, end, block),
             OWord::Sub => {
-                if let Some(inner) = lines.sub_within(own) {
-                    return Err(self.nested(&lines, inner));
-                }
+                self.not_nested(place, &lines, own)?;
                 self.pass_over(&lines, own, &bytes)
             }
             OWord::If => self.o_if(&lines, own, bytes.end as usize, end, block),
@@ -76,12 +74,23 @@ impl<'s> Run<'s> {
         }
     }
 
-    /// A subprogram within another one.
-    fn nested(&self, lines: &OLines, inner: usize) -> Error {
+    /// Refuses a subprogram with another one in it.
+    fn not_nested(&self, place: SourceText<'s>, lines: &OLines, own: usize) -> Result<()> {
+        let Some(inner) = lines.line(own).inner else { return Ok(()) };
         let line = lines.line(inner);
-        let end = line.start + self.reader.place.text()[line.start..line.after].trim_end().len();
-        let finding = self.reader.lacks(&range(line.start, end), "a subprogram begins within another one");
-        finding.help("write it before or behind the other").into()
+        let end = line.start + place.text()[line.start..line.after].trim_end().len();
+        let message = "a subprogram begins within another one";
+        let finding = place.error(Code::NC_STATE, &range(line.start, end), message);
+        Err(finding.help("write it before or behind the other").into())
+    }
+
+    /// Says that a loop does not run as its words say.
+    fn runs_otherwise(&mut self, bytes: &Bytes, message: &str) {
+        if self.reader.findings.iter().all(|finding| finding.message != message) {
+            let finding = self.reader.place.warning(Code::NC_STATE, bytes, message);
+            let help = "end the loop before this one by its condition, without break and continue";
+            self.reader.findings.push(finding.help(help));
+        }
     }
 
     fn unpaired(&self, line: &OLine, bytes: &Bytes) -> Finding {
@@ -188,7 +197,7 @@ impl<'s> Run<'s> {
             Some(begin) if goes_on && !self.leaving.broke => self.o_back(lines.line(begin).after, bytes),
             Some(_) => {
                 if goes_on {
-                    self.reader.warn(bytes, "LinuxCNC ends this loop although its condition holds: it still counts a break in a while loop before, or one behind a continue");
+                    self.runs_otherwise(bytes, "LinuxCNC ends this loop although its condition holds: it still counts a break in a while loop before, or one behind a continue");
                 }
                 self.leaving.broke = false;
                 Ok(())
@@ -236,7 +245,7 @@ impl<'s> Run<'s> {
         }
         self.loops.pop();
         if std::mem::take(&mut self.leaving.continued) {
-            self.reader.warn(
+            self.runs_otherwise(
                 bytes,
                 "LinuxCNC runs this repeat once more: it still counts the continue of a do loop before",
             );
@@ -262,7 +271,7 @@ impl<'s> Run<'s> {
             (OWord::Break, _) => {
                 self.leaving.broke = true;
                 if std::mem::take(&mut self.leaving.continued) {
-                    self.reader.warn(bytes, "LinuxCNC goes on with this loop in place of leaving it: it still counts the continue of a do loop before");
+                    self.runs_otherwise(bytes, "LinuxCNC goes on with this loop in place of leaving it: it still counts the continue of a do loop before");
                     return self.o_back(begin.start, bytes);
                 }
                 self.at = last.after;
@@ -333,7 +342,9 @@ impl<'s> Run<'s> {
             let help = format!("write `o<{name}> sub` before the call, or put {name}.ngc beside the program");
             return Err(self.reader.lacks(bytes, &message).help(help).into());
         };
-        let after = self.o_lines(place).line(line).after;
+        let lines = self.o_lines(place);
+        self.not_nested(place, &lines, line)?;
+        let after = lines.line(line).after;
         self.call((place, after), 1, Some(level), bytes.clone()).map(|_| ())
     }
 }

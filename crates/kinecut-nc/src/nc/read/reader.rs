@@ -118,7 +118,7 @@ pub(super) struct Reader<'s> {
     pub(super) corner: Option<Corner>,
 }
 
-/// What a length that the program makes is made of: register before, bits of the numbers, register added.
+/// Parts of a length that the program makes: register before, bits of the numbers, register added.
 pub(super) type OwnKey = (Option<u32>, [u64; 3], Option<u32>);
 
 /// The kinds of item that decide whether a switched-off length becomes an item.

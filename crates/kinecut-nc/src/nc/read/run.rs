@@ -47,8 +47,8 @@ pub(super) struct Turns {
     pub(super) left: u64,
 }
 
-/// What LinuxCNC keeps of a loop that was left: it forgets it in loops of the other kind only, and takes each `break` of a loop for run
-/// that it passes on the way to its end (`interp_o_word.cc`, 2.9 and the newest).
+/// Flags of a loop that was left, as LinuxCNC keeps them: it clears them in loops of the other kind only, and takes each `break` of a loop
+/// for run that it passes on the way to its end (`interp_o_word.cc`, 2.9 and the newest).
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Leaving {
     /// A `while` loop with a `break` was left: the next `do` loop ends after one turn.

@@ -34,10 +34,10 @@ pub struct ReadSettings {
     pub start: Option<[f64; 3]>,
     /// Codes of the machine that the language of the control does not have.
     pub codes: Vec<OwnCode>,
-    /// Whether M codes of the machine that move no axis by custom (clamps, chip conveyors, relays) are passed over with a warning; they are
+    /// Whether M codes of the machine that move no axis by custom (clamps, gears, relays) are passed over with a warning; they are
     /// errors otherwise.
     pub tolerant: bool,
-    /// What the control has kept from programs before (LinuxCNC).
+    /// Tool table and parameters that the control has kept from programs before (LinuxCNC).
     pub kept: Kept,
     /// Whether reading goes on behind a block that is wrong or not understood: no axis is where the program says, until the
     /// program says it again. The errors are in [`Reading::errors`](super::Reading::errors).

@@ -1,7 +1,7 @@
 //! Zeros of the work offsets, as far as the program has set them or the control has kept them.
 //!
-//! Where the machine coordinates of a zero are not known, its distance from the zero of another work offset may be: `G10 L20`
-//! puts one where the tool stands in the other.
+//! A zero without known machine coordinates may have a known distance from that of another work offset: `G10 L20` puts one where
+//! the tool stands in the other.
 
 use glam::DVec3;
 
@@ -85,7 +85,7 @@ impl Zeros {
         [Some(offset), None].into_iter().filter_map(|o| self.of(o)).map(|zero| zero.shift).sum()
     }
 
-    /// What the program has set, as numbers.
+    /// All shifts and places of zeros, as numbers.
     pub(super) fn numbers(&self) -> impl Iterator<Item = f64> + '_ {
         let first = |spot: Option<Spot>| spot.map_or(f64::NAN, |spot| spot.at);
         self.known
@@ -151,5 +151,11 @@ mod tests {
         assert_eq!(moved.in_machine(Some(g54), 0), Some(100.0));
         assert_eq!(x(&moved, g56).minus(x(&moved, g55)), 5.0);
         assert!(x(&moved, g56).minus(x(&moved, g54)).is_nan());
+        // Two that counted from the same zero.
+        let mut two = Zeros::default();
+        two.put(Some(g55), 0, Spot { from: Some(g54), at: 10.0 });
+        two.put(Some(g56), 0, Spot { from: Some(g54), at: 25.0 });
+        two.put(Some(g54), 0, Spot::machine(100.0));
+        assert_eq!(x(&two, g56), Spot { from: Some(g55), at: 15.0 });
     }
 }

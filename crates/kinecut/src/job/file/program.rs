@@ -33,7 +33,7 @@ pub struct ProgramTable {
     /// if the program calls no tool at all.
     #[serde(default)]
     pub tool: Option<u32>,
-    /// Whether M codes of the machine that move no axis by custom (clamps, chip conveyors, relays) are passed over with a warning;
+    /// Whether M codes of the machine that move no axis by custom (clamps, gears, relays) are passed over with a warning;
     /// default: they are errors.
     #[serde(default)]
     pub tolerant: bool,
