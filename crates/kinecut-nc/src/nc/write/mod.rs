@@ -138,6 +138,7 @@ pub fn write(program: &Program, tools: &[Tool], settings: &PostSettings) -> Resu
     }
     if writer.klartext() {
         writer.end_program();
+        klartext::speed::in_tool_calls(&mut writer.page.lines);
         let (text, lines) = writer.page.counted(settings.block_numbers);
         return Ok(Posted { text: text.into(), lines, notes: writer.notes });
     }

@@ -3,17 +3,17 @@
 /// Lines under construction.
 #[derive(Debug, Default)]
 pub(super) struct Page {
-    lines: Vec<Line>,
+    pub(super) lines: Vec<Line>,
     /// The item being written.
     pub(super) item: Option<u32>,
 }
 
 #[derive(Debug)]
-struct Line {
-    text: String,
-    item: Option<u32>,
+pub(super) struct Line {
+    pub(super) text: String,
+    pub(super) item: Option<u32>,
     /// Whether it is a block, which gets a number.
-    block: bool,
+    pub(super) block: bool,
 }
 
 /// Step of block numbers: room for blocks put in by hand.

@@ -8,9 +8,8 @@ mod cycle;
 mod moves;
 mod plane;
 pub(super) mod rotary;
+pub(super) mod speed;
 mod state;
-
-use std::f64::consts::TAU;
 
 use glam::{DVec2, DVec3};
 
@@ -18,9 +17,8 @@ use crate::base::Result;
 use crate::geom::Aabb;
 use crate::nc::Control;
 use crate::nc::dialect::AXES;
-use crate::nc::grid::plain;
 use crate::nc::heidenhain::REGISTERS;
-use crate::program::{Blend, Item, Spindle, StopKind, Target, Tcp, ToolNumber};
+use crate::program::{Blend, Item, Target, Tcp, ToolNumber};
 
 use super::{Writer, unsupported};
 
@@ -134,7 +132,7 @@ impl Writer<'_> {
         (part.min.is_finite() && part.max.is_finite() && !part.is_empty()).then_some(part)
     }
 
-    /// `TOOL CALL` with the speed that the tool will first turn at.
+    /// `TOOL CALL`; [`speed::in_tool_calls`] adds the speed that the tool first turns at.
     pub(super) fn klartext_tool(
         &mut self,
         id: ToolNumber,
@@ -167,35 +165,12 @@ impl Writer<'_> {
         self.klartext_tcp_off();
         self.turn_off()?;
         self.all_off();
-        let rpm = self.first_speed(id);
-        let speed = rpm.as_ref().map_or_else(String::new, |s| format!(" S{s}"));
-        self.page.block(format!("TOOL CALL {name} Z{speed}"));
+        self.page.block(format!("TOOL CALL {name} Z"));
         self.tool = Some(id);
         self.place = super::ToolPosition::default();
         let blend = self.modal.pen.blend;
         self.modal.forget();
-        self.modal.pen = Pen { rpm, blend, ..Pen::default() };
+        self.modal.pen = Pen { blend, ..Pen::default() };
         Ok(())
-    }
-
-    /// The speed at which the tool called by the present item turns first.
-    fn first_speed(&self, tool: ToolNumber) -> Option<String> {
-        let items = &self.program.items;
-        let from = self.page.item.map_or(items.len(), |i| i as usize + 1);
-        for index in from..items.len() {
-            match items.get(index) {
-                Item::Tool { id, .. } if id != tool => return None,
-                Item::Move(_) | Item::Cycle(..) | Item::Dwell(_) => {}
-                Item::Stop(kind) if kind != StopKind::End => {}
-                _ => continue,
-            }
-            if let Spindle::Clockwise(rate) | Spindle::CounterClockwise(rate) =
-                self.program.state(index).spindle
-            {
-                let rpm = rate / TAU * 60.0;
-                return (rpm.is_finite() && rpm >= 0.0).then(|| plain(rpm));
-            }
-        }
-        None
     }
 }
