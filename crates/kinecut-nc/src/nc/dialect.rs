@@ -305,6 +305,14 @@ pub(super) enum Code {
     Rigid,
     /// `G33.1`: along the axis with the feed geared to the spindle, and back.
     SynchronisedTap,
+    /// `G33`: straight with the feed geared to the spindle.
+    Geared,
+    /// `G76` of LinuxCNC: the passes of a thread along Z.
+    Thread,
+    /// `G7`: words of X are diameters; `G8`: radii.
+    Diameters(bool),
+    /// `M61`: the tool of a number is in the spindle.
+    ToolInSpindle,
     /// Calls a cycle after each block that moves, or no more.
     ModalCall,
     NoMotion,
@@ -426,6 +434,10 @@ pub(super) enum Code {
     NotRead(&'static str),
     /// `G70` to `G72`: a pattern of holes (Haas).
     Holes(Pattern),
+    /// `G12` and `G13`: a round pocket (Haas).
+    RoundPocket {
+        ccw: bool,
+    },
 }
 
 /// Canned cycles.
@@ -542,6 +554,8 @@ impl Code {
             | Code::RunSpline
             | Code::Cycle(_)
             | Code::SynchronisedTap
+            | Code::Geared
+            | Code::Thread
             | Code::NoMotion
             | Code::ModalCall => 1,
             Code::Plane(_) => 2,
@@ -557,7 +571,7 @@ impl Code {
             Code::Dwell | Code::MachineFrame | Code::Reference | Code::FurtherReference | Code::Holes(_) => {
                 20
             }
-            Code::StorePlace { .. } => 20,
+            Code::StorePlace { .. } | Code::RoundPocket { .. } => 20,
             Code::Save { .. } | Code::Forget | Code::TakeAgain => 28,
             Code::PresetShift | Code::ShiftOff { .. } | Code::ShiftAgain => 20,
             Code::Polar { .. } => 19,
@@ -567,8 +581,9 @@ impl Code {
             Code::Transformation { .. } => 17,
             Code::Interpolation { .. } => 18,
             Code::Stop(_) | Code::CallProgram | Code::CallBlock | Code::Return => 21,
-            Code::ToolChange => 22,
+            Code::ToolChange | Code::ToolInSpindle => 22,
             Code::SurfaceSpeed => 26,
+            Code::Diameters(_) => 29,
             Code::Scale { .. } | Code::Mirror { .. } => 27,
             Code::SpindleClockwise | Code::SpindleCounterClockwise | Code::SpindleOff | Code::Orientation => {
                 23

@@ -115,8 +115,8 @@ pub(super) const HAAS: &[(u32, Code)] = &[
     (720, Code::Holes(Pattern::Line)),
     (1030, Code::Mode(&BLOCKS_AHEAD)),
     (1870, Code::Mode(&SMOOTHNESS)),
-    (120, Code::NotRead(POCKET)),
-    (130, Code::NotRead(POCKET)),
+    (120, Code::RoundPocket { ccw: false }),
+    (130, Code::RoundPocket { ccw: true }),
     (310, Code::NotRead("where a probing move ends is known at the machine only")),
     (470, Code::NotRead("it engraves text, and the shapes of the control's letters are not published")),
     (770, Code::NotRead("the way of the back boring out of its counterbore is not published")),
@@ -140,6 +140,3 @@ pub(super) const HAAS: &[(u32, Code)] = &[
     (2540, Code::NotRead("a work offset that turns with the table is not read")),
     (2680, Code::NotRead("a tilted plane of this control is not read")),
 ];
-
-const POCKET: &str = "the way from the centre of the pocket to its circle and from one circle to the next is not published: write \
-     the circles as G2 or G3";

@@ -55,8 +55,6 @@ fn curves_that_the_control_lays_through_lines_are_a_doubt() {
 #[test]
 fn what_is_known_and_not_read_says_why() {
     for (block, why) in [
-        ("G12 I5. Z-1. F100.", "not published"),
-        ("G13 I2. K5. Q1. Z-1. F100.", "not published"),
         ("G47 P0 X0. Y0. (TEXT)", "letters"),
         ("G150 P1000 Z-1.", "outline"),
         ("G77 Z-1. R-2. Q0.1", "counterbore"),

@@ -19,7 +19,9 @@
 //! * `G70`, `G71`, `G72` make the holes of the cycle in force on a circle, an arc, a line (`nc/read/bolt_holes.rs`).
 //! * `G187 P E` says how far corners may be rounded, which is said and not followed.
 //!
-//! `G12`, `G13`, `G47`, `G77` and `G150` move axes in ways that no public page says to the last move: refused with that reason.
+//! * `G12` and `G13` make a round pocket (`nc/read/round_pocket.rs`); the ways from its centre to the circles are a doubt.
+//!
+//! `G47`, `G77` and `G150` move axes in ways that no public page says to the last move: refused with that reason.
 //!
 //! Source: pages of the operator's manual 96-8000 as quoted publicly, and programs of others.
 

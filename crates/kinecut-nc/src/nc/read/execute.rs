@@ -43,6 +43,8 @@ impl<'s> Reader<'s> {
         }
         if let Some((_, bytes)) = self.code(|c| c == Code::ToolChange) {
             self.tool_change(&bytes)?;
+        } else if let Some((_, bytes)) = self.code(|c| c == Code::ToolInSpindle) {
+            self.tool_in_spindle(words, &bytes)?;
         } else if chosen && self.dialect.hand_change() {
             self.hand_change()?;
         }
@@ -268,6 +270,24 @@ impl<'s> Reader<'s> {
         (self.modal.length_hidden, self.length_lost) = (false, false);
         self.modal.spindle = Spindle::Off;
         self.modal.position = [None; 3];
+        Ok(())
+    }
+
+    /// `M61 Q`: nothing moves, and the length in force stays.
+    fn tool_in_spindle(&mut self, words: &mut [Word<'s>], bytes: &Bytes) -> Result<()> {
+        let Some(tool) = take(words, "Q") else {
+            return Err(self.lacks(bytes, "M61 without the number Q of the tool").into());
+        };
+        let number = self.count(&tool, "a tool number")?;
+        self.in_table(number, &tool.bytes)?;
+        let message = format!(
+            "M61 says that tool {number} is in the spindle, and makes no change: it is read, and written, as a change of the tool"
+        );
+        self.warn(bytes, &message);
+        self.flush(Kind::Other);
+        self.modal.tool.id = Some(ToolNumber(number));
+        self.modal.told.id = None;
+        self.tool_origin = self.origin;
         Ok(())
     }
 

@@ -45,6 +45,8 @@ pub(super) struct Modal {
     pub(super) moved_in: Option<f64>,
     pub(super) unit_said_at: Option<Bytes>,
     pub(super) absolute: bool,
+    /// Whether words of X are diameters.
+    pub(super) diameters: bool,
     pub(super) centre_absolute: bool,
     pub(super) feed_mode: FeedMode,
     /// Feed in force [mm/s or mm]; none in inverse time.
@@ -111,6 +113,7 @@ impl Modal {
             moved_in: None,
             unit_said_at: None,
             absolute: true,
+            diameters: false,
             centre_absolute: false,
             feed_mode: FeedMode::PerMinute,
             feed: None,

@@ -21,6 +21,13 @@ impl<'s> Reader<'s> {
         if let Some((Code::Holes(pattern), bytes)) = self.code(|c| matches!(c, Code::Holes(_))) {
             return self.pattern(words, pattern, &bytes);
         }
+        if let Some((Code::RoundPocket { ccw }, bytes)) = self.code(|c| matches!(c, Code::RoundPocket { .. }))
+        {
+            if let Some((code, _)) = self.motion_code() {
+                self.puts_in_force(code);
+            }
+            return self.round_pocket(words, ccw, &bytes);
+        }
         if self.code(|c| matches!(c, Code::Probe { .. })).is_some() {
             self.modal.motion = None;
             self.modal.sticky.end();
@@ -137,6 +144,8 @@ impl<'s> Reader<'s> {
             Some(Code::Quadratic) => self.quadratic(words),
             Some(Code::Cycle(kind)) => self.cycle(words, kind),
             Some(Code::SynchronisedTap) => self.synchronised_tap(words),
+            Some(Code::Geared) => self.geared_move(words),
+            Some(Code::Thread) => self.thread(words),
             _ => {
                 let here = self.here.clone();
                 let finding = self.lacks(&here, "axis words without a motion code (G0, G1, ...)");
@@ -231,7 +240,7 @@ impl<'s> Reader<'s> {
         }
     }
 
-    fn straight(&mut self, words: &mut [Word<'s>], speed: Speed) -> Result<()> {
+    pub(super) fn straight(&mut self, words: &mut [Word<'s>], speed: Speed) -> Result<()> {
         let end = self.end(words)?;
         if !matches!(speed, Speed::Rapid { .. }) && self.modal.position.iter().any(Option::is_none) {
             // Compensation leads into a contour, and out of it.

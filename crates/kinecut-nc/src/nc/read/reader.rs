@@ -343,6 +343,7 @@ impl<'s> Reader<'s> {
         }
         self.extended_offset(&mut block.words)?;
         self.polar_words(&mut block.words)?;
+        self.diameters(&mut block.words);
         let before = self.program.items.len();
         let modal = self.code(|c| c == Code::ModalCall).is_some();
         if modal || block.call.is_some() {

@@ -68,6 +68,7 @@ impl<'s> Reader<'s> {
         let modal = &mut self.modal;
         modal.plane = saved.plane;
         (modal.length_unit, modal.feed_unit) = (saved.length_unit, saved.feed_unit);
+        modal.diameters = saved.diameters;
         (modal.absolute, modal.centre_absolute) = (saved.absolute, saved.centre_absolute);
         (modal.feed_mode, modal.feed) = (saved.feed_mode, saved.feed);
         (modal.speed, modal.spindle, modal.coolant) = (saved.speed, saved.spindle, saved.coolant);

@@ -117,6 +117,8 @@ impl Reader<'_> {
             "_b" => self.coordinate(4),
             "_c" => self.coordinate(5),
             "_u" | "_v" | "_w" => number(0.0),
+            "_lathe_diameter_mode" => truth(modal.diameters),
+            "_lathe_radius_mode" => truth(!modal.diameters),
             "_metric" => truth(modal.length_unit == 1.0),
             "_imperial" => truth(modal.length_unit != 1.0),
             "_absolute" => truth(modal.absolute),
