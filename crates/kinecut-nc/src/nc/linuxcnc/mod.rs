@@ -8,6 +8,8 @@
 //! turns it back again; the sense of the spindle says the hand. It needs an encoder on the spindle, and runs on below Z until
 //! the spindle has reversed. `G84` and `G74` are for floating holders: read as moves, with the spindle turning back at the bottom.
 //!
+//! Threads: `G33` and `G76` are read as feeds per revolution, with a warning (`read/thread.rs`).
+//!
 //! Turned coordinates: `G10 L2 P R` sets the rotation of a work offset about its zero, which stays in the control beyond the
 //! program; `G52` shifts in the turned coordinates (measured on the stand-alone interpreter). Both are taken back before
 //! the program stops or ends, and its head says what an abort leaves behind.

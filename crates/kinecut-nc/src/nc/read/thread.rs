@@ -19,7 +19,7 @@ use super::block::Word;
 use super::reader::{Reader, take};
 
 /// Said of a move that is geared to the spindle.
-const GEARED: &str = "a move with the feed geared to the spindle is read as a feed per revolution, and written so: further passes of the same thread need the gearing";
+const GEARED: &str = "a thread (G33, G76) is read as a feed per revolution, and the post writes that: its passes then do not meet the same thread";
 /// Most passes of a thread: a slip of the pen beyond it.
 const MOST_PASSES: usize = 10_000;
 
@@ -90,7 +90,7 @@ impl<'s> Reader<'s> {
             let finding = self.lacks(&feed.bytes, "G33 with a feed F");
             return Err(finding.help("leave F out: K is the way a revolution").into());
         }
-        self.note(GEARED);
+        self.warn(&here, GEARED);
         self.straight(words, Speed::PerRevolution(pitch))
     }
 
@@ -118,7 +118,7 @@ impl<'s> Reader<'s> {
             let finding = self.lacks(&here, &format!("a thread (G76) in more than {MOST_PASSES} passes"));
             return Err(finding.help("program a larger J, or a smaller R").into());
         };
-        self.note(GEARED);
+        self.warn(&here, GEARED);
         let onward = end_z > from.z;
         let sign = |v: f64| if onward { -v } else { v };
         let (slope, taper) = (sign(thread.flank).tan(), sign(thread.taper));
