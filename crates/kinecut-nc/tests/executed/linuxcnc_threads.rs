@@ -8,7 +8,7 @@ use kinecut_nc::program::{Item, Speed, ToolNumber};
 
 /// Feeds per revolution of the feed moves.
 fn pitches(body: &str) -> Vec<f64> {
-    let reading = read(&format!("G21 G54 G0 X0 Y0 Z0 S300 M3\n{body}\nM2\n"), LinuxCnc).unwrap();
+    let reading = read(&format!("G21 G54 G0 X0 Y0 Z0 S300 M3\n{body}\nM2\n"), LinuxCnc).expect(body);
     let items = &reading.program.items;
     let of = |i: usize| match (items.get(i), reading.program.state(i).speed) {
         (Item::Move(_), Speed::PerRevolution(pitch)) => Some((pitch * 1e6).round() / 1e6),
@@ -108,6 +108,10 @@ fn diameters_are_halved() {
     // Heights across of a thread are diameters then, too.
     let thread = run("S300 M3\nG7 G0 X8 Z20\nG76 P2 Z0 I-2 J2 K3", LinuxCnc);
     assert_eq!(thread[1..3], ["R 4.5 0 20", "R 2 0 20"]);
+    // The interpreter scales them twice where the mode changes in the same block.
+    let once = run("S300 M3\nG0 X4 Z20\nG76 P2 Z0 I-1 J0.5 K1.5", LinuxCnc);
+    assert_eq!(run("S300 M3\nG0 X4 Z20\nG7 G76 P2 Z0 I-4 J2 K6", LinuxCnc), once);
+    assert_eq!(run("S300 M3\nG7 G0 X8 Z20\nG8 G76 P2 Z0 I-0.5 J0.25 K0.75", LinuxCnc), once);
     assert!(refused("G7 G8 X1", LinuxCnc).contains("twice") || refused("G7 G8 X1", LinuxCnc).contains("one"));
 }
 

@@ -334,7 +334,7 @@ def merged(printed, exact):
                 state["dwell"] = v[0]
             next_fine += 1
 
-    order, unit = iter(moves), 1.0
+    order, unit, geared = iter(moves), 1.0, None
 
     def take(name):
         nonlocal point
@@ -361,7 +361,7 @@ def merged(printed, exact):
                 for index, w in group:
                     # A change of offsets moves no axis: the place in the program changes.
                     start, point = there, frame.program(there)
-                    speed = state["rate"] * (state["rpm"] if state["per_turn"] else 1)
+                    speed = state["rate"] * (state["rpm"] if state["per_turn"] else 1) if geared is None else geared * state["rpm"]
                     if name == "ARC_FEED":
                         i, j, k = axes
                         end = [0.0] * 3
@@ -395,6 +395,8 @@ def merged(printed, exact):
                 state[name.split("_")[0].lower()] = int(name.endswith("ON"))
             elif name == "SET_FEED_MODE":
                 state["per_turn"] = v[1] != 0
+            elif name in ("START_SPEED_FEED_SYNC", "STOP_SPEED_FEED_SYNCH"):
+                geared = v[0] * unit if v else None
             elif name == "USE_LENGTH_UNITS":
                 unit = INCH if "INCH" in text else 1.0
             elif name == "SELECT_PLANE":

@@ -18,12 +18,12 @@ GROUPS = {
     "expressions": "operators and functions", "numbered": "#1 and on", "named": "#<name>, #<_name>", "indirect": "##1, #[1+1]",
     "position": "#5420 and on, #<_x>", "subs": "o sub, call, return", "flow": "if, while, do, repeat, break, continue", "m98": "M98, M99",
     "messages": "MSG, DEBUG, PRINT", "forms": "spelling, N words, order of words", "stops": "M0, M1, M60", "wrong": "programs to be refused",
-    "probe": "G38.2", "tap": "G33.1", "context": "M70, M72, M73",
+    "probe": "G38.2", "tap": "G33.1", "thread": "G33, G76, G7, G8", "context": "M70, M72, M73",
 }
 MODES = ["planes", "distance", "centres", "units", "feeds", "systems", "g10", "g52", "g92", "machine", "home", "lengths",
-         "tools", "table", "dwell", "spindle", "path", "stops", "messages", "probe", "tap", "context"]
+         "tools", "table", "dwell", "spindle", "path", "stops", "messages", "probe", "tap", "thread", "context"]
 MESSAGES = ["(MSG, change the clamp)", "(DEBUG, at #5420 and #100)", "(PRINT, %.3f #100)", "(msg,again)", "(only words)", "; only words"]
-OFF = {"probe", "tap", "context"}  # not drawn unless named
+OFF = {"probe", "tap", "thread", "context"}  # not drawn unless named
 UNARY = ["ABS", "ACOS", "ASIN", "COS", "EXP", "FIX", "FUP", "ROUND", "LN", "SIN", "SQRT", "TAN"]
 BINARY = ["+", "-", "*", "/", "**", "MOD", "EQ", "NE", "GT", "GE", "LT", "LE", "AND", "OR", "XOR"]
 AXES = {17: "XYZ", 18: "ZXY", 19: "YZX"}  # the two of the plane, and the third
@@ -470,6 +470,31 @@ class Program:
                 self.turning = 1
             z = self.at[2] if self.absolute else 0
             self.say(f"G33.1 Z{plain(round(z - r.uniform(1, 9) / self.unit, 3))} K{plain(round(r.uniform(0.5, 2) / self.unit, 4))}")
+            self.stand()
+        elif what == "thread":
+            self.known()
+            if self.mode == 93:
+                self.mode = 94
+                self.say(f"G94{self.feed()}")
+            if not self.turning:
+                self.say("S300 M3")
+                self.turning = 1
+            length = lambda a, b: plain(round(r.uniform(a, b) / self.unit, 4))
+            x = self.at[0] if self.absolute else 0
+            z = self.at[2] if self.absolute else 0
+            if r.random() < 0.5:
+                self.say(f"G33 Z{plain(round(z - r.uniform(1, 9) / self.unit, 3))} K{length(0.5, 2)}")
+                self.say(f"X{plain(round(x - r.uniform(1, 9) / self.unit, 3))} K{length(0.5, 2)}")
+            else:
+                diameters = r.random() < 0.3
+                words = f"P{length(0.5, 2)} Z{plain(round(z + r.choice([-1, 1]) * r.uniform(5, 20) / self.unit, 3))}"
+                words += f" I{r.choice(['', '-'])}{length(0.2, 2)} J{length(0.1, 0.3)} K{length(0.5, 1.5)}"
+                for word, value in [("R", length(0.5, 2.5)), ("Q", plain(round(r.uniform(-5, 30), 2))), ("H", str(r.randint(0, 2))),
+                                    ("E", length(0.2, 2)), ("L", str(r.randint(0, 3)))]:
+                    words += f" {word}{value}" if r.random() < 0.5 else ""
+                self.say(f"{'G7 ' if diameters else ''}G76 {words}")
+                if diameters:
+                    self.say(f"X{plain(round(2 * x + 3 / self.unit, 3))} {words}\nG8")
             self.stand()
         elif what == "context":
             self.say("M70\nG91 G20\nM72")

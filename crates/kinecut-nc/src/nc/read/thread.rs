@@ -59,7 +59,15 @@ impl Thread {
 impl<'s> Reader<'s> {
     /// Words of X that are diameters become radii. The mode is that behind the codes of the block.
     pub(super) fn diameters(&mut self, words: &mut [Word<'s>]) {
-        if let Some((Code::Diameters(on), _)) = self.code(|c| matches!(c, Code::Diameters(_))) {
+        if let Some((Code::Diameters(on), bytes)) = self.code(|c| matches!(c, Code::Diameters(_))) {
+            if self.modal.diameters != on && self.motion_code().is_some_and(|(code, _)| code == Code::Thread)
+            {
+                // The interpreter scales them where the mode changes, and again in the cycle.
+                let heights = words.iter_mut().filter(|w| ["I", "J", "K"].iter().any(|name| w.is(name)));
+                heights.filter_map(|w| w.value.as_mut()).for_each(|v| *v *= if on { 0.5 } else { 2.0 });
+                let message = "I, J and K of a thread (G76) are scaled twice where G7 or G8 is in its block";
+                self.warn(&bytes, message);
+            }
             self.modal.diameters = on;
         }
         if self.modal.diameters {
