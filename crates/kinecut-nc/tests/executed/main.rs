@@ -20,6 +20,7 @@ mod linuxcnc;
 mod linuxcnc_threads;
 mod macro_b;
 mod passing;
+mod plain;
 mod state;
 
 /// Reads a program; the error as it is shown.

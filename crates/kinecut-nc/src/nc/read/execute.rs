@@ -148,13 +148,17 @@ impl<'s> Reader<'s> {
             if feed.value < 0.0 {
                 return Err(self.place.malformed(&feed.bytes, "a feed is not negative").into());
             }
-            self.modal.feed = Some(match self.modal.feed_mode {
-                FeedMode::PerMinute => feed.value * self.modal.feed_unit / 60.0,
-                FeedMode::PerRevolution => feed.value * self.modal.feed_unit,
-                FeedMode::InverseTime => feed.value,
-            });
+            self.set_feed(feed.value);
         }
         Ok(())
+    }
+
+    pub(super) fn set_feed(&mut self, value: f64) {
+        self.modal.feed = Some(match self.modal.feed_mode {
+            FeedMode::PerMinute => value * self.modal.feed_unit / 60.0,
+            FeedMode::PerRevolution => value * self.modal.feed_unit,
+            FeedMode::InverseTime => value,
+        });
     }
 
     /// `G96`: the speed of the spindle depends on the radius, which is not followed.

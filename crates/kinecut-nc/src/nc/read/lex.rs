@@ -10,7 +10,7 @@ use super::place::{Bytes, SourceText};
 use super::reader::answered;
 
 /// Largest number in a program: beyond it no control reads, and squares stay finite.
-const LARGEST: f64 = 1e9;
+pub(super) const LARGEST: f64 = 1e9;
 
 /// Cuts lines into words.
 #[derive(Clone, Copy)]

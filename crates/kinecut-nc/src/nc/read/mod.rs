@@ -42,6 +42,7 @@ mod o_lines;
 mod orientation;
 mod path_mode;
 pub(super) mod place;
+mod plain;
 mod plane;
 mod points;
 mod polar;

@@ -14,6 +14,7 @@ use super::called::names_of;
 use super::jump::Jump;
 use super::lex::Lexer;
 use super::place::{Bytes, SourceText};
+use super::plain::Plain;
 use super::reader::Reader;
 use super::{ReadSettings, Reading};
 
@@ -86,6 +87,8 @@ pub(super) struct Run<'s> {
     errors: Option<Vec<Finding>>,
     /// Whether there was one.
     lost: bool,
+    /// Whether the state is one in which plain blocks are read in one go.
+    quiet: bool,
     /// Whether the present line says which is next: behind an error in it that is not known.
     in_flow: bool,
 }
@@ -111,6 +114,7 @@ impl<'s> Run<'s> {
             files: settings.files.clone(),
             errors: settings.reads_on.then(Vec::new),
             lost: false,
+            quiet: false,
             in_flow: false,
         }
     }
@@ -171,6 +175,29 @@ impl<'s> Run<'s> {
 
     /// Runs the next line; `false` at the end.
     fn step(&mut self, block: &mut Block<'s>) -> Result<bool> {
+        if std::mem::take(&mut self.quiet)
+            && let Some(plain) = Plain::at(self.reader.place.text(), self.at, self.reader.dialect)
+        {
+            let start = self.at;
+            self.at = plain.next;
+            if self.again {
+                self.in_flow = true;
+                self.budget
+                    .block()
+                    .map_err(|finding| located(finding, self.reader.place, start, self.at - 1))?;
+            }
+            self.in_flow = false;
+            self.reader.plain_block(plain)?;
+            self.quiet = true;
+            return Ok(true);
+        }
+        let goes_on = self.line(block)?;
+        self.quiet = self.started && self.reader.is_quiet();
+        Ok(goes_on)
+    }
+
+    /// Runs the next line, whatever it says; `false` at the end.
+    fn line(&mut self, block: &mut Block<'s>) -> Result<bool> {
         let place = self.reader.place;
         let text = place.text();
         let start = self.at;
