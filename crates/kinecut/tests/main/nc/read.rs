@@ -80,7 +80,7 @@ fn words_that_are_not_understood_are_pointed_at() {
         (Sinumerik840d, "TRAORI(2)", "TRAORI(2)"),
         (Sinumerik840d, "G451 X3", "G451"),
         (Sinumerik840d, "OFFN=2", "OFFN=2"),
-        (LinuxCnc, "G7 X3", "G7"),
+        (LinuxCnc, "G14 X3", "G14"),
         (Sinumerik840d, "G1 X5 M77", "M77"),
         (Sinumerik840d, "LOOP1: G1 X3", "LOOP1:"),
         (Sinumerik840d, "G58 X3", "G58"),
