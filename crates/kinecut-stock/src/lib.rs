@@ -6,5 +6,6 @@ pub use kinecut_geom::{base, geom, num, tool};
 pub use kinecut_machine::machine;
 pub use kinecut_nc::{nc, program, trace};
 
+pub mod contact;
 pub mod stock;
 pub mod sweep;

@@ -40,7 +40,7 @@
 //!
 //! Layers, lowest first; each imports only those above it in this list:
 //! [`base`], [`num`], [`geom`], [`tool`], [`page`], [`machine`], [`program`], [`trace`], [`nc`], [`motion`], [`sweep`],
-//! [`stock`], [`holes`], [`drilling`], [`facing`], [`operations`], [`job`], [`verbs`].
+//! [`contact`], [`stock`], [`holes`], [`drilling`], [`facing`], [`operations`], [`job`], [`verbs`].
 //!
 //! Features: `jobs` (all; the default), `plan`, `stock`, `nc`. Without any, geometry and machines alone.
 //!
@@ -58,7 +58,7 @@ pub use kinecut_nc::{nc, program, trace};
 pub use kinecut_plan::{drilling, facing, holes, motion};
 #[cfg(feature = "stock")]
 #[doc(inline)]
-pub use kinecut_stock::{stock, sweep};
+pub use kinecut_stock::{contact, stock, sweep};
 
 #[cfg(feature = "jobs")]
 pub mod job;

@@ -184,6 +184,11 @@ codes! {
     FACETS = "KC0535", "facets set the time of a program",
         "Short straight moves stand for a curve: at each joint the control brakes, or cuts the corner within its tolerance. A curve through the same points would be run faster, at the feed that its curvature allows. Post arcs or curves where the control has them, or give it a wider tolerance.";
 
+    FIXTURE_MET = "KC0536", "a tool meets a clamp or a fixture",
+        "Tool, shank or holder touch a body that a `[[fixture]]` of the job describes, at any moment of the move: at rapid both straight and axis by axis. The value is the length of the move over which they touch. A lift of the move by the height that the help names clears it; else move the clamp, or use a slimmer or longer tool.";
+    FIXTURE_NEAR = "KC0537", "a tool comes near a clamp or a fixture",
+        "Tool, shank or holder pass a body at less than `near` of its `[[fixture]]` (0.5 mm if nothing is said): an offset, a length or a place that is off by that much makes it a contact. Measure the body, or give it room; `near = 0` asks for none.";
+
     MESH_UNREADABLE = "KC0601", "a mesh file cannot be read",
         "The file is neither binary nor text STL, ends early, or holds numbers that are not finite.";
     MESH_OPEN = "KC0602", "a mesh does not close",

@@ -27,6 +27,6 @@ pub use origin::{Origin, OriginId, Role};
 pub use own_length::OwnLength;
 pub(crate) use reframe::moved;
 pub use reframe::turn_about_z;
-pub use setup::{Setup, SetupId};
+pub use setup::{Fixture, Setup, SetupId};
 pub use state::{Blend, Comp, Coolant, Speed, Spindle, State, StateId, Tcp};
 pub use tapping::{SAME_PITCH, Tapping};

@@ -1,6 +1,7 @@
 //! A setup: the place of the part on the machine.
 
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
 use super::WorkOffset;
 use crate::geom::{Rigid, Solid};
@@ -25,6 +26,19 @@ pub struct Setup {
     pub located: bool,
     /// The raw stock [part coordinates]; `None` continues with what the setup before has left.
     pub stock: Option<Solid>,
-    /// Clamps and fixtures [table frame].
-    pub fixtures: Vec<Solid>,
+    /// Bodies that no tool may touch: clamps, a vise.
+    pub fixtures: Vec<Fixture>,
+}
+
+/// A body that holds the part, or stands beside it.
+#[derive(Clone, Debug)]
+pub struct Fixture {
+    /// Name in words.
+    pub name: String,
+    /// Its form, in coordinates of its own.
+    pub solid: Arc<Solid>,
+    /// Maps those into the table frame.
+    pub place: Rigid,
+    /// Least distance that tools keep from it [mm]; zero asks for none.
+    pub near: f64,
 }

@@ -1,8 +1,10 @@
 //! Options for following the program of a setup, and the places of its lines.
 
+use std::cell::Cell;
+
 use super::check::Job;
 use super::plan::SetupPlan;
-use crate::base::{FileId, Location, Sources};
+use crate::base::{FileId, Location, Sources, Span};
 use crate::trace::{RegisterState, TraceOptions};
 
 /// Distance of the chords along which the tip is followed while rotary axes turn freely [mm].
@@ -23,19 +25,46 @@ pub(crate) fn trace_options<'a>(job: &'a Job, planned: &'a SetupPlan) -> TraceOp
 
 /// A whole line of the program as a place.
 pub(crate) fn line_place(file: &str, text: &str, line: Option<u32>) -> Option<Location> {
-    let line = line?;
-    let before = || text.split_inclusive('\n').take(line as usize);
-    if before().all(|l| l.ends_with('\n')) {
-        // A text has one line more than line ends.
-        let (line, start) = before().fold((1, 0), |(line, at), l| (line + 1, at + l.len()));
-        let text = text[start..].lines().next().unwrap_or_default();
-        let (start, end) = (start as u32, (start + text.len()) as u32);
-        return Some(Location { file: file.to_owned(), line, column: 1, start, end, text: text.to_owned() });
+    LinePlaces::new(file, text).at(line)
+}
+
+/// Places of whole lines of a program: the next one is sought from the last on.
+pub(crate) struct LinePlaces<'a> {
+    file: &'a str,
+    text: &'a str,
+    /// A line, 0-based, and its first byte.
+    last: Cell<(u32, usize)>,
+}
+
+impl<'a> LinePlaces<'a> {
+    pub(crate) fn new(file: &'a str, text: &'a str) -> LinePlaces<'a> {
+        LinePlaces { file, text, last: Cell::default() }
     }
-    let mut sources = Sources::default();
-    let id: FileId = sources.add(file, text);
-    let start: usize = text.split_inclusive('\n').take(line as usize).map(str::len).sum();
-    let length = text[start..].lines().next().map_or(0, str::len);
-    let span = crate::base::Span { file: id, start: start as u32, end: (start + length) as u32 };
-    Some(sources.locate(span))
+
+    /// The place of a line, 0-based.
+    pub(crate) fn at(&self, line: Option<u32>) -> Option<Location> {
+        let line = line?;
+        let (mut number, mut start) = self.last.get();
+        if line < number {
+            (number, start) = (0, 0);
+        }
+        while number < line {
+            let Some(length) = self.text[start..].find('\n') else { return Some(self.beyond(line)) };
+            (number, start) = (number + 1, start + length + 1);
+        }
+        self.last.set((number, start));
+        let text = self.text[start..].lines().next().unwrap_or_default();
+        let (start, end) = (start as u32, (start + text.len()) as u32);
+        let (file, text) = (self.file.to_owned(), text.to_owned());
+        Some(Location { file, line: line + 1, column: 1, start, end, text })
+    }
+
+    /// The end of a text that has no such line.
+    fn beyond(&self, line: u32) -> Location {
+        let mut sources = Sources::default();
+        let id: FileId = sources.add(self.file, self.text);
+        let start: usize = self.text.split_inclusive('\n').take(line as usize).map(str::len).sum();
+        let length = self.text[start..].lines().next().map_or(0, str::len);
+        sources.locate(Span { file: id, start: start as u32, end: (start + length) as u32 })
+    }
 }

@@ -4,6 +4,7 @@ mod bins;
 mod budget;
 pub(crate) mod check;
 mod closer;
+mod contacts;
 pub mod contour;
 pub(crate) mod external;
 pub(crate) mod facets;

@@ -12,9 +12,10 @@ use crate::stock::surface::CutSurface;
 use crate::trace::{Trace, trace, travel_findings};
 
 use super::check::{Job, check};
+use super::contacts;
 use super::external::{GivenJob, external_setup};
 use super::facets::facets_note;
-use super::following::{line_place, trace_options};
+use super::following::{LinePlaces, line_place, trace_options};
 use super::measure::{self, Measured, loose_cores, tallies};
 use super::outcome::Outcome;
 use super::part_surface::part_surface;
@@ -308,15 +309,15 @@ fn findings(
     for (i, s) in setups.iter().enumerate() {
         found.extend(s.planned.findings.iter().cloned().map(located));
         found.extend(s.external.iter().flat_map(|f| f.findings.iter().cloned()));
-        let place = |item: u32| {
-            let line = s.lines.get(item as usize).copied().flatten();
-            line_place(&s.file, &s.posted.text, line)
-        };
+        let places = LinePlaces::new(&s.file, &s.posted.text);
+        let place = |item: u32| places.at(s.lines.get(item as usize).copied().flatten());
         for (f, item) in measured.iter().filter(|m| m.setup == i).flat_map(|m| &m.judged.findings) {
             found.push(Finding { place: place(*item), ..f.clone() });
         }
         found.extend(s.planned.operations.iter().flat_map(|o| o.plan.remarks().iter().cloned()));
         found.extend(simulate::findings(&s.trace, &simulation.effects[i], &job.tools, place));
+        let fixtures = &job.setups[i].setup;
+        found.extend(contacts::findings(fixtures, &s.trace, &simulation.meetings[i], place));
         if let Some(machine) = &job.machine {
             // Of a planned program too: moves on which the tool turns, and those of a template, are not lowered to them.
             let feeds = feeds::not_held(&s.trace, machine);

@@ -9,11 +9,13 @@ use glam::DVec3;
 use super::budget::Budget;
 use super::check::Job;
 use super::closer::{Story, look_closer};
+use super::contacts::contacts;
 use super::look::{Look, Looks, looks};
 use super::missed::Missed;
 use super::part_surface::PartSurface;
 use super::raw::{drill, off_axis, take_out};
 use crate::base::{Code, Finding, Progress, Result, Severity};
+use crate::contact::Meeting;
 use crate::geom::Solid;
 use crate::operations::measured::{Loose, Probe, WallProbe};
 use crate::stock::certify::{Certificate, CertifiedRun, certify};
@@ -50,6 +52,8 @@ pub struct Simulation {
     pub walls: Vec<Vec<WallEnd>>,
     /// For each setup, what rules have asked of the stock.
     pub looks: Vec<Looks>,
+    /// For each setup, tools that meet clamps and fixtures, or pass them closely.
+    pub meetings: Vec<Vec<Meeting>>,
     /// The proof of the cut stock against the moves, if the job asks for it.
     pub certificate: Option<Certificate>,
 }
@@ -105,6 +109,7 @@ pub fn simulate(
         engagements: Vec::new(),
         walls: vec![Vec::new(); faces.len()],
         looks: Vec::new(),
+        meetings: Vec::new(),
         certificate: None,
     };
     let mut measured: Vec<Option<PointEngagement>> = probes.iter().map(|_| None).collect();
@@ -158,6 +163,7 @@ pub fn simulate(
             effects.iter().fold(simulation.path_error, |worst, e| worst.max(e.path_error));
         simulation.effects.push(effects);
         simulation.looks.push(looked);
+        simulation.meetings.push(contacts(job, &job.setups[i].setup, trace, progress)?);
     }
     let story = Story { job, traces, loose, moves: &all, bodies: &bodies };
     look_closer(&story, &mut simulation.effects, progress)?;

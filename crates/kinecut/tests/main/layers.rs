@@ -10,7 +10,7 @@ const LAYERS: &[(&str, &[&[&str]])] = &[
     ("kinecut-geom", &[&["base"], &["num"], &["geom"], &["tool"]]),
     ("kinecut-machine", &[&["machine"]]),
     ("kinecut-nc", &[&["program"], &["trace"], &["nc"]]),
-    ("kinecut-stock", &[&["sweep"], &["stock"]]),
+    ("kinecut-stock", &[&["sweep"], &["contact", "stock"]]),
     ("kinecut-plan", &[&["motion"], &["holes", "drilling", "facing"]]),
     ("kinecut", &[&["page"], &["operations"], &["job"], &["verbs"]]),
 ];

@@ -10,7 +10,7 @@ use glam::DVec2;
 
 use super::Options;
 use crate::facing::{FaceCase, Placement};
-use crate::geom::Turn;
+use crate::geom::{Turn, convex_hull};
 use crate::num::angle::wrap_positive;
 
 /// An interval [from, to]; empty where the first exceeds the second.
@@ -95,7 +95,7 @@ impl Domain {
         let [lo, hi] = options.engagement.map(|a| case.radius * a.sin());
         Domain {
             middle,
-            corners: hull(points).into_iter().map(|p| (p, p.length())).collect(),
+            corners: convex_hull(points).into_iter().map(|p| (p, p.length())).collect(),
             arcs,
             reach: [if lo > -reach { lo } else { -reach }, if hi < reach { hi } else { reach }],
             off_middle: options.least_off_middle,
@@ -242,32 +242,4 @@ fn allowed(forbidden: &[Extent]) -> Vec<Extent> {
         open.push([at, TAU]);
     }
     open
-}
-
-/// Corners of the convex hull (monotone chain).
-fn hull(mut points: Vec<DVec2>) -> Vec<DVec2> {
-    points.sort_by(|a, b| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)));
-    points.dedup();
-    if points.len() < 3 {
-        return points;
-    }
-    let mut out: Vec<DVec2> = Vec::with_capacity(points.len());
-    for pass in 0..2 {
-        let base = out.len();
-        let mut add = |p: DVec2| {
-            while out.len() >= base + 2
-                && (out[out.len() - 1] - out[out.len() - 2]).perp_dot(p - out[out.len() - 1]) <= 0.0
-            {
-                out.pop();
-            }
-            out.push(p);
-        };
-        if pass == 0 {
-            points.iter().for_each(|&p| add(p));
-        } else {
-            points.iter().rev().for_each(|&p| add(p));
-        }
-        out.pop();
-    }
-    out
 }

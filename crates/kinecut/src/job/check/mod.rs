@@ -5,6 +5,7 @@ pub(crate) mod axes;
 mod body;
 pub(crate) mod control;
 mod feed_limit;
+mod fixture;
 pub(crate) mod joint;
 mod kept;
 pub(crate) mod machine;
@@ -158,10 +159,14 @@ pub fn check(file: &JobFile, name: &str, loader: &dyn Loader) -> Result<Job> {
     };
     let control = Control::parse(&file.post.control).map_err(|e| e.under("post.control"))?;
     let said = (orientation(file.post.orientation, control)?, control);
+    let fixtures = fixture::fixtures(&file.fixtures, file.setups.len(), loader)?;
     let mut setups = Vec::with_capacity(file.setups.len());
     for (i, table) in file.setups.iter().enumerate() {
-        let setup = setup::setup(i, table, &tools, (&stock, &drilled), (machine.as_ref(), said), loader)
+        let mut setup = setup::setup(i, table, &tools, (&stock, &drilled), (machine.as_ref(), said), loader)
             .map_err(|e| e.under(&format!("setup[{i}]")))?;
+        let work = setup.clamping.work();
+        let there = fixtures.iter().flat_map(|fixture| fixture.in_setup(i, &work));
+        setup.clamping.setup.fixtures = there.collect();
         setups.push(setup);
     }
     Ok(Job {
@@ -315,7 +320,7 @@ fn stock(table: &StockTable, loader: &dyn Loader) -> Result<Solid> {
                 if b.max[i] <= b.min[i] {
                     return Err(Finding::error(
                         Code::JOB_VALUE,
-                        "the greatest corner of the stock must exceed the least",
+                        "the greatest corner of a box must exceed the least",
                     )
                     .value_mm(b.max[i])
                     .bound_mm(b.min[i])

@@ -347,6 +347,7 @@ pub fn given_alone(program: GivenFile<'_>, wants: &ProgramWants, needs_stock: bo
         post: PostTable { control: control.name().to_owned(), ..PostTable::default() },
         simulate: SimulateTable { step: wants.step, ..SimulateTable::default() },
         machine: None,
+        fixtures: Vec::new(),
         holders: tools.holders,
         tools: tools.tools,
         setups: vec![SetupTable {

@@ -5,12 +5,14 @@
 
 mod body;
 mod contour;
+mod fixture;
 mod machine;
 mod program;
 mod tool;
 
 pub use body::*;
 pub use contour::*;
+pub use fixture::*;
 pub use machine::*;
 pub use program::*;
 pub use tool::*;
@@ -55,6 +57,9 @@ pub struct JobFile {
     /// The tools.
     #[serde(rename = "tool")]
     pub tools: Vec<ToolTable>,
+    /// Clamps, vises and what else stands around the part.
+    #[serde(default, rename = "fixture", skip_serializing_if = "Vec::is_empty")]
+    pub fixtures: Vec<FixtureTable>,
     /// The clampings of the part, in order.
     #[serde(rename = "setup")]
     pub setups: Vec<SetupTable>,

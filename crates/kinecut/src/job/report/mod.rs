@@ -16,6 +16,7 @@ mod deviation;
 mod encode;
 mod facts;
 mod findings;
+mod fixtures;
 mod model;
 mod of_job;
 mod page;

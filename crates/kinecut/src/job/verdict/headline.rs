@@ -49,14 +49,24 @@ pub(super) fn headline(found: &[Finding], files: &[String]) -> String {
 pub(in crate::job) fn scope(job: &Job, setups: &[SetupOutcome], deviation: &Deviation) -> Vec<String> {
     let mut scope = vec![shape(job, deviation)];
     scope.extend(holders(job, setups));
-    scope.push(match job.machine.as_ref().map_or(0, |m| m.bodies.len()) {
-        0 => "Clamps, fixtures and machine bodies not modelled".to_owned(),
-        _ => "Clamps and fixtures not modelled, machine bodies not compared".to_owned(),
-    });
+    scope.push(bodies(job));
     if !job.machine.as_ref().is_some_and(|m| m.joints.iter().any(|j| j.travel.is_some())) {
         scope.push("Travel of the axes not given".to_owned());
     }
     scope
+}
+
+/// Bodies that tools were compared with.
+fn bodies(job: &Job) -> String {
+    let of_machine = job.machine.as_ref().map_or(0, |m| m.bodies.len());
+    let given = job.setups.iter().filter(|setup| !setup.setup.fixtures.is_empty()).count();
+    let machine = if of_machine == 0 { "machine bodies not modelled" } else { "machine bodies not compared" };
+    match (given, of_machine) {
+        (0, 0) => "Clamps, fixtures and machine bodies not modelled".to_owned(),
+        (0, _) => "Clamps and fixtures not modelled, machine bodies not compared".to_owned(),
+        (n, _) if n == job.setups.len() => format!("Fixtures as given compared, {machine}"),
+        (n, _) => format!("Fixtures compared in {n} of {} setups, {machine}", job.setups.len()),
+    }
 }
 
 /// Reference that the shape was compared with.

@@ -22,16 +22,7 @@ pub(in crate::job) fn not_checked(
         };
         list.add(Heading::Shape, what);
     }
-    match job.machine.as_ref().map_or(0, |machine| machine.bodies.len()) {
-        0 => list.add(Heading::Bodies, "clamps, fixtures and the machine's own bodies: not modelled"),
-        count => {
-            list.add(Heading::Bodies, "clamps and fixtures: not modelled");
-            list.add(
-                Heading::Bodies,
-                format!("the machine's {count} bodies: moved in drawings only, not compared with the part, the tool and one another"),
-            );
-        }
-    }
+    bodies(job, &mut list);
     if let Some(certificate) = &simulation.certificate {
         let uncertain = [
             (certificate.left_out, "moves of drills that leave a core: not certified"),
@@ -51,6 +42,41 @@ pub(in crate::job) fn not_checked(
         program(done, &mut list);
     }
     list
+}
+
+/// Clamps, fixtures and the machine's own bodies.
+fn bodies(job: &Job, list: &mut UncheckedList) {
+    let bare: Vec<String> = (1..)
+        .zip(&job.setups)
+        .filter(|(_, setup)| setup.setup.fixtures.is_empty())
+        .map(|(number, _)| number.to_string())
+        .collect();
+    let of_machine = job.machine.as_ref().map_or(0, |machine| machine.bodies.len());
+    let none_given = bare.len() == job.setups.len();
+    if none_given && of_machine == 0 {
+        list.add(Heading::Bodies, "clamps, fixtures and the machine's own bodies: not modelled");
+        return;
+    }
+    if none_given {
+        list.add(Heading::Bodies, "clamps and fixtures: not modelled");
+    } else {
+        if !bare.is_empty() {
+            let setups = if bare.len() == 1 { "setup" } else { "setups" };
+            list.add(
+                Heading::Bodies,
+                format!("clamps and fixtures of {setups} {}: not given", bare.join(", ")),
+            );
+        }
+        let what = "clamps and fixtures: compared with tools, shanks and holders in moves, not with the spindle head, and not where a tool is changed";
+        list.add(Heading::Bodies, what);
+    }
+    match of_machine {
+        0 => list.add(Heading::Bodies, "the machine's own bodies: not modelled"),
+        count => list.add(
+            Heading::Bodies,
+            format!("the machine's {count} bodies: moved in drawings only, not compared with the part, the tool and one another"),
+        ),
+    }
 }
 
 /// Surfaces that operations name and nothing is compared with, at the line where each operation begins.

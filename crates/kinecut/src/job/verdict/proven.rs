@@ -68,6 +68,18 @@ pub(in crate::job) fn proven(
         if clear(&|k| segments[k].spindle_on || segments[k].motion == SegmentPace::Rapid || none_met(k)) {
             add(format!("`{file}` never cuts with the spindle off"), swept);
         }
+        let fixtures = &job.setups[i].setup.fixtures;
+        if !fixtures.is_empty() && simulation.meetings[i].iter().all(|m| m.contact.is_none()) {
+            let bodies = match &fixtures[..] {
+                [one] => format!("`{}`", one.name),
+                all => format!("the {} bodies of the fixtures", all.len()),
+            };
+            let holders = if (0..segments.len()).any(held) { ", shank or given holder" } else { " or shank" };
+            add(
+                format!("no tool{holders} meets {bodies} in `{file}`"),
+                "motion swept, not sampled, at rapid both ways; contacts within 0.01 mm count".to_owned(),
+            );
+        }
         if let Some(machine) = &job.machine
             && machine.joints.iter().any(|a| a.travel.is_some())
             && travel_findings(&s.trace, &s.program, machine).is_empty()

@@ -47,6 +47,7 @@ pub(crate) fn job_file(table: &HoleTable, stock: StockTable, setup: SetupTable) 
         design: None,
         stock,
         drilled: Vec::new(),
+        fixtures: Vec::new(),
         post,
         simulate: SimulateTable::default(),
         machine: None,

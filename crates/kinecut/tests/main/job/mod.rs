@@ -6,6 +6,7 @@ mod examples;
 mod external;
 mod feeds;
 mod five_axis;
+mod fixtures;
 mod inspect;
 mod kept;
 mod picture;

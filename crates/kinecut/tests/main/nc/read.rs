@@ -89,7 +89,7 @@ fn words_that_are_not_understood_are_pointed_at() {
         (LinuxCnc, "G1 X20 U90", "U90"),
         (LinuxCnc, "G1 X[1+NO[2]]", "NO"),
         (LinuxCnc, "#5420=3", "#5420=3"),
-        (LinuxCnc, "G76 Z5", "G76"),
+        (LinuxCnc, "G77 Z5", "G77"),
         (LinuxCnc, "G0 Z5 H3", "H3"),
         (LinuxCnc, "G505", "G505"),
         (LinuxCnc, "G61 R0.5", "R0.5"),

@@ -1,0 +1,136 @@
+//! Tools of the programs of a job past clamps and fixtures.
+
+use glam::DVec3;
+
+use super::check::Job;
+use crate::base::{Code, Finding, Location, Progress, Result};
+use crate::contact::{Meeting, MovingTool, StandingBody, ToolPart, Watched, meetings};
+use crate::program::Setup;
+use crate::sweep::ToolMotion;
+use crate::tool::Tool;
+use crate::trace::{SegmentPace, Trace};
+
+/// Contacts and near passes of the segments of a setup's program; none where it has no fixtures.
+pub(super) fn contacts(
+    job: &Job,
+    setup: &Setup,
+    trace: &Trace,
+    progress: &dyn Progress,
+) -> Result<Vec<Meeting>> {
+    if setup.fixtures.is_empty() {
+        return Ok(Vec::new());
+    }
+    let tools = job.tools.iter().map(moving).collect::<Result<Vec<_>>>()?;
+    let to_part = setup.part_on_table.inverse();
+    let bodies = setup.fixtures.iter().map(|fixture| {
+        StandingBody::new(fixture.name.clone(), &fixture.solid, to_part.after(&fixture.place), fixture.near)
+    });
+    let bodies = bodies.collect::<Result<Vec<_>>>()?;
+    let moves = trace.segments.iter().map(|segment| {
+        let tool = job.tools.iter().position(|tool| Some(tool.number) == segment.tool).ok_or_else(|| {
+            Finding::error(Code::NC_STATE, "the program moves before a tool is called")
+                .help("call a tool first")
+        })?;
+        Ok(Watched { motion: ToolMotion::of_segment(segment)?, tool: tool as u32 })
+    });
+    let moves = moves.collect::<Result<Vec<_>>>()?;
+    meetings(&tools, &bodies, &moves, to_part.vector(DVec3::Z), progress)
+}
+
+/// A tool with its shank and its holder.
+fn moving(tool: &Tool) -> Result<MovingTool> {
+    let cutting = tool.cutting_profile()?;
+    let shank = tool.shank_profile()?;
+    let holder = tool.holder_profiles()?;
+    let cutter = std::iter::once((ToolPart::Cutter, &cutting, 0.0));
+    let shank = shank.iter().map(|(profile, z)| (ToolPart::Shank, profile, *z));
+    let holder = holder.iter().map(|(profile, z)| (ToolPart::Holder, profile, *z));
+    Ok(MovingTool::new(cutter.chain(shank).chain(holder)))
+}
+
+/// Difference of two distances that counts as none [mm].
+const AS_NEAR: f64 = 2e-3;
+
+/// Noun of a part of a tool.
+fn noun(part: ToolPart) -> &'static str {
+    match part {
+        ToolPart::Cutter => "tool",
+        ToolPart::Shank => "shank",
+        ToolPart::Holder => "holder",
+    }
+}
+
+/// Findings of the meetings: contacts by block and body, near passes by tool, part and body, each at the nearest block.
+pub(super) fn findings(
+    setup: &Setup,
+    trace: &Trace,
+    meetings: &[Meeting],
+    place: impl Fn(u32) -> Option<Location>,
+) -> Vec<Finding> {
+    // Item, body, and the one that lasts longest or is nearest.
+    let mut contacts: Vec<(u32, &Meeting, f64)> = Vec::new();
+    let mut near: Vec<&Meeting> = Vec::new();
+    for meeting in meetings {
+        let segment = &trace.segments[meeting.watched as usize];
+        let Some(contact) = &meeting.contact else {
+            let tool = |m: &Meeting| (trace.segments[m.watched as usize].tool, m.part, m.body);
+            match near.iter_mut().find(|m| tool(m) == tool(meeting)) {
+                // The first of those that are as near.
+                Some(known) if meeting.distance < known.distance - AS_NEAR => *known = meeting,
+                Some(_) => {}
+                None => near.push(meeting),
+            }
+            continue;
+        };
+        let way = segment.curve.length() * (contact.to - contact.from);
+        let same = contacts.iter().rposition(|(item, m, _)| (*item, m.body) == (segment.item, meeting.body));
+        match same {
+            Some(i) if way > contacts[i].2 => contacts[i] = (segment.item, meeting, way),
+            Some(_) => {}
+            None => contacts.push((segment.item, meeting, way)),
+        }
+    }
+    let hit = contacts.into_iter().map(|(item, meeting, way)| {
+        let segment = &trace.segments[meeting.watched as usize];
+        let alone = if segment.alternative { " when the axes run one by one" } else { "" };
+        let rapid = if segment.motion == SegmentPace::Rapid { " at rapid" } else { "" };
+        let message = format!("the {} meets {}{rapid}{alone}", noun(meeting.part), name(setup, meeting));
+        let finding = Finding::error(Code::FIXTURE_MET, message).point(meeting.place.to_array());
+        // Both in hundredths: the lift is not less than what clears.
+        let hundredths = |value: f64| (value * 100.0).round() / 100.0;
+        let finding = if way > 0.0 { finding.value(hundredths(way), "mm of the move") } else { finding };
+        let clears = meeting.contact.as_ref().and_then(|c| c.clears_by);
+        let higher = clears.map(|lift| format!("{:.2} mm higher", hundredths(lift + 0.005)));
+        let help = match (segment.motion, higher) {
+            (SegmentPace::Rapid, Some(higher)) => format!("run it {higher}, or move the body"),
+            (SegmentPace::Rapid, None) => "run it higher, or move the body".to_owned(),
+            (SegmentPace::Feed(_), Some(higher)) => {
+                format!("keep the path away from the body, or move the body; it clears {higher}")
+            }
+            (SegmentPace::Feed(_), None) => "keep the path away from the body, or move the body".to_owned(),
+        };
+        (item, finding.help(help))
+    });
+    let passed = near.into_iter().map(|meeting| {
+        let message = format!("the {} passes {}", noun(meeting.part), name(setup, meeting));
+        let bound = setup.fixtures[meeting.body as usize].near;
+        let finding = Finding::warning(Code::FIXTURE_NEAR, message)
+            .point(meeting.place.to_array())
+            .value(meeting.distance, "mm apart")
+            .bound(bound, "mm, `near`")
+            .help("its offset may be off by no more than that");
+        (trace.segments[meeting.watched as usize].item, finding)
+    });
+    let mut all: Vec<(u32, Finding)> = hit.chain(passed).collect();
+    all.sort_by_key(|(item, _)| *item);
+    all.into_iter()
+        .map(|(item, mut finding)| {
+            finding.place = place(item);
+            finding
+        })
+        .collect()
+}
+
+fn name(setup: &Setup, meeting: &Meeting) -> String {
+    format!("`{}`", setup.fixtures[meeting.body as usize].name)
+}
