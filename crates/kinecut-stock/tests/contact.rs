@@ -297,23 +297,29 @@ fn contacts_and_near_misses_are_those_of_another_library() {
 }
 
 #[test]
-fn a_tool_within_a_mesh_meets_it_all_the_way() {
+fn a_tool_within_a_mesh_meets_it_all_the_way_whichever_way_its_triangles_turn() {
     let cutter = Profile::cylinder(2.0, 3.0).unwrap();
     let tool = [MovingTool::new([(ToolPart::Cutter, &cutter, 0.0)])];
-    let body =
-        [StandingBody::new("vise", &Solid::Mesh(wedge(DVec3::splat(50.0))), Rigid::IDENTITY, 0.0).unwrap()];
-    let contact = |from: [f64; 3], to: [f64; 3]| {
-        let line = Line { start: from.into(), end: to.into() };
-        let motion = ToolMotion::fixed(line.into(), DVec3::Z).unwrap();
-        let found = meetings(&tool, &body, &[Watched { motion, tool: 0 }], DVec3::Z, &Silent).unwrap();
-        found.first().and_then(|m| m.contact)
-    };
-    let within = contact([-9.0, 0.0, -20.0], [9.0, 2.0, -25.0]).unwrap();
-    assert_eq!((within.from, within.to), (0.0, 1.0));
-    // Out through its side at X 35 (half of its height): from the begin; and back in: to the end.
-    let out = contact([0.0, 0.0, 0.0], [80.0, 0.0, 0.0]).unwrap();
-    assert!(out.from == 0.0 && (out.to * 80.0 - 36.0).abs() < 0.05, "{out:?}");
-    let back = contact([80.0, 0.0, 0.0], [0.0, 0.0, 0.0]).unwrap();
-    assert!(back.to == 1.0 && ((1.0 - back.from) * 80.0 - 36.0).abs() < 0.05, "{back:?}");
-    assert_eq!(contact([60.0, 0.0, 0.0], [80.0, 0.0, 0.0]), None);
+    for turned in [false, true] {
+        let mut mesh = wedge(DVec3::splat(50.0));
+        if turned {
+            mesh.triangles.iter_mut().for_each(|t| t.swap(1, 2));
+        }
+        let body = [StandingBody::new("vise", &Solid::Mesh(mesh), Rigid::IDENTITY, 0.0).unwrap()];
+        let contact = |from: [f64; 3], to: [f64; 3]| {
+            let line = Line { start: from.into(), end: to.into() };
+            let motion = ToolMotion::fixed(line.into(), DVec3::Z).unwrap();
+            let found = meetings(&tool, &body, &[Watched { motion, tool: 0 }], DVec3::Z, &Silent).unwrap();
+            found.first().and_then(|m| m.contact)
+        };
+        let within = contact([-9.0, 0.0, -20.0], [9.0, 2.0, -25.0]).unwrap();
+        assert_eq!((within.from, within.to), (0.0, 1.0));
+        // Out through its side at X 35 (half of its height): from the begin; and back in: to the end.
+        let out = contact([0.0, 0.0, 0.0], [80.0, 0.0, 0.0]).unwrap();
+        assert!(out.from == 0.0 && (out.to * 80.0 - 36.0).abs() < 0.05, "{out:?}");
+        let back = contact([80.0, 0.0, 0.0], [0.0, 0.0, 0.0]).unwrap();
+        assert!(back.to == 1.0 && ((1.0 - back.from) * 80.0 - 36.0).abs() < 0.05, "{back:?}");
+        // Beside it, within its box.
+        assert_eq!(contact([46.0, 0.0, 40.0], [48.0, 0.0, 40.0]), None);
+    }
 }

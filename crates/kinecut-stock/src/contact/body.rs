@@ -23,7 +23,14 @@ enum Pieces {
     /// A convex body.
     One(Piece),
     /// The triangles of a closed mesh in the coordinates of the moves.
-    Triangles { triangles: Vec<[DVec3; 3]>, tree: Tree, inside: Box<MeshDistance>, back: Rigid },
+    /// `inside`: the sign of a distance from within, whichever way the triangles turn.
+    Triangles {
+        triangles: Vec<[DVec3; 3]>,
+        tree: Tree,
+        distance: Box<MeshDistance>,
+        inside: f64,
+        back: Rigid,
+    },
 }
 
 /// A convex piece of a body.
@@ -78,8 +85,9 @@ impl StandingBody {
                 let corner = |i: u32| place.point(mesh.vertices[i as usize]);
                 let triangles: Vec<_> = mesh.triangles.iter().map(|t| t.map(corner)).collect();
                 let tree = Tree::new(triangles.iter().map(|t| Aabb::of_points(*t)).collect());
-                let inside = Box::new(MeshDistance::new(mesh)?);
-                Pieces::Triangles { triangles, tree, inside, back: place.inverse() }
+                let distance = Box::new(MeshDistance::new(mesh)?);
+                let inside = -1f64.copysign(mesh.volume());
+                Pieces::Triangles { triangles, tree, distance, inside, back: place.inverse() }
             }
         };
         let bounds = match &pieces {
@@ -111,9 +119,9 @@ impl StandingBody {
     pub(super) fn has_inside(&self, p: DVec3) -> bool {
         match &self.pieces {
             Pieces::One(_) => false,
-            Pieces::Triangles { inside, back, .. } => {
+            Pieces::Triangles { distance, inside, back, .. } => {
                 let region = Aabb { min: p, max: p };
-                self.bounds.meets(region) && inside.signed(back.point(p)) < 0.0
+                self.bounds.meets(region) && distance.signed(back.point(p)) * inside > 0.0
             }
         }
     }

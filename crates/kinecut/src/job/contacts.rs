@@ -8,7 +8,10 @@ use crate::contact::{Meeting, MovingTool, StandingBody, ToolPart, Watched, meeti
 use crate::program::Setup;
 use crate::sweep::ToolMotion;
 use crate::tool::Tool;
-use crate::trace::{SegmentPace, Trace};
+use crate::trace::{Segment, SegmentPace, Trace};
+
+/// Moves that are watched at once: their motions take some hundred bytes each.
+const AT_ONCE: usize = 1 << 18;
 
 /// Contacts and near passes of the segments of a setup's program; none where it has no fixtures.
 pub(super) fn contacts(
@@ -26,15 +29,21 @@ pub(super) fn contacts(
         StandingBody::new(fixture.name.clone(), &fixture.solid, to_part.after(&fixture.place), fixture.near)
     });
     let bodies = bodies.collect::<Result<Vec<_>>>()?;
-    let moves = trace.segments.iter().map(|segment| {
+    let watched = |segment: &Segment| {
         let tool = job.tools.iter().position(|tool| Some(tool.number) == segment.tool).ok_or_else(|| {
             Finding::error(Code::NC_STATE, "the program moves before a tool is called")
                 .help("call a tool first")
         })?;
         Ok(Watched { motion: ToolMotion::of_segment(segment)?, tool: tool as u32 })
-    });
-    let moves = moves.collect::<Result<Vec<_>>>()?;
-    meetings(&tools, &bodies, &moves, to_part.vector(DVec3::Z), progress)
+    };
+    let mut all = Vec::new();
+    for (i, segments) in trace.segments.chunks(AT_ONCE).enumerate() {
+        let moves = segments.iter().map(watched).collect::<Result<Vec<_>>>()?;
+        let found = meetings(&tools, &bodies, &moves, to_part.vector(DVec3::Z), progress)?;
+        let before = (i * AT_ONCE) as u32;
+        all.extend(found.into_iter().map(|m| Meeting { watched: before + m.watched, ..m }));
+    }
+    Ok(all)
 }
 
 /// A tool with its shank and its holder.
@@ -50,6 +59,9 @@ fn moving(tool: &Tool) -> Result<MovingTool> {
 
 /// Difference of two distances that counts as none [mm].
 const AS_NEAR: f64 = 2e-3;
+
+/// Difference of two ways in contact that counts as none [mm].
+const AS_LONG: f64 = 0.02;
 
 /// Noun of a part of a tool.
 fn noun(part: ToolPart) -> &'static str {
@@ -83,9 +95,13 @@ pub(super) fn findings(
             continue;
         };
         let way = segment.curve.length() * (contact.to - contact.from);
-        let same = contacts.iter().rposition(|(item, m, _)| (*item, m.body) == (segment.item, meeting.body));
+        // Meetings are in the order of the moves: those of one block are the last.
+        let of_block = contacts.iter().rev().take_while(|(item, ..)| *item == segment.item).count();
+        let from = contacts.len() - of_block;
+        let same = contacts[from..].iter().position(|(_, m, _)| m.body == meeting.body).map(|i| from + i);
         match same {
-            Some(i) if way > contacts[i].2 => contacts[i] = (segment.item, meeting, way),
+            // The first of those that are as long.
+            Some(i) if way > contacts[i].2 + AS_LONG => contacts[i] = (segment.item, meeting, way),
             Some(_) => {}
             None => contacts.push((segment.item, meeting, way)),
         }

@@ -5,8 +5,7 @@
 //! `G12`, `G41` for `G13`, implied); `D0` moves the centre of the tool on them. L times, in `G91` each Z deeper. It ends in the
 //! centre, at the last depth; the word does not last.
 //!
-//! The way between the centre and a circle is not published: straight out and back are assumed, and that is a doubt. The
-//! control keeps within the circle.
+//! The way between the centre and a circle is not published: straight out and back are assumed, and that is a doubt.
 //!
 //! Source: programming manual 96-8000 of 1999, page 237; pages on Haas of others.
 

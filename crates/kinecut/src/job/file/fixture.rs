@@ -30,7 +30,7 @@ pub struct FixtureTable {
     /// A round body along Z.
     #[serde(default)]
     pub cylinder: Option<CylinderTable>,
-    /// File of a closed mesh: STL, OBJ, PLY or 3MF.
+    /// File of a closed STL mesh.
     #[serde(default)]
     pub mesh: Option<String>,
     /// A vise.

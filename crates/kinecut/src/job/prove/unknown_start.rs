@@ -1,5 +1,6 @@
 //! Moves whose start the program does not say: right programs begin with a rapid, above the part or beside it. One that ends
-//! down in the stock may have met anything on its way, and so may a move at feed that is not all above the stock.
+//! down in the stock, or below the top of a clamp, may have met anything on its way, and so may a move at feed that is not all above
+//! them.
 
 use glam::DVec3;
 
@@ -7,48 +8,62 @@ use super::Simulated;
 use crate::base::{Code, Finding, Result};
 use crate::geom::Aabb;
 use crate::job::setup_outcome::SetupOutcome;
+use crate::operations::setting::corners;
 use crate::tool::Tool;
 use crate::trace::Untraced;
 
-/// Distance of a tool from the box of the stock above which its end is clear of it [mm].
+/// Distance of a tool from the box of a body above which its end is clear of it [mm].
 const MARGIN: f64 = 1.0;
 
-/// Moves from an unknown position that end in the box of the stock: one doubt for each block.
+/// Moves from an unknown position that end in the box of the stock or of a fixture: one doubt for each block.
 pub(super) fn unknown_start(simulated: &Simulated<'_>) -> Vec<Finding> {
     let one = |(setup, done): (usize, &SetupOutcome)| -> Vec<Finding> {
-        let bounds = stock_on_table(simulated, done, setup);
-        let near = done.trace.untraced.iter().filter(|u| match u.feed {
-            true => !is_above(u, bounds),
-            false => ends_in(simulated, u, bounds),
-        });
-        near.map(|untraced| {
-            let what = if untraced.feed {
-                "a feed move starts where the position is not known: it was not cut, and may have cut anything"
-            } else {
-                "a rapid starts where the position is not known, and ends below the top of the stock"
+        let bodies = bodies_on_table(simulated, done, setup);
+        let doubt = |untraced: &Untraced| {
+            let may_meet = |bounds: Aabb| match untraced.feed {
+                true => !is_above(untraced, bounds),
+                false => ends_in(simulated, untraced, bounds),
+            };
+            let (name, _) = bodies.iter().find(|(_, bounds)| may_meet(*bounds))?;
+            let what = match (untraced.feed, name) {
+                (true, None) => {
+                    "a feed move starts where the position is not known: it was not cut, and may have cut anything"
+                        .to_owned()
+                }
+                (true, Some(name)) => {
+                    format!("a feed move starts where the position is not known, and may meet `{name}`")
+                }
+                (false, None) => {
+                    "a rapid starts where the position is not known, and ends below the top of the stock".to_owned()
+                }
+                (false, Some(name)) => {
+                    format!("a rapid starts where the position is not known, and ends below the top of `{name}`")
+                }
             };
             let finding = Finding::doubt(Code::UNKNOWN_START, what);
             let finding = finding.help("position all axes above the part first, then come down");
-            Finding { place: simulated.place(setup, untraced.item), ..finding }
-        })
-        .collect()
+            Some(Finding { place: simulated.place(setup, untraced.item), ..finding })
+        };
+        done.trace.untraced.iter().filter_map(doubt).collect()
     };
     simulated.setups.iter().enumerate().flat_map(one).collect()
 }
 
-/// The box of the stock in the table frame of a setup.
-fn stock_on_table(simulated: &Simulated<'_>, done: &SetupOutcome, setup: usize) -> Aabb {
-    let b = simulated.job.stock.bounds();
-    let placed = done
-        .program
-        .setups
-        .first()
-        .map_or_else(|| simulated.job.setups[setup].setup.part_on_table, |setup| setup.part_on_table);
-    let corner = |i: u32| {
-        let side = |bit: u32, low: f64, high: f64| if i & bit == 0 { low } else { high };
-        DVec3::new(side(1, b.min.x, b.max.x), side(2, b.min.y, b.max.y), side(4, b.min.z, b.max.z))
-    };
-    Aabb::of_points((0..8).map(|i| placed.point(corner(i))))
+/// The boxes of the stock, first, and of the fixtures with their names, in the table frame of a setup.
+fn bodies_on_table<'a>(
+    simulated: &Simulated<'a>,
+    done: &SetupOutcome,
+    setup: usize,
+) -> Vec<(Option<&'a str>, Aabb)> {
+    let own = &simulated.job.setups[setup].setup;
+    let placed = done.program.setups.first().map_or(own.part_on_table, |setup| setup.part_on_table);
+    let to_table = placed.after(&own.part_on_table.inverse());
+    let stock = Aabb::of_points(corners(&simulated.job.stock.bounds(), &placed));
+    let fixtures = own.fixtures.iter().map(|fixture| {
+        let bounds = Aabb::of_points(corners(&fixture.solid.bounds(), &to_table.after(&fixture.place)));
+        (Some(fixture.name.as_str()), bounds)
+    });
+    std::iter::once((None, stock)).chain(fixtures).collect()
 }
 
 /// Whether a move of an upright tool is above the box from its start to its end.

@@ -1,4 +1,4 @@
-//! Section of a report on clamps and fixtures: where they stand, seen from above, and what came to them.
+//! Section of a report on clamps and fixtures: their places seen from above, the moves that meet them, an answer for each body.
 
 use glam::{DVec2, DVec3};
 
@@ -11,8 +11,8 @@ use crate::program::{Fixture, Setup};
 
 /// Points of a drawn circle.
 const ROUND: u32 = 72;
-/// Most moves that meet a body and are drawn.
-const MOST_WAYS: usize = 200;
+/// Most contacts that are drawn.
+const MOST_DRAWN: usize = 200;
 
 /// The section; none where no setup has fixtures.
 pub(super) fn section(outcome: &Outcome, first_lines: &[u32]) -> Option<Section> {
@@ -71,7 +71,7 @@ impl Shown<'_> {
             ));
         }
         let mut drawn = Vec::new();
-        for meeting in self.meetings.iter().filter(|m| m.contact.is_some()).take(MOST_WAYS) {
+        for meeting in self.meetings.iter().filter(|m| m.contact.is_some()).take(MOST_DRAWN) {
             let place = self.to_work.point(meeting.place);
             let name = &self.setup.fixtures[meeting.body as usize].name;
             if !plan.points.iter().any(|(_, word)| word == name) {
@@ -94,7 +94,7 @@ impl Shown<'_> {
         plan
     }
 
-    /// What came to each body.
+    /// The answer for each body.
     fn table(&self, of: &str) -> Table {
         let rows = (0..).zip(&self.setup.fixtures).map(|(body, fixture)| {
             let heights = points(&fixture.solid, &self.place(fixture)).into_iter().map(|p| p.z);
@@ -126,11 +126,14 @@ impl Shown<'_> {
             let row = Row::new(cells);
             at.map_or(row.clone(), |line| row.at(line + self.first_line))
         });
-        Table::new(
-            format!("Tools, shanks and holders past the fixtures{of}"),
-            "Body; Z from [mm]; Z to [mm]; Answer",
-        )
-        .rows(rows)
+        let caption = format!("Tools, shanks and holders past the fixtures{of}");
+        let table = Table::new(caption, "Body; Z from [mm]; Z to [mm]; Answer").rows(rows);
+        match self.meetings.iter().filter(|m| m.contact.is_some()).count() {
+            count if count > MOST_DRAWN => {
+                table.note(format!("The first {MOST_DRAWN} of {count} contacts are drawn."))
+            }
+            _ => table,
+        }
     }
 }
 

@@ -7,8 +7,9 @@ use super::super::shape::Deviation;
 use super::super::simulate::Simulation;
 use super::Proof;
 use crate::base::at_most;
+use crate::geom::CurveKind;
 use crate::stock::certify::GAP;
-use crate::trace::{SegmentPace, travel_findings};
+use crate::trace::{Segment, SegmentPace, travel_findings};
 
 /// Claims proven of the programs.
 pub(in crate::job) fn proven(
@@ -74,10 +75,24 @@ pub(in crate::job) fn proven(
                 [one] => format!("`{}`", one.name),
                 all => format!("the {} bodies of the fixtures", all.len()),
             };
+            let curved = |s: &&Segment| {
+                !matches!(s.curve.kind(), CurveKind::Line(_) | CurveKind::Arc(_) | CurveKind::Involute { .. })
+            };
+            let curves = match segments.iter().filter(curved).count() {
+                0 => String::new(),
+                n => format!("; {n} moves along spirals and cubics with a sampled bound on their curvature"),
+            };
             let holders = if (0..segments.len()).any(held) { ", shank or given holder" } else { " or shank" };
             add(
                 format!("no tool{holders} meets {bodies} in `{file}`"),
-                "motion swept, not sampled, at rapid both ways; contacts within 0.01 mm count".to_owned(),
+                format!(
+                    "motion swept, not sampled, {ways}; contacts within 0.01 mm count{curves}",
+                    ways = if segments.iter().any(|s| s.alternative) {
+                        "rapids straight and axis by axis"
+                    } else {
+                        "rapids straight"
+                    },
+                ),
             );
         }
         if let Some(machine) = &job.machine

@@ -99,9 +99,29 @@ fn what_keeps_away_is_proven_and_what_comes_near_is_a_warning() {
     assert!(near.verdict.is_safe());
     assert!(found(&beside("near = 0", 49.2), Code::FIXTURE_NEAR).is_empty());
     assert_eq!(found(&beside("near = 2", 50.5), Code::FIXTURE_NEAR).len(), 1);
-    // A touch is a contact, a hundredth of a millimetre of room is none.
+    // Bodies that touch are in contact; with a hundredth of a millimetre between them they are not.
     assert_eq!(found(&beside("near = 0", 49.0), Code::FIXTURE_MET).len(), 2);
     assert!(found(&beside("near = 0", 49.011), Code::FIXTURE_MET).is_empty());
+}
+
+#[test]
+fn a_start_that_is_not_known_beside_a_clamp_is_a_doubt() {
+    // The first moves go to X 15, Y 20 at a height that nobody knows, and to Z 20 from there: above the plate.
+    let at = |x: f64| {
+        format!(
+            "[[fixture]]\nname = \"post\"\ncylinder = {{ base = [{x}, 30, -9], diameter = 10, height = 40 }}\nnear = 0"
+        )
+    };
+    let beside = outcome(&at(15.0));
+    let doubts = found(&beside, Code::UNKNOWN_START);
+    let doubt = doubts.iter().find(|f| f.severity == Severity::Doubt).expect("a doubt");
+    assert!(
+        doubt.message.contains("ends below the top of `post`") && line(doubt).contains("Z20."),
+        "{doubt}"
+    );
+    let away = outcome(&at(120.0));
+    assert!(found(&away, Code::UNKNOWN_START).iter().all(|f| f.severity != Severity::Doubt));
+    assert!(away.verdict.is_safe());
 }
 
 #[test]
@@ -172,4 +192,21 @@ fn wrong_tables_are_named_with_their_key() {
             assert_eq!(found, key, "{shown}");
         }
     }
+}
+
+/// Sentences of the README of the example.
+#[test]
+fn the_example_finds_what_its_readme_says() {
+    let met = |replace: &[(&str, &str)]| -> Vec<String> {
+        let done = super::examples::run("17_vise_and_clamp", replace);
+        let found = found(&done, Code::FIXTURE_MET);
+        found.iter().map(|f| format!("{} {}", f.place.as_ref().unwrap().line, f.message)).collect()
+    };
+    assert_eq!(met(&[]), ["20 the tool meets `left clamp (strap)` at rapid"]);
+    let bed = met(&[("parallels = 8", "parallels = 0")]);
+    for line in [18, 19, 20] {
+        assert!(bed.contains(&format!("{line} the tool meets `vise (bed)`")), "{bed:?}");
+    }
+    let groove = met(&[("at = [67, 36, 0]", "at = [67, 12, 0]")]);
+    assert_eq!(groove[0], "11 the tool meets `left clamp (strap)`");
 }
