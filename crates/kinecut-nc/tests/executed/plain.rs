@@ -95,6 +95,9 @@ fn state() -> impl Strategy<Value = String> {
         "G15",
         "G41 D1 X3.",
         "G42 D2 X5. F9.",
+        "G41 D1",
+        "G1 F50. S9 M3\nG42 D2",
+        "G41 D1 G1 X30. F50.\nX40. Y9.\nG40",
         "G2 X1. Y1. R9.",
         "G3 I2.",
         "G81 X1. Y2. Z-5. R1. F50.",
@@ -128,6 +131,22 @@ fn state() -> impl Strategy<Value = String> {
         "M72",
     ];
     prop::sample::select(lines.to_vec()).prop_map(str::to_owned)
+}
+
+/// The first move after `G40` moves in the plane: a plain block that does not is refused as any other.
+#[test]
+fn the_end_of_a_compensation_is_no_plain_block() {
+    for control in [Control::LinuxCnc, Control::Fanuc] {
+        let ends = |last: &str| {
+            format!(
+                "G21 G90 G54 G94 G64 S500 M3\nT1 M6\nG0 X0. Y0. Z0. F100.\nG41 D1 G1 X30.\nX40. Y9.\nG40\n{last}\nM30\n"
+            )
+        };
+        let wrong = meaning(&ends("Z3."), control);
+        assert!(wrong.1.iter().any(|f| f.contains("doesnotmoveintheplane")), "{control} {:?}", wrong.1);
+        assert_eq!(wrong, meaning(&apart(&ends("Z3.")), control));
+        assert!(meaning(&ends("X50. Y9."), control).1.iter().all(|f| !f.starts_with("Error")));
+    }
 }
 
 proptest! {
