@@ -1,116 +1,143 @@
-//! Bodies that stand beside the workpiece: fixtures and clamps.
+//! Bodies: clamps, a vise, parts of a tool, of a machine.
 
 use glam::DVec3;
 
 use super::gap::Convex;
+use super::motion::Ball;
+use super::piece::{Between, Piece, Placed};
 use super::tree::Tree;
 use crate::base::Result;
 use crate::geom::{Aabb, MeshDistance, Rigid, Solid};
 
-/// A body that stands while the tool moves.
+/// A body that stands or moves, made of convex pieces.
 #[derive(Clone, Debug)]
-pub struct StandingBody {
+pub struct Body {
     /// Name in words.
     pub name: String,
-    /// The least distance that the tool is to keep [mm]; nearer is a warning, zero asks for none.
+    /// The least distance that others are to keep [mm]; nearer is a warning, zero asks for none.
     pub near: f64,
     pub(super) bounds: Aabb,
+    /// A ball that holds it.
+    pub(super) ball: Ball,
+    /// A turn about its Z changes nothing.
+    pub(super) round: bool,
     pieces: Pieces,
 }
 
 #[derive(Clone, Debug)]
 enum Pieces {
-    /// A convex body.
-    One(Piece),
-    /// The triangles of a closed mesh in the coordinates of the moves.
+    /// Convex pieces, few.
+    Convex(Vec<Piece>),
+    /// The triangles of a closed mesh.
     /// `inside`: the sign of a distance from within, whichever way the triangles turn.
     Triangles {
-        triangles: Vec<[DVec3; 3]>,
+        triangles: Vec<Piece>,
         tree: Tree,
         distance: Box<MeshDistance>,
         inside: f64,
+        /// Into the coordinates of the mesh.
         back: Rigid,
     },
 }
 
-/// A convex piece of a body.
-#[derive(Clone, Copy, Debug)]
-pub(super) enum Piece {
-    /// A box in coordinates of its own.
-    Box { place: Rigid, bounds: Aabb },
-    /// A cylinder along the Z of coordinates of its own, from the height 0.
-    Drum { place: Rigid, radius: f64, height: f64 },
-    /// A triangle.
-    Triangle([DVec3; 3]),
-}
-
-impl Convex for Piece {
-    fn farthest(&self, d: DVec3) -> DVec3 {
-        match self {
-            Piece::Box { place, bounds } => {
-                let own = place.rotation.transpose() * d;
-                place.point(DVec3::select(own.cmpge(DVec3::ZERO), bounds.max, bounds.min))
-            }
-            Piece::Drum { place, radius, height } => {
-                let own = place.rotation.transpose() * d;
-                let rim = own.truncate().normalize_or_zero() * *radius;
-                place.point(rim.extend(if own.z > 0.0 { *height } else { 0.0 }))
-            }
-            Piece::Triangle(corners) => {
-                let mut best = corners[0];
-                for corner in &corners[1..] {
-                    if corner.dot(d) > best.dot(d) {
-                        best = *corner;
-                    }
-                }
-                best
-            }
-        }
-    }
-}
-
-impl StandingBody {
-    /// A solid at a place in the coordinates of the moves, with the distance that the tool is to keep [mm].
+impl Body {
+    /// A solid at a place, with the distance that others are to keep [mm].
     ///
     /// # Errors
     /// `KC0602` for a mesh that is not closed.
-    pub fn new(name: impl Into<String>, solid: &Solid, place: Rigid, near: f64) -> Result<StandingBody> {
+    pub fn new(name: impl Into<String>, solid: &Solid, place: Rigid, near: f64) -> Result<Body> {
         let pieces = match solid {
-            Solid::Box(bounds) => Pieces::One(Piece::Box { place, bounds: *bounds }),
+            Solid::Box(bounds) => Pieces::Convex(vec![Piece::Box { place, bounds: *bounds }]),
             Solid::Cylinder { base, radius, height } => {
                 let place = place.after(&Rigid::from_translation(*base));
-                Pieces::One(Piece::Drum { place, radius: *radius, height: *height })
+                Pieces::Convex(vec![Piece::Drum { place, radius: *radius, height: *height }])
             }
             Solid::Mesh(mesh) => {
                 let corner = |i: u32| place.point(mesh.vertices[i as usize]);
-                let triangles: Vec<_> = mesh.triangles.iter().map(|t| t.map(corner)).collect();
-                let tree = Tree::new(triangles.iter().map(|t| Aabb::of_points(*t)).collect());
+                let triangles: Vec<_> =
+                    mesh.triangles.iter().map(|t| Piece::Triangle(t.map(corner))).collect();
+                let boxes = triangles.iter().map(|t| t.bounds_at(&Rigid::IDENTITY)).collect();
                 let distance = Box::new(MeshDistance::new(mesh)?);
                 let inside = -1f64.copysign(mesh.volume());
-                Pieces::Triangles { triangles, tree, distance, inside, back: place.inverse() }
+                Pieces::Triangles {
+                    triangles,
+                    tree: Tree::new(boxes),
+                    distance,
+                    inside,
+                    back: place.inverse(),
+                }
             }
         };
-        let bounds = match &pieces {
-            Pieces::One(piece) => {
-                let reach = |axis: DVec3| [piece.farthest(-axis).dot(axis), piece.farthest(axis).dot(axis)];
-                let [x, y, z] = [DVec3::X, DVec3::Y, DVec3::Z].map(reach);
-                Aabb { min: [x[0], y[0], z[0]].into(), max: [x[1], y[1], z[1]].into() }
-            }
-            Pieces::Triangles { triangles, .. } => Aabb::of_points(triangles.iter().flatten().copied()),
-        };
-        Ok(StandingBody { name: name.into(), near, bounds, pieces })
+        Ok(Body::of(name.into(), near, pieces, false))
     }
 
-    /// Calls a function with each piece whose box meets another, until it says that it is enough.
-    pub(super) fn pieces_in(&self, region: Aabb, mut each: impl FnMut(&Piece) -> bool) {
+    /// A body of convex pieces.
+    pub(super) fn convex(name: String, pieces: Vec<Piece>, round: bool) -> Body {
+        Body::of(name, 0.0, Pieces::Convex(pieces), round)
+    }
+
+    fn of(name: String, near: f64, pieces: Pieces, round: bool) -> Body {
+        let (Pieces::Convex(all) | Pieces::Triangles { triangles: all, .. }) = &pieces;
+        let whole = |sum: Aabb, piece: &Piece| sum.union(piece.bounds_at(&Rigid::IDENTITY));
+        let bounds = all.iter().fold(Aabb::EMPTY, whole);
+        let ball = Ball { centre: 0.5 * (bounds.min + bounds.max), radius: 0.5 * bounds.size().length() };
+        Body { name, near, bounds, ball, round, pieces }
+    }
+
+    /// A box that holds it at a place.
+    pub(super) fn bounds_at(&self, pose: &Rigid) -> Aabb {
         match &self.pieces {
-            Pieces::One(piece) => {
-                if self.bounds.meets(region) {
-                    each(piece);
+            Pieces::Convex(all) => all.iter().fold(Aabb::EMPTY, |sum, p| sum.union(p.bounds_at(pose))),
+            Pieces::Triangles { .. } => moved_box(self.bounds, pose),
+        }
+    }
+
+    /// Calls a function with each of its pieces that may meet another body between two places; `margin`: its pieces may be that far
+    /// from the hull of the places. The function has a box about the piece.
+    pub(super) fn pieces_between(
+        &self,
+        ends: &[Rigid; 2],
+        margin: f64,
+        other: &Body,
+        mut each: impl FnMut(&Piece, Aabb),
+    ) {
+        let region = |of: &dyn Fn(&Rigid) -> Aabb| of(&ends[0]).union(of(&ends[1])).grown(margin);
+        match &self.pieces {
+            Pieces::Convex(all) => {
+                for piece in all {
+                    let region = region(&|pose| piece.bounds_at(pose));
+                    if region.meets(other.bounds) {
+                        each(piece, region);
+                    }
                 }
             }
             Pieces::Triangles { triangles, tree, .. } => {
-                tree.each(region, |i| each(&Piece::Triangle(triangles[i])));
+                let near = |own: Aabb| region(&|pose| moved_box(own, pose)).meets(other.bounds);
+                tree.each_of(near, |i| {
+                    let piece = &triangles[i];
+                    each(piece, region(&|pose| piece.bounds_at(pose)));
+                    false
+                });
+            }
+        }
+    }
+
+    /// Calls a function with each piece whose box meets another.
+    pub(super) fn pieces_in(&self, region: Aabb, mut each: impl FnMut(&Piece)) {
+        match &self.pieces {
+            Pieces::Convex(all) => {
+                if self.bounds.meets(region) {
+                    all.iter().for_each(each);
+                }
+            }
+            Pieces::Triangles { triangles, tree, .. } => {
+                tree.each_of(
+                    |own| own.meets(region),
+                    |i| {
+                        each(&triangles[i]);
+                        false
+                    },
+                );
             }
         }
     }
@@ -118,11 +145,48 @@ impl StandingBody {
     /// Whether a point is within a body of triangles; of others no point has to be asked about.
     pub(super) fn has_inside(&self, p: DVec3) -> bool {
         match &self.pieces {
-            Pieces::One(_) => false,
+            Pieces::Convex(_) => false,
             Pieces::Triangles { distance, inside, back, .. } => {
                 let region = Aabb { min: p, max: p };
                 self.bounds.meets(region) && distance.signed(back.point(p)) * inside > 0.0
             }
         }
     }
+
+    /// A point of it.
+    pub(super) fn a_point(&self) -> DVec3 {
+        match &self.pieces {
+            Pieces::Convex(all) | Pieces::Triangles { triangles: all, .. } => {
+                all.first().map_or(self.ball.centre, |piece| piece.farthest(DVec3::NEG_Z))
+            }
+        }
+    }
+
+    /// Its lowest coordinate along a direction between two places [mm].
+    pub(super) fn lowest(&self, ends: &[Rigid; 2], up: DVec3) -> f64 {
+        match &self.pieces {
+            Pieces::Convex(all) => {
+                let low = |piece: &Piece| {
+                    let placed = ends.map(|pose| Placed { piece, pose });
+                    Between(placed).farthest(-up).dot(up)
+                };
+                all.iter().map(low).fold(f64::INFINITY, f64::min)
+            }
+            Pieces::Triangles { .. } => {
+                let low = |pose: &Rigid| {
+                    let bounds = moved_box(self.bounds, pose);
+                    DVec3::select(up.cmpge(DVec3::ZERO), bounds.min, bounds.max).dot(up)
+                };
+                low(&ends[0]).min(low(&ends[1]))
+            }
+        }
+    }
+}
+
+/// A box that holds a box that has moved.
+fn moved_box(bounds: Aabb, pose: &Rigid) -> Aabb {
+    let (centre, half) = (pose.point(0.5 * (bounds.min + bounds.max)), 0.5 * bounds.size());
+    let r = pose.rotation;
+    let reach = r.x_axis.abs() * half.x + r.y_axis.abs() * half.y + r.z_axis.abs() * half.z;
+    Aabb { min: centre - reach, max: centre + reach }
 }

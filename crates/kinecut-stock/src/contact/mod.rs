@@ -8,12 +8,12 @@
 //! # use kinecut_stock as kinecut;
 //! use glam::DVec3;
 //! use kinecut::base::Silent;
-//! use kinecut::contact::{Meeting, MovingTool, StandingBody, ToolPart, Watched, meetings};
+//! use kinecut::contact::{Body, Meeting, MovingTool, ToolPart, Watched, meetings};
 //! use kinecut::geom::{Aabb, Line, Profile, Rigid, Solid};
 //! use kinecut::sweep::ToolMotion;
 //! // A cutter of 10 mm runs along X, 2 mm above the tip's height of a clamp that begins at X 40.
 //! let clamp = Aabb { min: DVec3::new(40.0, -20.0, -10.0), max: DVec3::new(60.0, 20.0, 2.0) };
-//! let clamp = StandingBody::new("clamp", &Solid::Box(clamp), Rigid::IDENTITY, 0.0).unwrap();
+//! let clamp = Body::new("clamp", &Solid::Box(clamp), Rigid::IDENTITY, 0.0).unwrap();
 //! let cutter = Profile::cylinder(10.0, 30.0).unwrap();
 //! let tool = MovingTool::new([(ToolPart::Cutter, &cutter, 0.0)]);
 //! let line = Line { start: DVec3::ZERO, end: DVec3::new(100.0, 0.0, 0.0) };
@@ -28,11 +28,17 @@
 
 mod body;
 mod gap;
+mod links;
 mod meeting;
+mod motion;
+mod pair;
+mod piece;
+mod round;
 mod search;
 mod tool;
 mod tree;
 
-pub use body::StandingBody;
+pub use body::Body;
+pub use links::{LinkBody, MachineMeeting, MachineMove, MachineParts, Met, Party, ToolInSpindle};
 pub use meeting::{Contact, Meeting, Watched, meetings};
 pub use tool::{MovingTool, ToolPart};

@@ -1,93 +1,95 @@
-//! The time at which a part of a tool first comes to a piece of a body, the time at which it last leaves it, and how near it comes.
+//! The time at which a piece of a body first comes to a piece of another, the time at which it last leaves it, and how near it comes.
 //!
-//! In a stretch of a move the part keeps within a distance of the hull of its places at the two ends. The distance of that hull
-//! from the piece bounds that of the part: a stretch in which the part stays away is left out, another one is halved.
+//! In a stretch of a move a piece keeps within a distance of the hull of its places at the two ends. The distance of that hull
+//! from the other piece bounds that of the piece itself: a stretch in which it stays away is left out, another one is halved.
 
 use glam::DVec3;
 
-use super::body::Piece;
 use super::gap::{Gap, gap};
-use super::tool::{Between, Placed, Round};
-use crate::geom::Rigid;
-use crate::sweep::ToolMotion;
+use super::motion::{Ball, Moment, Motion};
+use super::piece::{Between, Piece, Placed};
 
-/// Travel [mm] of a part in a stretch that is not halved again: the accuracy of the times of a contact.
+/// Travel [mm] of a piece in a stretch that is not halved again: the accuracy of the times of a contact.
 const LEAST_TRAVEL: f64 = 0.004;
 /// A stretch of time that is not halved again, whatever it travels.
 const LEAST_TIME: f64 = 1e-12;
-/// Distance [mm] of a part from the hull of its places up to which a stretch is not halved for a distance.
+/// Distance [mm] of a piece from the hull of its places up to which a stretch is not halved for a distance.
 const STRAIGHT: f64 = 1e-3;
 
-/// A moment of a move with the pose of the tool.
+/// A piece that moves past another.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Moment {
+pub(super) struct Search<'a, M> {
+    pub(super) motion: &'a M,
+    pub(super) moving: &'a Piece,
+    /// A ball that holds the moving body.
+    pub(super) ball: Ball,
+    /// A turn of the moving body about its Z changes nothing.
+    pub(super) round: bool,
+    pub(super) standing: &'a Piece,
+}
+
+/// The least distance of two pieces.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Nearest {
+    /// The moment.
     pub(super) t: f64,
-    pub(super) pose: Rigid,
+    /// The distance [mm].
+    pub(super) distance: f64,
+    /// The place on the standing piece.
+    pub(super) place: DVec3,
 }
 
-/// A part that moves past a piece.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Search<'a> {
-    pub(super) motion: &'a ToolMotion,
-    pub(super) round: &'a Round,
-    /// Farthest point of the tool from its tip [mm].
-    pub(super) reach: f64,
-    pub(super) piece: &'a Piece,
-    /// The piece is lower by this [mm], in the coordinates of the moves.
-    pub(super) lift: DVec3,
-}
-
-impl Search<'_> {
-    fn moment(&self, t: f64) -> Moment {
-        moment(self.motion, self.lift, t)
-    }
-
-    /// Distance of the piece from the hull of two places, and the room of the part around that hull.
+impl<M: Motion> Search<'_, M> {
+    /// Distance of the standing piece from the hull of two places, and the room of the moving one around that hull.
     fn gap(&self, [from, to]: &[Moment; 2], near: f64, far: f64) -> (Gap, f64) {
-        let room = self.motion.chord_error(from.t, to.t, self.reach);
-        let placed = |moment: &Moment| Placed { round: self.round, pose: moment.pose };
-        (gap(&Between([placed(from), placed(to)]), self.piece, near, far + room), room)
+        let room = self.motion.room(from.t, to.t, &self.ball);
+        let placed = |moment: &Moment| Placed { piece: self.moving, pose: moment.pose };
+        (gap(&Between([placed(from), placed(to)]), self.standing, near, far + room), room)
     }
 
-    /// The first time in a stretch at which the part is no farther than `touch` from the piece, and the place; the last one
-    /// where `back`. A part that stays farther away by a hundredth of a millimetre is not found.
+    /// The first time in a stretch at which the piece is no farther than `touch` from the other, and the place; the last one
+    /// where `back`. A piece that stays farther away by a hundredth of a millimetre is not found.
     pub(super) fn touch(&self, stretch: [Moment; 2], touch: f64, back: bool) -> Option<(f64, DVec3)> {
         let (gap, room) = self.gap(&stretch, 0.0, touch);
         if gap.least > touch + room {
             return None;
         }
         let [from, to] = stretch;
-        let turned = (to.pose.rotation.z_axis - from.pose.rotation.z_axis).length();
-        let travel =
-            (to.pose.translation - from.pose.translation).length() + self.reach * turned + 2.0 * room;
-        if travel <= LEAST_TRAVEL || to.t - from.t <= LEAST_TIME {
+        if self.travel(&from, &to) + 2.0 * room <= LEAST_TRAVEL || to.t - from.t <= LEAST_TIME {
             return Some((if back { to.t } else { from.t }, gap.place));
         }
-        let middle = self.moment(0.5 * (from.t + to.t));
+        let middle = Moment::of(self.motion, 0.5 * (from.t + to.t));
         let (sooner, later) = ([from, middle], [middle, to]);
         let (one, other) = if back { (later, sooner) } else { (sooner, later) };
         self.touch(one, touch, back).or_else(|| self.touch(other, touch, back))
     }
 
-    /// The least distance in a stretch where it is less than `best`, and the place on the piece.
-    pub(super) fn nearest(&self, stretch: [Moment; 2], best: f64) -> Option<(f64, DVec3)> {
+    /// A bound on the distance of the places of each point of the moving body at two moments [mm].
+    fn travel(&self, from: &Moment, to: &Moment) -> f64 {
+        let (a, b) = (&from.pose, &to.pose);
+        let turned = match self.round {
+            true => (b.rotation.z_axis - a.rotation.z_axis).length(),
+            false => {
+                let by = b.rotation - a.rotation;
+                [by.x_axis, by.y_axis, by.z_axis].map(DVec3::length_squared).iter().sum::<f64>().sqrt()
+            }
+        };
+        (b.point(self.ball.centre) - a.point(self.ball.centre)).length() + self.ball.radius * turned
+    }
+
+    /// The least distance in a stretch where it is less than `best`, and the place on the standing piece.
+    pub(super) fn nearest(&self, stretch: [Moment; 2], best: f64) -> Option<Nearest> {
         let (gap, room) = self.gap(&stretch, 0.0, best);
         if gap.least - room >= best - STRAIGHT {
             return None;
         }
         let [from, to] = stretch;
         if room <= STRAIGHT || to.t - from.t <= LEAST_TIME {
-            return Some((gap.most, gap.place));
+            return Some(Nearest { t: from.t, distance: gap.most, place: gap.place });
         }
-        let middle = self.moment(0.5 * (from.t + to.t));
+        let middle = Moment::of(self.motion, 0.5 * (from.t + to.t));
         let first = self.nearest([from, middle], best);
-        let best = first.map_or(best, |found| found.0);
+        let best = first.map_or(best, |found| found.distance);
         self.nearest([middle, to], best).or(first)
     }
-}
-
-/// A moment of a move of a tool that is lifted.
-pub(super) fn moment(motion: &ToolMotion, lift: DVec3, t: f64) -> Moment {
-    let pose = motion.pose(t);
-    Moment { t, pose: Rigid { translation: pose.translation + lift, ..pose } }
 }

@@ -51,13 +51,14 @@ impl Tree {
         self.split(from + middle, to);
     }
 
-    /// Calls a function with the number of each box that meets another, until it says that it is enough.
-    pub(super) fn each(&self, region: Aabb, mut each: impl FnMut(usize) -> bool) {
+    /// Calls a function with the number of each box of which something is true, until it says that it is enough. It has to be true
+    /// of a box that holds one of which it is.
+    pub(super) fn each_of(&self, is: impl Fn(Aabb) -> bool, mut each: impl FnMut(usize) -> bool) {
         let mut node = 0;
         // The second child of a node is behind all of the first: what is passed over is skipped in one step.
         let mut open = Vec::new();
         while let Some(n) = self.nodes.get(node) {
-            let meets = n.bounds.meets(region);
+            let meets = is(n.bounds);
             if meets && n.count == 0 {
                 open.push(n.at as usize);
                 node += 1;
@@ -65,7 +66,7 @@ impl Tree {
             }
             if meets {
                 for (number, bounds) in &self.boxes[n.at as usize..][..n.count as usize] {
-                    if bounds.meets(region) && each(*number as usize) {
+                    if is(*bounds) && each(*number as usize) {
                         return;
                     }
                 }
@@ -98,12 +99,12 @@ mod tests {
             let tree = Tree::new(all.clone());
             for region in region {
                 let mut found = Vec::new();
-                tree.each(region, |i| { found.push(i); false });
+                tree.each_of(|b| b.meets(region), |i| { found.push(i); false });
                 found.sort_unstable();
                 let expected: Vec<usize> = (0..all.len()).filter(|i| all[*i].meets(region)).collect();
                 prop_assert_eq!(&found, &expected);
                 let mut count = 0;
-                tree.each(region, |_| { count += 1; true });
+                tree.each_of(|b| b.meets(region), |_| { count += 1; true });
                 prop_assert_eq!(count, expected.len().min(1));
             }
         }

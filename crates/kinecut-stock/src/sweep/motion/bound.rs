@@ -48,7 +48,7 @@ impl ToolMotion {
                     jacobian.frame.translation,
                     reach,
                     0.5 * (to - from),
-                    |i| q1[i] - q0[i],
+                    |i| (q1[i] - q0[i], 0.0),
                 )
             }
             Kind::TipAndJoints { curve, chain, from: q0, to: q1, .. } => {
@@ -92,12 +92,12 @@ impl ToolMotion {
 }
 
 /// True for a curve whose largest curvature is not known in closed form.
-fn is_sampled(curve: &Curve) -> bool {
+pub(crate) fn is_sampled(curve: &Curve) -> bool {
     !matches!(curve.kind(), CurveKind::Line(_) | CurveKind::Arc(_) | CurveKind::Involute { .. })
 }
 
 /// Largest second derivative of the place on a curve run at a constant speed.
-fn curve_acceleration(curve: &Curve, from: f64, to: f64) -> f64 {
+pub(crate) fn curve_acceleration(curve: &Curve, from: f64, to: f64) -> f64 {
     let length = curve.length();
     let at = |t: f64| curve.at(t * length).d2.length();
     let curvature = match curve.kind() {
@@ -125,27 +125,30 @@ fn turning_acceleration(chain: &Kinematics, rate: impl Fn(usize) -> f64) -> f64 
     carried + sum * sum
 }
 
-/// A bound on the acceleration of all points in a ball, carried by the screws of a chain for at most `half` to both sides.
+/// A bound on the acceleration of all points in a ball, carried by the screws of a chain for at most `half` to both sides;
+/// `rate` bounds the speed and the acceleration of a joint.
 ///
 /// From the tool outwards: after each joint the ball holds every place of the points, with bounds on speed and acceleration.
-fn chain_acceleration(
+pub(crate) fn chain_acceleration(
     twists: &[Twist],
     centre: DVec3,
     radius: f64,
     half: f64,
-    rate: impl Fn(usize) -> f64,
+    rate: impl Fn(usize) -> (f64, f64),
 ) -> f64 {
     let (mut room, mut speed, mut acceleration) = (radius, 0.0, 0.0);
     for (i, twist) in twists.iter().enumerate().rev() {
-        let w = rate(i).abs();
+        let (w, bend) = rate(i);
+        let w = w.abs();
         if twist.turn == DVec3::ZERO {
+            acceleration += bend * twist.shift.length();
             speed += w * twist.shift.length();
             room += w * twist.shift.length() * half;
             continue;
         }
         // Velocity of the centre by the joint is its distance from the axis; no joint shifts along its axis.
         let arm = twist.velocity(centre).length() + room;
-        acceleration += 2.0 * w * speed + w * w * arm;
+        acceleration += 2.0 * w * speed + w * w * arm + bend * arm;
         speed += w * arm;
         room += w * arm * half;
     }

@@ -1,139 +1,13 @@
-//! Contacts of a moving tool with standing bodies, against distances by another library over dense time.
-//!
-//! The judge knows the tool as a ball and cylinders, the bodies as a cuboid, a cylinder and a mesh, and goes through a move in steps that
-//! are no longer than the distance at that moment: it passes over no contact.
+//! Tools past standing bodies.
 
-use std::f64::consts::TAU;
-
-use glam::{DMat3, DQuat, DVec3};
+use glam::DVec3;
 use kinecut_stock::base::Silent;
-use kinecut_stock::contact::{MovingTool, StandingBody, ToolPart, Watched, meetings};
-use kinecut_stock::geom::{Aabb, Arc, Line, Mesh, Profile, Rigid, Solid};
+use kinecut_stock::contact::{Body, MovingTool, ToolPart, Watched, meetings};
+use kinecut_stock::geom::{Arc, Line, Profile, Rigid, Solid};
 use kinecut_stock::machine::kinematics::Twist;
 use kinecut_stock::sweep::ToolMotion;
-use parry3d_f64::math::{Pose, Rotation, Vector};
-use parry3d_f64::query::distance;
-use parry3d_f64::shape::{Ball, Cuboid, Cylinder, Shape, TriMesh};
 
-/// Random numbers by a formula, the same in every run.
-struct Random(u64);
-
-impl Random {
-    fn next(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-        ((z ^ (z >> 31)) >> 11) as f64 / (1u64 << 53) as f64
-    }
-
-    fn between(&mut self, low: f64, high: f64) -> f64 {
-        low + (high - low) * self.next()
-    }
-
-    fn point(&mut self, by: f64) -> DVec3 {
-        DVec3::new(self.between(-by, by), self.between(-by, by), self.between(-by, by))
-    }
-
-    fn turn(&mut self) -> DMat3 {
-        DMat3::from_quat(DQuat::from_scaled_axis(self.point(2.0)))
-    }
-}
-
-fn pose(rigid: &Rigid) -> Pose {
-    let q = DQuat::from_mat3(&rigid.rotation);
-    let t = rigid.translation;
-    Pose::from_parts(Vector::new(t.x, t.y, t.z), Rotation::from_xyzw(q.x, q.y, q.z, q.w))
-}
-
-/// A shape of the judge with its place on what carries it.
-struct Shown {
-    shape: Box<dyn Shape>,
-    place: Rigid,
-}
-
-impl Shown {
-    /// A cylinder about Z between two heights; the judge has them along Y.
-    fn cylinder(radius: f64, low: f64, high: f64) -> Shown {
-        let upright = DMat3::from_rotation_x(TAU / 4.0);
-        let place = Rigid { rotation: upright, translation: DVec3::Z * 0.5 * (low + high) };
-        Shown { shape: Box::new(Cylinder::new(0.5 * (high - low), radius)), place }
-    }
-
-    fn ball(radius: f64) -> Shown {
-        Shown { shape: Box::new(Ball::new(radius)), place: Rigid::from_translation(DVec3::Z * radius) }
-    }
-}
-
-/// A tool as both know it.
-fn tool(random: &mut Random) -> (MovingTool, Vec<Shown>, f64) {
-    let (r, edges) = (random.between(1.0, 12.0), random.between(15.0, 40.0));
-    let (shank, holder) = (random.between(0.5, 0.95) * r, random.between(15.0, 30.0));
-    let (stickout, top) = (edges + random.between(5.0, 30.0), edges + 80.0);
-    let ball = random.next() < 0.5;
-    let cutter = if ball { Profile::bull_nose(2.0 * r, r, edges) } else { Profile::cylinder(2.0 * r, edges) };
-    let neck = Profile::cylinder(2.0 * shank, stickout - edges);
-    let head = Profile::cylinder(2.0 * holder, top - stickout);
-    let (cutter, neck, head) = (
-        cutter.expect("a case of these numbers"),
-        neck.expect("a case of these numbers"),
-        head.expect("a case of these numbers"),
-    );
-    let profiles = [
-        (ToolPart::Cutter, &cutter, 0.0),
-        (ToolPart::Shank, &neck, edges),
-        (ToolPart::Holder, &head, stickout),
-    ];
-    let mut shown = vec![
-        Shown::cylinder(r, if ball { r } else { 0.0 }, edges),
-        Shown::cylinder(shank, edges, stickout),
-        Shown::cylinder(holder, stickout, top),
-    ];
-    if ball {
-        shown.push(Shown::ball(r));
-    }
-    (MovingTool::new(profiles), shown, top.hypot(holder))
-}
-
-/// A closed mesh about a box: two corners of its top are drawn out to one place.
-fn wedge(size: DVec3) -> Mesh {
-    let corner = |x: f64, y: f64, z: f64| DVec3::new(x * size.x, y * size.y, z * size.z);
-    let vertices = vec![
-        corner(-1.0, -1.0, -1.0),
-        corner(1.0, -1.0, -1.0),
-        corner(1.0, 1.0, -1.0),
-        corner(-1.0, 1.0, -1.0),
-        corner(-0.4, 0.0, 1.0),
-        corner(0.4, 0.0, 1.0),
-    ];
-    let triangles =
-        vec![[0, 2, 1], [0, 3, 2], [0, 1, 5], [0, 5, 4], [1, 2, 5], [2, 3, 4], [2, 4, 5], [3, 0, 4]];
-    Mesh { vertices, triangles }
-}
-
-/// A body as both know it, about a place.
-fn body(random: &mut Random, at: DVec3) -> (Solid, Rigid, Shown) {
-    let place = Rigid { rotation: random.turn(), translation: at };
-    let size = DVec3::new(random.between(3.0, 40.0), random.between(3.0, 40.0), random.between(3.0, 40.0));
-    match (random.next() * 3.0) as u32 {
-        0 => {
-            let solid = Solid::Box(Aabb { min: -size, max: size });
-            let shape = Cuboid::new(Vector::new(size.x, size.y, size.z));
-            (solid, place, Shown { shape: Box::new(shape), place })
-        }
-        1 => {
-            let solid = Solid::Cylinder { base: DVec3::ZERO, radius: size.x, height: size.z };
-            let own = Shown::cylinder(size.x, 0.0, size.z);
-            (solid, place, Shown { place: place.after(&own.place), ..own })
-        }
-        _ => {
-            let mesh = wedge(size);
-            let corners = mesh.vertices.iter().map(|p| Vector::new(p.x, p.y, p.z)).collect();
-            let shape = TriMesh::new(corners, mesh.triangles.clone()).expect("a case of these numbers");
-            (Solid::Mesh(mesh), place, Shown { shape: Box::new(shape), place })
-        }
-    }
-}
+use crate::judge::{Random, Shown, apart, body, meets, tool, wedge};
 
 /// A move of three axes, of five, or of a screw.
 fn motion(random: &mut Random) -> ToolMotion {
@@ -175,28 +49,13 @@ struct Judge<'a> {
 impl Judge<'_> {
     fn distance(&self, t: f64) -> f64 {
         let at = self.motion.pose(t);
-        let there = pose(&self.body.place);
-        let one = |shown: &Shown| {
-            let here = pose(&at.after(&shown.place));
-            distance(&here, &*shown.shape, &there, &*self.body.shape)
-                .expect("a case of these numbers")
-                .distance
-        };
+        let one = |shown: &Shown| apart((shown, &at), (self.body, &Rigid::IDENTITY));
         self.tool.iter().map(one).fold(f64::INFINITY, f64::min)
     }
 
     /// The first time from `t` on, in a direction, at which the distance is `touch` or less, and the least distance up to there.
-    fn meets(&self, mut t: f64, direction: f64, touch: f64) -> (Option<f64>, f64) {
-        let mut least = f64::INFINITY;
-        while (0.0..=1.0).contains(&t) {
-            let d = self.distance(t);
-            least = least.min(d);
-            if d <= touch {
-                return (Some(t), least);
-            }
-            t += direction * ((d - 0.5 * touch) / self.speed).max(1e-7);
-        }
-        (None, least)
+    fn meets(&self, t: f64, direction: f64, touch: f64) -> (Option<f64>, f64) {
+        meets(|t| self.distance(t), self.speed, t, direction, touch)
     }
 }
 
@@ -224,7 +83,7 @@ fn contacts_and_near_misses_are_those_of_another_library() {
         let watched = [Watched { motion: motion.clone(), tool: 0 }];
         let find = |by: DVec3| {
             let place = Rigid { translation: place.translation + by, ..place };
-            let standing = [StandingBody::new("clamp", &solid, place, NEAR).unwrap()];
+            let standing = [Body::new("clamp", &solid, place, NEAR).unwrap()];
             meetings(std::slice::from_ref(&moving), &standing, &watched, DVec3::Z, &Silent).unwrap()
         };
         if let Some(first) = met {
@@ -305,7 +164,7 @@ fn a_tool_within_a_mesh_meets_it_all_the_way_whichever_way_its_triangles_turn() 
         if turned {
             mesh.triangles.iter_mut().for_each(|t| t.swap(1, 2));
         }
-        let body = [StandingBody::new("vise", &Solid::Mesh(mesh), Rigid::IDENTITY, 0.0).unwrap()];
+        let body = [Body::new("vise", &Solid::Mesh(mesh), Rigid::IDENTITY, 0.0).unwrap()];
         let contact = |from: [f64; 3], to: [f64; 3]| {
             let line = Line { start: from.into(), end: to.into() };
             let motion = ToolMotion::fixed(line.into(), DVec3::Z).unwrap();

@@ -1,0 +1,362 @@
+//! All moves of a machine past all of its bodies.
+
+use glam::DVec3;
+use rayon::prelude::*;
+
+use super::super::body::Body;
+use super::super::meeting::{Contact, MOST_LIFTS, TASK, cancelled};
+use super::super::motion::{Moment, Standing};
+use super::super::pair::{Pair, TOUCH, clearing, may_meet};
+use super::super::piece::Piece;
+use super::super::tool::{MovingTool, ToolPart};
+use super::axes::{Axes, tip_at_home};
+use super::motion::LinkMotion;
+use super::way::Way;
+use crate::base::{Progress, Result};
+use crate::geom::{Aabb, Rigid};
+use crate::machine::{JointValues, Kinematics, Link, Machine};
+use crate::trace::Segment;
+
+/// A body that a link carries, in the coordinates of the machine with all axes at zero.
+#[derive(Clone, Debug)]
+pub struct LinkBody {
+    /// The link.
+    pub link: Link,
+    /// The body.
+    pub body: Body,
+    /// A body of the machine. Two of them on neighbouring links are not compared, as one is guided by the other; nor is anything
+    /// else with the tool: what stands on the table is watched for itself ([`crate::contact::meetings`]).
+    pub of_machine: bool,
+}
+
+/// A tool in the spindle.
+#[derive(Clone, Debug)]
+pub struct ToolInSpindle {
+    /// Its parts.
+    pub tool: MovingTool,
+    /// Distance of its tip from the gauge point of the spindle [mm].
+    pub length: f64,
+}
+
+/// A move of a machine.
+#[derive(Clone, Copy, Debug)]
+pub struct MachineMove<'a> {
+    /// The segment.
+    pub segment: &'a Segment,
+    /// Index of the tool.
+    pub tool: u32,
+}
+
+/// One of two that meet.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Party {
+    /// Index of a body.
+    Body(u32),
+    /// A part of the tool in the spindle.
+    Tool(ToolPart),
+}
+
+/// Two bodies that meet in a move, or come nearer than one of them allows.
+#[derive(Clone, Debug, PartialEq)]
+pub struct MachineMeeting {
+    /// Index of the move.
+    pub watched: u32,
+    /// The one whose link is nearer to the tool.
+    pub moving: Party,
+    /// The other one: index of a body.
+    pub standing: u32,
+    /// A place of the other one that is met first, or is nearest [part coordinates at that moment, mm].
+    pub place: DVec3,
+    /// Least distance [mm]; zero in a contact.
+    pub distance: f64,
+    /// The contact, if it is one; its lift is along the axis Z.
+    pub contact: Option<Contact>,
+}
+
+/// All that was found in moves.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Met {
+    /// In the order of the moves.
+    pub meetings: Vec<MachineMeeting>,
+    /// Moves whose joint positions are not known: nothing was compared in them.
+    pub lost: Vec<u32>,
+    /// Moves whose bounds rest on derivatives at single places.
+    pub sampled: Vec<u32>,
+}
+
+/// A machine with its bodies, tools, and what stands on its table.
+#[derive(Clone, Debug)]
+pub struct MachineParts {
+    machine: Machine,
+    axes: Axes,
+    part_on_table: Rigid,
+    bodies: Vec<LinkBody>,
+    /// For each tool its parts, its chain, and its place in front of the spindle.
+    tools: Vec<(MovingTool, Kinematics, Rigid)>,
+    /// Pairs of bodies by their links.
+    pairs: Vec<LinkPair>,
+    /// Bodies of the machine between the work and the tool, by their links.
+    below_tool: Vec<LinkPair>,
+    /// Chains from each place between joints to each later one.
+    between: Vec<Vec<Kinematics>>,
+}
+
+/// Bodies on two links.
+#[derive(Clone, Debug)]
+struct LinkPair {
+    /// Joints before the link that is nearer to the work, and before the other one.
+    joints: [usize; 2],
+    /// Pairs of bodies: standing, moving. For the tool the second has no meaning.
+    bodies: Vec<[u32; 2]>,
+    /// A box about all that stands.
+    standing: Aabb,
+    /// A body about all that moves.
+    moving: Body,
+}
+
+impl MachineParts {
+    /// A machine with tools and bodies; `part_on_table` maps part coordinates into its table frame. `None` where its axes cannot be
+    /// followed: three independent linear ones and rotary ones, with the letters X Y Z A B C.
+    pub fn new(
+        machine: &Machine,
+        part_on_table: Rigid,
+        bodies: Vec<LinkBody>,
+        tools: Vec<ToolInSpindle>,
+    ) -> Option<MachineParts> {
+        let axes = Axes::of(machine)?;
+        let count = machine.joints.len();
+        let chain = |from: usize, to: usize| {
+            Kinematics::new(&machine.joints[from..to.max(from)], Rigid::IDENTITY, Rigid::IDENTITY)
+        };
+        let between = (0..=count).map(|from| (0..=count).map(|to| chain(from, to)).collect()).collect();
+        let gap = |i: usize| match bodies[i].link {
+            Link::Bed => machine.code.bed(),
+            Link::Axis(joint) if joint < machine.code.bed() => joint,
+            Link::Axis(joint) => joint + 1,
+        };
+        let mut pairs: Vec<LinkPair> = Vec::new();
+        let mut below_tool: Vec<LinkPair> = Vec::new();
+        let add = |list: &mut Vec<LinkPair>, joints: [usize; 2], pair: [u32; 2]| {
+            let body = |i: u32| &bodies[i as usize].body;
+            let standing = body(pair[0]).bounds.grown(body(pair[0]).near.max(body(pair[1]).near));
+            let place = match list.iter().position(|p| p.joints == joints) {
+                Some(place) => place,
+                None => {
+                    let (standing, moving) = (Aabb::EMPTY, whole(Aabb::EMPTY));
+                    list.push(LinkPair { joints, bodies: Vec::new(), standing, moving });
+                    list.len() - 1
+                }
+            };
+            let of = &mut list[place];
+            of.bodies.push(pair);
+            of.standing = of.standing.union(standing);
+            of.moving = whole(of.moving.bounds.union(body(pair[1]).bounds));
+        };
+        for i in 0..bodies.len() {
+            for j in 0..bodies.len() {
+                let joints = [gap(i), gap(j)];
+                let both = bodies[i].of_machine && bodies[j].of_machine;
+                if joints[0] < joints[1] && !(both && joints[1] == joints[0] + 1) {
+                    add(&mut pairs, joints, [i as u32, j as u32]);
+                }
+            }
+            if bodies[i].of_machine && gap(i) < count {
+                add(&mut below_tool, [gap(i), count], [i as u32; 2]);
+            }
+        }
+        let tool = |t: ToolInSpindle| (t.tool, machine.kinematics(t.length), tip_at_home(machine, t.length));
+        let tools = tools.into_iter().map(tool).collect();
+        let machine = machine.clone();
+        Some(MachineParts { machine, axes, part_on_table, bodies, tools, pairs, below_tool, between })
+    }
+
+    /// The bodies.
+    pub fn bodies(&self) -> &[LinkBody] {
+        &self.bodies
+    }
+
+    /// Pairs of bodies that touch at the start of a move: where a program begins they are rather drawn wrongly, or stand on one
+    /// another, than met by a motion. `None` where the positions of the joints are not known.
+    pub fn touching(&self, first: &MachineMove<'_>) -> Option<Vec<[u32; 2]>> {
+        let q = self.way(first)?.at(0.0);
+        let mut touching = Vec::new();
+        for pair in &self.pairs {
+            let [from, to] = pair.joints;
+            let motion = Standing(self.between[from][to].forward(&q[from..to]));
+            let ends = [Moment::of(&motion, 0.0); 2];
+            touching.extend(pair.bodies.iter().copied().filter(|[standing, moving]| {
+                let body = |i: &u32| &self.bodies[*i as usize].body;
+                let pair = Pair { motion: &motion, moving: body(moving), standing: body(standing) };
+                pair.touch(&ends).is_some()
+            }));
+        }
+        touching.sort_unstable();
+        Some(touching)
+    }
+
+    /// All meetings in moves, without those of pairs of bodies that are left out (in ascending order).
+    ///
+    /// # Errors
+    /// `KC0009` when cancelled.
+    pub fn meetings(
+        &self,
+        moves: &[MachineMove<'_>],
+        left_out: &[[u32; 2]],
+        progress: &dyn Progress,
+    ) -> Result<Met> {
+        progress.stage("contacts of the machine", moves.len() as u64);
+        let task = |(n, moves): (usize, &[MachineMove<'_>])| {
+            let mut met = Met::default();
+            if progress.cancelled() {
+                return met;
+            }
+            for (i, one) in moves.iter().enumerate() {
+                let watched = (n * TASK + i) as u32;
+                match self.way(one) {
+                    Some(way) => {
+                        if way.is_sampled() {
+                            met.sampled.push(watched);
+                        }
+                        self.one_move(watched, &way, one.tool, left_out, &mut met.meetings);
+                    }
+                    None => met.lost.push(watched),
+                }
+            }
+            progress.advance(moves.len() as u64);
+            met
+        };
+        let tasks: Vec<_> = moves.chunks(TASK).enumerate().collect();
+        let found: Vec<Met> = tasks.into_par_iter().map(task).collect();
+        cancelled(progress)?;
+        let mut met = Met::default();
+        for part in found {
+            met.meetings.extend(part.meetings);
+            met.lost.extend(part.lost);
+            met.sampled.extend(part.sampled);
+        }
+        let contacts = met.meetings.iter_mut().filter(|m| m.contact.is_some());
+        let mut contacts: Vec<&mut MachineMeeting> = contacts.take(MOST_LIFTS).collect();
+        contacts.par_iter_mut().for_each(|meeting| self.lift(&moves[meeting.watched as usize], meeting));
+        Ok(met)
+    }
+
+    fn way<'a>(&'a self, one: &MachineMove<'a>) -> Option<Way<'a>> {
+        let (_, chain, _) = &self.tools[one.tool as usize];
+        Way::new(one.segment, &self.axes, chain, &self.part_on_table)
+    }
+
+    /// Meetings in one move.
+    fn one_move(
+        &self,
+        watched: u32,
+        way: &Way<'_>,
+        tool: u32,
+        left_out: &[[u32; 2]],
+        found: &mut Vec<MachineMeeting>,
+    ) {
+        let rates = way.rates(0.0, 1.0);
+        let moves = |[from, to]: [usize; 2]| rates[from..to].iter().any(|(rate, _)| *rate > 0.0);
+        let body = |i: u32| &self.bodies[i as usize].body;
+        for pair in self.pairs.iter().filter(|pair| moves(pair.joints)) {
+            let motion = self.motion(way, pair.joints, Rigid::IDENTITY);
+            let ends = [0.0, 1.0].map(|t| Moment::of(&motion, t));
+            if !may_meet(&motion, &pair.moving, &ends, pair.standing, TOUCH) {
+                continue;
+            }
+            for [standing, moving] in pair.bodies.iter().filter(|p| left_out.binary_search(p).is_err()) {
+                let near = body(*standing).near.max(body(*moving).near);
+                let pair = Pair { motion: &motion, moving: body(*moving), standing: body(*standing) };
+                let two = (Party::Body(*moving), *standing);
+                found.extend(self.meeting(watched, two, &pair, &ends, near));
+            }
+        }
+        let (parts, _, place) = &self.tools[tool as usize];
+        for pair in self.below_tool.iter().filter(|pair| moves(pair.joints)) {
+            let motion = self.motion(way, pair.joints, *place);
+            let ends = [0.0, 1.0].map(|t| Moment::of(&motion, t));
+            for (part, moving) in &parts.parts {
+                if !may_meet(&motion, moving, &ends, pair.standing, TOUCH) {
+                    continue;
+                }
+                for [standing, _] in &pair.bodies {
+                    let pair = Pair { motion: &motion, moving, standing: body(*standing) };
+                    let two = (Party::Tool(*part), *standing);
+                    found.extend(self.meeting(watched, two, &pair, &ends, body(*standing).near));
+                }
+            }
+        }
+    }
+
+    /// The meeting of two bodies, if they do.
+    fn meeting(
+        &self,
+        watched: u32,
+        (moving, standing): (Party, u32),
+        pair: &Pair<'_, LinkMotion<'_>>,
+        ends: &[Moment; 2],
+        near: f64,
+    ) -> Option<MachineMeeting> {
+        let LinkMotion { way, first, .. } = pair.motion;
+        let meeting = |t: f64, place: DVec3, distance: f64, contact: Option<Contact>| {
+            let place = self.in_part(&way.at(t), *first, place);
+            MachineMeeting { watched, moving, standing, place, distance, contact }
+        };
+        if let Some(touch) = pair.touch(ends) {
+            let contact = Contact { from: touch.from, to: touch.to, clears_by: None };
+            return Some(meeting(touch.from, touch.place, 0.0, Some(contact)));
+        }
+        let nearest = pair.nearest(ends, near).filter(|_| near > 0.0)?;
+        Some(meeting(nearest.t, nearest.place, nearest.distance, None))
+    }
+
+    fn motion<'a>(&'a self, way: &'a Way<'a>, [first, last]: [usize; 2], place: Rigid) -> LinkMotion<'a> {
+        LinkMotion { way, chain: &self.between[first][last], first, last, place }
+    }
+
+    /// Part coordinates of a place on the link behind this many joints.
+    fn in_part(&self, q: &JointValues, joints: usize, place: DVec3) -> DVec3 {
+        let at_work = self.between[0][joints].forward(&q[..joints]).point(place);
+        self.part_on_table.inverse().after(&self.machine.work.inverse()).point(at_work)
+    }
+
+    /// Finds the lift along Z that clears, where Z is between the two and no rotary joint moves.
+    fn lift(&self, one: &MachineMove<'_>, meeting: &mut MachineMeeting) {
+        let list = if matches!(meeting.moving, Party::Body(_)) { &self.pairs } else { &self.below_tool };
+        let is_own = |p: &&LinkPair| {
+            p.bodies.iter().any(|[standing, moving]| {
+                let same =
+                    |i: u32| matches!(meeting.moving, Party::Tool(_)) || meeting.moving == Party::Body(i);
+                *standing == meeting.standing && same(*moving)
+            })
+        };
+        let (Some(way), Some(pair), Some(up)) =
+            (self.way(one).filter(Way::is_still), list.iter().find(is_own), self.axes.upward())
+        else {
+            return;
+        };
+        let [first, last] = pair.joints;
+        if !(first..last).contains(&up) {
+            return;
+        }
+        let joint = &self.machine.joints[up];
+        let before = self.between[first][up].forward(&way.at(0.0)[first..up]);
+        let up = before.vector(joint.direction * joint.sense);
+        let standing = &self.bodies[meeting.standing as usize].body;
+        let (parts, _, place) = &self.tools[one.tool as usize];
+        let lift = match meeting.moving {
+            Party::Body(i) => {
+                let motion = self.motion(&way, pair.joints, Rigid::IDENTITY);
+                clearing(&motion, std::iter::once(&self.bodies[i as usize].body), standing, up)
+            }
+            Party::Tool(_) => clearing(&self.motion(&way, pair.joints, *place), parts.bodies(), standing, up),
+        };
+        if let Some(contact) = &mut meeting.contact {
+            contact.clears_by = Some(lift);
+        }
+    }
+}
+
+/// A body that is a box.
+fn whole(bounds: Aabb) -> Body {
+    Body::convex(String::new(), vec![Piece::Box { place: Rigid::IDENTITY, bounds }], false)
+}
