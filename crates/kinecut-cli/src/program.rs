@@ -5,8 +5,8 @@ use std::path::{Path, PathBuf};
 use clap::ValueEnum;
 use kinecut::base::{Code, Error, FileKind, Finding};
 use kinecut::job::{
-    GivenFile, GivenJob, GivenStock, InspectWants, ProgramWants, RunWants, SectionPlane, StockWants,
-    control_of, given_alone, given_with_job, is_tool_table, program_text, subprograms,
+    DesignWants, GivenFile, GivenJob, GivenStock, InspectWants, ProgramWants, RunWants, SectionPlane,
+    StockWants, control_of, given_alone, given_with_job, is_tool_table, program_text, subprograms,
 };
 use kinecut::nc::{Control, NumberInput, PostSettings};
 use kinecut::operations::OrientationName;
@@ -65,12 +65,34 @@ struct Stock {
     /// Prove the cut stock against the moves by branch and bound; takes longer
     #[arg(long)]
     certified: bool,
+    /// Wanted part to compare the cut part with: a closed STL or 3MF mesh in part coordinates, of a program by itself those of the work
+    /// offset; default: that of the job
+    #[arg(long, value_name = "FILE.stl|FILE.3mf")]
+    design: Option<PathBuf>,
+    /// With --design: largest allowed distance of the cut part from it, mm; default: that of the job, then 0.1
+    #[arg(long, value_name = "MM", requires = "design")]
+    design_tolerance: Option<f64>,
 }
 
 impl Stock {
-    fn wants(&self) -> StockWants {
-        let Stock { step, mesh_tolerance, memory, certified } = *self;
-        StockWants { step, mesh_tolerance, memory, certified, ..StockWants::default() }
+    fn wants(&self) -> Result<StockWants, Error> {
+        let Stock { step, mesh_tolerance, memory, certified, design, design_tolerance } = self;
+        let design = design.as_ref().map(|path| {
+            let bytes = files::bytes(path, FileKind::Mesh)?;
+            Ok::<_, Error>(DesignWants {
+                name: path.display().to_string(),
+                bytes,
+                tolerance: *design_tolerance,
+            })
+        });
+        Ok(StockWants {
+            step: *step,
+            mesh_tolerance: *mesh_tolerance,
+            memory: *memory,
+            certified: *certified,
+            design: design.transpose()?,
+            ..StockWants::default()
+        })
     }
 }
 
@@ -134,7 +156,7 @@ pub(crate) struct Run {
 impl Run {
     /// Runs a job.
     pub(crate) fn answer(&self, args: &Printing) -> Result<u8, Error> {
-        let wants = RunWants { compare: self.compare, stock: self.stock.wants() };
+        let wants = RunWants { compare: self.compare, stock: self.stock.wants()? };
         let done = run::run(&self.job, &wants, &self.results.files(), files::read(), &Bar::new())?;
         answer(args, self.results.to(), done)
     }
@@ -306,10 +328,13 @@ pub(crate) enum RawStock {
 
 impl RawStock {
     fn parse(text: &str) -> Result<RawStock, String> {
-        if text.to_ascii_lowercase().ends_with(".stl") {
+        let lower = text.to_ascii_lowercase();
+        if lower.ends_with(".stl") || lower.ends_with(".3mf") {
             return Ok(RawStock::Mesh(PathBuf::from(text)));
         }
-        corners(text).map(RawStock::Block).map_err(|help| format!("{help}, or the name of an STL file"))
+        corners(text)
+            .map(RawStock::Block)
+            .map_err(|help| format!("{help}, or the name of an STL or 3MF file"))
     }
 
     fn given(&self) -> Result<GivenStock, Error> {
@@ -367,8 +392,8 @@ pub(crate) struct Simulate {
     of: ProgramOf,
     #[command(flatten)]
     by: RunBy,
-    /// Raw stock in coordinates of the work offset, mm: least and greatest corner of a block, or the name of a closed STL mesh
-    #[arg(long, value_name = "X0,Y0,Z0,X1,Y1,Z1|FILE.stl", value_parser = RawStock::parse, allow_hyphen_values = true, conflicts_with = "job")]
+    /// Raw stock in coordinates of the work offset, mm: least and greatest corner of a block, or the name of a closed STL or 3MF mesh
+    #[arg(long, value_name = "X0,Y0,Z0,X1,Y1,Z1|FILE.stl|FILE.3mf", value_parser = RawStock::parse, allow_hyphen_values = true, conflicts_with = "job")]
     stock: Option<RawStock>,
     #[command(flatten)]
     save: WriteJob,
@@ -383,7 +408,7 @@ impl Simulate {
     pub(crate) fn answer(&self, args: &Printing) -> Result<u8, Error> {
         let path = &self.of.program;
         let done = if is_job(path) {
-            run::simulate_job(path, &self.cut.wants(), &self.results.files(), files::read(), &Bar::new())?
+            run::simulate_job(path, &self.cut.wants()?, &self.results.files(), files::read(), &Bar::new())?
         } else {
             let mut given = self.of.given(
                 self.by.control.as_ref(),
@@ -391,7 +416,7 @@ impl Simulate {
                 true,
                 self.save.write_job.as_deref(),
             )?;
-            given.simulated(&self.cut.wants())?;
+            given.simulated(&self.cut.wants()?)?;
             run::simulate_given(given, &self.results.files(), &Bar::new())?
         };
         answer(args, self.results.to(), done)

@@ -104,6 +104,45 @@ fn a_part_that_was_cut_is_the_stock_of_the_next_program() {
 }
 
 #[test]
+fn a_program_by_itself_is_compared_with_a_design() {
+    let folder = folder("design");
+    let base =
+        ["simulate", "P.nc", "--control", "fanuc", "--tools", "tools.toml", "--stock", STOCK, "--step", "1"];
+    let cut = |more: &[&str]| kinecut(&folder, &[&base[..], more].concat());
+    assert_eq!(cut(&["--mesh", "3mf,stl", "--out", "wanted"]).status.code(), Some(0));
+    for design in ["wanted/part.3mf", "wanted/part.stl"] {
+        let run = cut(&["--design", design]);
+        assert_eq!(run.status.code(), Some(0), "{}", text(&run.stderr));
+        let said = text(&run.stdout);
+        assert!(said.contains("of the design mesh at") && !said.contains("no design"), "{said}");
+    }
+    // 0.2 mm too deep along the groove: found at the block that cuts it, within a tolerance of 0.3 mm not.
+    std::fs::write(folder.join("P.nc"), PROGRAM.replace("Z-3.", "Z-3.2")).unwrap();
+    let run = cut(&["--design", "wanted/part.3mf"]);
+    let said = text(&run.stderr);
+    assert_eq!(run.status.code(), Some(1), "{said}");
+    assert!(said.contains("KC0505") && said.contains("the part is cut into the design"), "{said}");
+    assert!(said.contains("P.nc:8:1") || said.contains("P.nc:9:1"), "{said}");
+    // Deeper still along the groove: the worst block, and the first one.
+    let ramp = PROGRAM.replace("Z-3.", "Z-3.2").replace("X45. F400.", "X45. Z-3.6 F400.");
+    std::fs::write(folder.join("P.nc"), ramp).unwrap();
+    let both = text(&cut(&["--design", "wanted/part.3mf"]).stderr);
+    let at = |what: &str| both.split("error[").find(|e| e.contains(what)).unwrap_or_else(|| panic!("{both}"));
+    assert!(at("cut into the design for the first time").contains("P.nc:8:1"), "{both}");
+    assert!(at("cut into the design:").contains("P.nc:9:1"), "{both}");
+    std::fs::write(folder.join("P.nc"), PROGRAM.replace("Z-3.", "Z-3.2")).unwrap();
+    let run = cut(&["--design", "wanted/part.3mf", "--design-tolerance", "0.3"]);
+    assert_eq!(run.status.code(), Some(0), "{}", text(&run.stderr));
+    assert_eq!(kinecut(&folder, &["verify", "out"]).status.code(), Some(0));
+    std::fs::write(folder.join("wanted/part.3mf"), "PK").unwrap();
+    assert_eq!(kinecut(&folder, &["verify", "out"]).status.code(), Some(1));
+    let run = cut(&["--design", "wanted/part.3mf"]);
+    assert_eq!(run.status.code(), Some(2));
+    assert!(text(&run.stderr).contains("is not a package"), "{}", text(&run.stderr));
+    std::fs::remove_dir_all(folder).unwrap();
+}
+
+#[test]
 fn wrong_input_exits_2_and_says_what_to_do() {
     let folder = folder("wrong");
     std::fs::write(folder.join("bad.nc"), "G0 X1.\nG1 Q7.\n").unwrap();

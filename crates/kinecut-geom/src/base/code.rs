@@ -189,6 +189,13 @@ codes! {
     FIXTURE_NEAR = "KC0537", "a tool comes near a clamp or a fixture",
         "Tool, shank or holder pass a body at less than `near` of its `[[fixture]]` (0.5 mm if nothing is said): an offset, a length or a place that is off by that much makes it a contact. Measure the body, or give it room; `near = 0` asks for none.";
 
+    MACHINE_MET = "KC0538", "a body of the machine is met",
+        "Bodies of the machine (`[[body]]` of its file), the tool, fixtures and the raw stock move against each other as the axes go: these two touch in the move named, at rapid straight or axis by axis. The place is in coordinates of the part. Two bodies of the machine on neighbouring links are not compared, as one is guided by the other. Use a longer tool, move or tilt the part, or let the move go another way. The stock counts as it was before the first cut: a contact with it is a doubt, as what has been cut by then is not asked for.";
+    MACHINE_NEAR = "KC0539", "a body of the machine passes another body closely",
+        "Two bodies pass at less than the `near` of one of them (0.5 mm if nothing is said): an offset or a length that is off by that much makes it a contact. Measure the bodies, or give them room; `near = 0` asks for none.";
+    BODIES_OVERLAP = "KC0540", "bodies touch where the program begins",
+        "Before anything has moved these two bodies already touch, so that one of them is drawn too large or at a wrong place, or the part does not lie where the job says. They are not compared any further. Correct the `[[body]]` or the `[[fixture]]`, or put both on one link where one carries the other.";
+
     MESH_UNREADABLE = "KC0601", "a mesh file cannot be read",
         "The file is neither binary nor text STL, ends early, or holds numbers that are not finite.";
     MESH_OPEN = "KC0602", "a mesh does not close",

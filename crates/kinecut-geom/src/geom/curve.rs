@@ -203,6 +203,42 @@ impl Curve {
         self.length
     }
 
+    /// A bound on the second derivative by `t` [mm] of the place at `t` times the length, for `t` between two of 0 to 1. Strict, but
+    /// for spirals and cubics, whose curvature is sampled.
+    ///
+    /// ```
+    /// # use kinecut_geom as kinecut;
+    /// use glam::DVec3;
+    /// use kinecut::geom::{Arc, Curve};
+    /// let quarter = std::f64::consts::FRAC_PI_2;
+    /// let arc = Curve::from(Arc::new(DVec3::X * 8.0, DVec3::ZERO, DVec3::Z, quarter, 0.0).unwrap());
+    /// assert!((arc.most_bend(0.0, 1.0) - 8.0 * quarter * quarter).abs() < 1e-12); // r angle^2
+    /// ```
+    pub fn most_bend(&self, from: f64, to: f64) -> f64 {
+        /// Places at which a curvature is taken.
+        const SAMPLES: usize = 32;
+        /// Factor by which a sampled one is enlarged.
+        const RESERVE: f64 = 1.5;
+        let length = self.length();
+        let at = |t: f64| self.at(t * length).d2.length();
+        let curvature = match self.kind() {
+            CurveKind::Line(_) => 0.0,
+            CurveKind::Arc(_) => at(0.0),
+            // Its radius grows steadily.
+            CurveKind::Involute { .. } => at(from).max(at(to)),
+            _ => {
+                let sample = |i: usize| at(from + (to - from) * i as f64 / SAMPLES as f64);
+                RESERVE * (0..=SAMPLES).map(sample).filter(|k| k.is_finite()).fold(0.0, f64::max)
+            }
+        };
+        curvature * length * length
+    }
+
+    /// True if [`Curve::most_bend`] rests on samples.
+    pub fn is_bend_sampled(&self) -> bool {
+        !matches!(self.kind(), CurveKind::Line(_) | CurveKind::Arc(_) | CurveKind::Involute { .. })
+    }
+
     /// Point and derivatives at arc length `s` [mm] in `[0, length]`. A curve of no length has zero derivatives.
     pub fn at(&self, s: f64) -> Jet {
         match &self.kind() {

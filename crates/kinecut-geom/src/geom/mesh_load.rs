@@ -1,13 +1,13 @@
 //! A closed mesh from a file that something outside names.
 
-use super::{Mesh, read_stl};
+use super::{Mesh, read_3mf, read_stl};
 use crate::base::bounded::MAX_LENGTH;
 use crate::base::{Code, Error, FileKind, Finding, Loader, Location, Result};
 
-/// Reads an STL file through the loader; it must be closed, not empty and of a size that can be handled.
+/// Reads an STL or 3MF file through the loader: a package is 3MF, whatever its name; it must be closed, not empty and of a size that can be handled.
 ///
 /// # Errors
-/// Those of the loader and of [`read_stl`] with the name of the file; `KC0602` where it does not close; `KC0601` where it is
+/// Those of the loader, of [`read_stl`] and of [`read_3mf`] with the name of the file; `KC0602` where it does not close; `KC0601` where it is
 /// empty or larger than [`MAX_LENGTH`].
 pub fn load_mesh(name: &str, loader: &dyn Loader) -> Result<Mesh> {
     let in_file = |e: Error| {
@@ -15,7 +15,8 @@ pub fn load_mesh(name: &str, loader: &dyn Loader) -> Result<Mesh> {
         finding.message = format!("`{name}`: {}", finding.message);
         Error::from(finding)
     };
-    let mesh = read_stl(&loader.read_as(name, FileKind::Mesh)?).map_err(in_file)?;
+    let bytes = loader.read_as(name, FileKind::Mesh)?;
+    let mesh = if bytes.starts_with(b"PK") { read_3mf(&bytes) } else { read_stl(&bytes) }.map_err(in_file)?;
     mesh.check_closed().map_err(in_file)?;
     let bounds = mesh.bounds();
     if bounds.is_empty() || bounds.min.abs().max(bounds.max.abs()).max_element() > MAX_LENGTH {

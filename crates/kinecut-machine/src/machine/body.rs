@@ -30,12 +30,17 @@ pub struct Body {
     pub place: Rigid,
     /// The file that its mesh came from.
     pub file: Option<String>,
+    /// The least distance that other bodies are to keep from it [mm]; nearer is a warning, zero asks for none.
+    pub near: f64,
 }
 
 impl Body {
+    /// The least distance of other bodies, if nothing says it [mm].
+    pub const NEAR: f64 = 0.5;
+
     /// A box along the axes of the machine.
     pub fn cuboid(link: Link, bounds: Aabb) -> Body {
-        Body { name: String::new(), link, solid: Solid::Box(bounds), place: Rigid::IDENTITY, file: None }
+        Body::of(link, Solid::Box(bounds), Rigid::IDENTITY)
     }
 
     /// A cylinder whose base is centred on `base`, along `axis` (a unit vector) [mm].
@@ -52,7 +57,12 @@ impl Body {
     pub fn cylinder(link: Link, base: DVec3, axis: DVec3, radius: f64, height: f64) -> Body {
         let solid = Solid::Cylinder { base: DVec3::ZERO, radius, height };
         let place = Rigid { rotation: along(axis), translation: base };
-        Body { name: String::new(), link, solid, place, file: None }
+        Body::of(link, solid, place)
+    }
+
+    /// A solid at a place, without a name.
+    pub fn of(link: Link, solid: Solid, place: Rigid) -> Body {
+        Body { name: String::new(), link, solid, place, file: None, near: Body::NEAR }
     }
 
     /// The box about it with all axes at zero, in the frame of the machine [mm].

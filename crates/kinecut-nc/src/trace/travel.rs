@@ -3,7 +3,7 @@
 use glam::{DMat3, DVec3};
 
 use super::chain::LETTERS;
-use super::{Segment, Trace};
+use super::{JointWay, Segment, Trace};
 use crate::base::{Code, Finding};
 use crate::geom::{CurveKind, Rigid};
 use crate::machine::Machine;
@@ -20,9 +20,8 @@ struct AxisTravel {
 
 /// Axis positions beyond the travel of the machine: one finding for each setup and axis, with the item that goes
 /// farthest in its key. In a setup that is not located on the machine only the span of the linear positions is compared
-/// with the length of the travel. Where the tool turns, positions are compared at 129 places of the move and widened by
-/// what a curve can do between them; a move whose positions are not known is an error, and an axis that swings round at a pole
-/// a warning.
+/// with the length of the travel. Where the tool turns, positions are bounded over the motion, to a micrometre; a move whose positions
+/// are not known is an error, and an axis that swings round at a pole a warning.
 pub fn travel_findings(trace: &Trace, program: &Program, machine: &Machine) -> Vec<Finding> {
     let mut findings = Vec::new();
     for (number, setup) in program.setups.iter().enumerate() {
@@ -100,8 +99,14 @@ pub fn travel_findings(trace: &Trace, program: &Program, machine: &Machine) -> V
 const AT_LIMIT_MM: f64 = 1e-9;
 /// Rounding of a rotary position [rad].
 const AT_LIMIT: f64 = 1e-9;
-/// Intervals of a move in which the tool turns.
-const STEPS: u32 = 128;
+/// Accuracy of the greatest and least positions of a move in which the tool turns [mm, rad].
+const POSITION: [f64; 6] = [1e-3, 1e-3, 1e-3, 1e-6, 1e-6, 1e-6];
+/// A stretch of a move that is not halved again: next to a pole there is no bound.
+const LEAST_STRETCH: f64 = 1e-9;
+/// Intervals of a move in which an axis may swing round.
+const INTERVALS: u32 = 128;
+/// Places in an interval at which it may begin.
+const PLACES: u32 = 8;
 
 /// Turn of a rotary axis within one interval of a move that no axis makes at the speed of a cut [rad]: 20 degrees in a
 /// hundredth of the way.
@@ -110,57 +115,82 @@ const JUMP: f64 = 0.35;
 /// A rotary axis that swings round within one interval of a move, and by how much [rad].
 fn jump(segment: &Segment) -> Option<(char, f64)> {
     segment.turning.as_ref()?;
-    let mut before: Option<[f64; 6]> = None;
-    for k in 0..=STEPS {
-        let now = segment.joints(f64::from(k) / f64::from(STEPS))?;
-        if let Some(before) = before {
-            let turned = |i: &usize| (now[*i] - before[*i]).abs();
-            if let Some(i) = (3..6).find(|i| turned(i) > JUMP) {
-                return Some((LETTERS[i], turned(&i)));
-            }
-        }
-        before = Some(now);
+    let way = JointWay::new(segment)?;
+    let most = way.rates(0.0, 1.0);
+    if most[3..].iter().all(|(rate, _)| *rate <= JUMP * f64::from(INTERVALS)) {
+        return None;
     }
-    None
+    let count = INTERVALS * PLACES;
+    let places: Vec<[f64; 6]> = (0..=count).map(|k| way.at(f64::from(k) / f64::from(count))).collect();
+    places.windows(PLACES as usize + 1).find_map(|window| {
+        let turned = |i: &usize| (window[PLACES as usize][*i] - window[0][*i]).abs();
+        (3..6).find(|i| turned(i) > JUMP).map(|i| (LETTERS[i], turned(&i)))
+    })
+}
+
+/// Greatest and least positions of a way, by bounds.
+struct Extremes<'a> {
+    way: &'a JointWay<'a>,
+    low: [f64; 6],
+    high: [f64; 6],
+}
+
+impl Extremes<'_> {
+    fn of<'a>(way: &'a JointWay<'a>) -> Extremes<'a> {
+        let ends = [way.at(0.0), way.at(1.0)];
+        let by = |pick: fn(f64, f64) -> f64| std::array::from_fn(|i| pick(ends[0][i], ends[1][i]));
+        let mut all = Extremes { way, low: by(f64::min), high: by(f64::max) };
+        all.look(0.0, 1.0, ends);
+        all
+    }
+
+    /// Looks at a stretch with its ends: halves it unless all axes keep within what is known.
+    fn look(&mut self, from: f64, to: f64, ends: [[f64; 6]; 2]) {
+        let step = to - from;
+        let rates = self.way.rates(from, to);
+        let beyond = |i: usize| 0.125 * step * step * rates[i].1;
+        let within = |i: usize| {
+            let [a, b] = [ends[0][i], ends[1][i]];
+            a.max(b) + beyond(i) <= self.high[i] + POSITION[i]
+                && a.min(b) - beyond(i) >= self.low[i] - POSITION[i]
+        };
+        if step <= LEAST_STRETCH || (0..6).all(within) {
+            return;
+        }
+        let middle = 0.5 * (from + to);
+        let at = self.way.at(middle);
+        for i in 0..6 {
+            self.low[i] = self.low[i].min(at[i]);
+            self.high[i] = self.high[i].max(at[i]);
+        }
+        self.look(from, middle, [ends[0], at]);
+        self.look(middle, to, [at, ends[1]]);
+    }
 }
 
 /// Range of the axes along a segment; `None` where its machine is not known.
 fn span(segment: &Segment) -> Option<AxisTravel> {
     let (matrix, shift) = segment.start_axes.to_linear;
-    let (mut low, mut high) = ([f64::INFINITY; 6], [f64::NEG_INFINITY; 6]);
-    let (mut at_low, mut at_high) = (segment.curve.start(), segment.curve.end());
+    let (at_low, at_high) = (segment.curve.start(), segment.curve.end());
     // A line stays one under any matrix, other curves under a motion.
     let straight = matches!(segment.curve.kind(), CurveKind::Line(_));
     if segment.turning.is_none() && (straight || is_motion(matrix)) {
         let path = segment.curve.moved(&Rigid { rotation: matrix, translation: shift });
         let bounds = path.bounds();
-        for i in 0..3 {
-            (low[i], high[i]) = (bounds.min[i], bounds.max[i]);
-            (low[3 + i], high[3 + i]) = (segment.rotary()[i], segment.rotary()[i]);
-        }
+        let [a, b, c] = segment.rotary();
+        let all = |p: DVec3| [p.x, p.y, p.z, a, b, c];
         let back = matrix.inverse();
-        (at_low, at_high) = (back * (bounds.min - shift), back * (bounds.max - shift));
-        return Some(AxisTravel { item: segment.item, low, high, at_low, at_high });
+        let (at_low, at_high) = (back * (bounds.min - shift), back * (bounds.max - shift));
+        return Some(AxisTravel {
+            item: segment.item,
+            low: all(bounds.min),
+            high: all(bounds.max),
+            at_low,
+            at_high,
+        });
     }
-    let places: Option<Vec<[f64; 6]>> =
-        (0..=STEPS).map(|k| segment.joints(f64::from(k) / f64::from(STEPS))).collect();
-    let places = places?;
-    for i in 0..6 {
-        // A smooth curve leaves its chord by an eighth of its second difference; twice that for what differences miss.
-        let bend = places.windows(3).map(|w| (w[0][i] - 2.0 * w[1][i] + w[2][i]).abs()).fold(0.0, f64::max);
-        for place in &places {
-            low[i] = low[i].min(place[i]);
-            high[i] = high[i].max(place[i]);
-        }
-        // The ends themselves are exact.
-        let ends = [places[0][i], places[STEPS as usize][i]];
-        if low[i] < ends[0].min(ends[1]) {
-            low[i] -= 0.25 * bend;
-        }
-        if high[i] > ends[0].max(ends[1]) {
-            high[i] += 0.25 * bend;
-        }
-    }
+    let way = JointWay::new(segment)?;
+    let Extremes { low, high, .. } = Extremes::of(&way);
     Some(AxisTravel { item: segment.item, low, high, at_low, at_high })
 }
 

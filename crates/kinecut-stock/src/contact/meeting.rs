@@ -5,6 +5,7 @@ use rayon::prelude::*;
 
 use super::body::Body;
 use super::motion::Moment;
+use super::nearest_of::NearestOf;
 use super::pair::{Pair, TOUCH, clearing, may_meet};
 use super::search::Nearest;
 use super::tool::{MovingTool, ToolPart};
@@ -54,8 +55,9 @@ pub struct Contact {
     pub clears_by: Option<f64>,
 }
 
-/// All meetings of tools with bodies, in the order of the moves, bodies and parts; bodies and motions are in the same
-/// coordinates, and `up` is the direction in which a tool clears what it meets.
+/// All contacts of tools with bodies, in the order of the moves, bodies and parts, then the nearest pass of each tool, body and part in
+/// moves without a contact of them. Bodies and motions are in the same coordinates, and `up` is the direction in which a tool clears what
+/// it meets.
 ///
 /// # Errors
 /// `KC0009` when cancelled.
@@ -69,23 +71,26 @@ pub fn meetings(
     progress.stage("contacts", moves.len() as u64);
     let all = bodies.iter().fold(Aabb::EMPTY, |sum, body| sum.union(body.bounds.grown(body.near)));
     let task = |(n, moves): (usize, &[Watched])| {
+        let (mut found, mut near) = (Vec::new(), NearestOf::new());
         if progress.cancelled() {
-            return Vec::new();
+            return (found, near);
         }
-        let mut found = Vec::new();
         for (i, watched) in moves.iter().enumerate() {
             let tool = &tools[watched.tool as usize];
-            one_move((n * TASK + i) as u32, watched, tool, bodies, all, &mut found);
+            one_move((n * TASK + i) as u32, watched, tool, (bodies, all), (&mut found, &mut near));
         }
         progress.advance(moves.len() as u64);
-        found
+        (found, near)
     };
     let tasks: Vec<_> = moves.chunks(TASK).enumerate().collect();
-    let found: Vec<Vec<Meeting>> = tasks.into_par_iter().map(task).collect();
+    let parts: Vec<_> = tasks.into_par_iter().map(task).collect();
     cancelled(progress)?;
-    let mut found: Vec<Meeting> = found.into_iter().flatten().collect();
-    let mut met: Vec<(u32, u32)> =
-        found.iter().filter(|m| m.contact.is_some()).map(|m| (m.watched, m.body)).collect();
+    let (mut found, mut near) = (Vec::new(), NearestOf::new());
+    for (contacts, passes) in parts {
+        found.extend(contacts);
+        near.join(passes);
+    }
+    let mut met: Vec<(u32, u32)> = found.iter().map(|m: &Meeting| (m.watched, m.body)).collect();
     met.dedup();
     met.truncate(MOST_LIFTS);
     let lift = |(index, body): &(u32, u32)| {
@@ -101,6 +106,7 @@ pub fn meetings(
             contact.clears_by = Some(lifts[at]);
         }
     }
+    found.extend(near.into_passes());
     Ok(found)
 }
 
@@ -112,14 +118,16 @@ pub(super) fn cancelled(progress: &dyn Progress) -> Result<()> {
     }
 }
 
-/// Meetings of the parts of a tool with bodies in one move; `all` holds all bodies.
+/// Nearest passes of a tool, a body and a part of the tool.
+type Passes = NearestOf<(u32, u32, ToolPart), Meeting>;
+
+/// Contacts and passes of the parts of a tool with bodies in one move; `all` holds all bodies.
 fn one_move(
     watched: u32,
-    Watched { motion, .. }: &Watched,
+    Watched { motion, tool: number }: &Watched,
     tool: &MovingTool,
-    bodies: &[Body],
-    all: Aabb,
-    found: &mut Vec<Meeting>,
+    (bodies, all): (&[Body], Aabb),
+    (found, near): (&mut Vec<Meeting>, &mut Passes),
 ) {
     let ends = [0.0, 1.0].map(|t| Moment::of(motion, t));
     let near_all = |(_, part): &&(ToolPart, Body)| may_meet(motion, part, &ends, all, TOUCH);
@@ -137,17 +145,16 @@ fn one_move(
                 found.push(Meeting { watched, body, part, place, distance: 0.0, contact });
             }
         }
-        if standing.near > 0.0 {
-            let met = found.len();
-            for (part, moving) in &parts {
-                if found[first..met].iter().any(|m| m.part == *part) {
-                    continue;
-                }
-                let pair = Pair { motion, moving, standing };
-                if let Some(nearest) = pair.nearest(&ends, standing.near) {
-                    let Nearest { distance, place, .. } = nearest;
-                    found.push(Meeting { watched, body, part: *part, place, distance, contact: None });
-                }
+        for (part, moving) in &parts {
+            let part = *part;
+            let open = near.open((*number, body, part), standing.near);
+            if open <= 0.0 || found[first..].iter().any(|m| m.part == part) {
+                continue;
+            }
+            let pair = Pair { motion, moving, standing };
+            if let Some(Nearest { distance, place, .. }) = pair.nearest(&ends, open) {
+                let pass = Meeting { watched, body, part, place, distance, contact: None };
+                near.note((*number, body, part), distance, pass);
             }
         }
     }

@@ -31,6 +31,7 @@ mod gap;
 mod links;
 mod meeting;
 mod motion;
+mod nearest_of;
 mod pair;
 mod piece;
 mod round;

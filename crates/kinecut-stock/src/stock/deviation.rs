@@ -67,6 +67,21 @@ pub fn summary<G: DexelGrid + ?Sized>(grid: &G, deviations: &EndMap<f64>) -> Dev
     all
 }
 
+/// The first cut that went deeper into a wanted surface than a tolerance [mm], as far as it is still seen, with its deepest end.
+pub fn first_gouge<G: DexelGrid + ?Sized>(
+    grid: &G,
+    deviations: &EndMap<f64>,
+    tolerance: f64,
+) -> Option<WorstEnd> {
+    let mut first: Option<WorstEnd> = None;
+    deviations.visit(grid, |point, end, d| {
+        if d < -tolerance && end.cut != 0 && first.is_none_or(|f| (end.cut, f.depth) < (f.cut, -d)) {
+            first = Some(WorstEnd { depth: -d, point, cut: end.cut });
+        }
+    });
+    first
+}
+
 impl DeviationSummary {
     fn note(&mut self, distance: f64, point: DVec3, end: EndPoint) {
         if distance.is_nan() {

@@ -25,7 +25,7 @@ mod tri_dexel;
 mod volume;
 mod wall_ends;
 
-pub use deviation::{DeviationSummary, WorstEnd, deviation, summary};
+pub use deviation::{DeviationSummary, WorstEnd, deviation, first_gouge, summary};
 pub use dexel::{CutId, EndPoint, FIXED_STEP, Interval, PackedNormal, fixed, unfixed};
 pub use end_map::EndMap;
 pub use engagement::{Engaged, PointEngagement, PointStage, point_engagement};

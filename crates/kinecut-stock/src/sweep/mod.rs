@@ -23,7 +23,7 @@ pub use entering::{Entering, EnteringRegion};
 pub use envelope::{Envelope, EnvelopeEvent, EnvelopePoint};
 pub use exact::{ConvexTool, LowerPiece, LowerProfile, LowerShape, arc_volume, line_volume, tool_volume};
 pub use grazing::{Grazing, GrazingLoop, GrazingPoint, GrazingSpan, Motion, SegmentKind};
+pub(crate) use motion::chain_acceleration;
 pub use motion::{GivenTwist, MotionJet, ScrewMove, TipMove, TipPath, ToolMotion, twist_of_rows};
-pub(crate) use motion::{chain_acceleration, curve_acceleration, is_sampled};
 pub use normal_velocity::{GrazingBranch, NormalVelocity};
 pub use twist::twist_of;

@@ -73,8 +73,10 @@ pub use setup_outcome::SetupOutcome;
 pub use shape::{Deviation, Largest, deviation};
 pub use simulate::{Simulation, simulate};
 pub use subject::{Subject, sha256};
-pub use verdict::{Heading, Judgement, Proof, Unchecked, UncheckedItem, Verdict, VerdictCheck, verify};
-pub use wants::StockWants;
+pub use verdict::{
+    Heading, Judgement, Proof, ToEnsure, Unchecked, UncheckedItem, Verdict, VerdictCheck, verify,
+};
+pub use wants::{DesignWants, StockWants};
 
 /// A value as JSON text, keys in the order of its type, with a line end.
 pub fn json_text(value: &impl serde::Serialize) -> String {

@@ -25,7 +25,7 @@ use super::read_back::{ReadBack, compare};
 use super::setup_outcome::{SetupOutcome, block_of_cut};
 use super::shape::{Deviation, deviation};
 use super::simulate::{self, Simulation, left, simulate};
-use super::verdict::{banner, not_checked, proven, scope};
+use super::verdict::{banner, not_checked, proven, scope, to_ensure};
 use super::wants::StockWants;
 use super::{Heading, JobText, Judgement, Subject, Verdict, feeds, names, parts, sha256};
 
@@ -39,7 +39,7 @@ pub fn run(name: &str, text: &str, loader: &dyn Loader, progress: &dyn Progress)
 }
 
 /// Settings of a run.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct RunWants {
     /// Other ways than those asked for are planned too, each with its price, for the report.
     pub compare: bool,
@@ -64,13 +64,14 @@ pub fn run_with(
     let locate = |e: Error| job_text.locate(&sources, e);
     let mut job =
         Job { compare: wants.compare, ..check(&job_text.file, &stem(name), loader).map_err(locate)? };
-    wants.stock.apply(&mut job)?;
+    let design = wants.stock.apply(&mut job)?;
     let mut inputs = vec![Subject {
         role: "job".to_owned(),
         file: Some(name.to_owned()),
         sha256: sha256(text.as_bytes()),
     }];
     inputs.extend(parts(&job_text.file, loader)?);
+    inputs.extend(design);
     let notes = job_text.renamed(&sources);
     run_checked(name, job, (inputs, notes), &locate, progress)
 }
@@ -146,8 +147,9 @@ pub(crate) fn run_checked(
         unchecked.add(Heading::Shape, what);
     }
     let files: Vec<String> = setups.iter().map(|s| s.file.clone()).collect();
-    let scope = scope(&job, &setups, &deviation);
-    let verdict = Verdict::new(subjects, &files, scope, proven, found, unchecked.groups());
+    let scope = scope(&job, &setups, &simulation, &deviation);
+    let verdict = Verdict::new(subjects, &files, scope, proven, found, unchecked.groups())
+        .ensuring(to_ensure(&job, &setups, &simulation));
     Ok(Outcome {
         job_file: name.to_owned(),
         job,
@@ -317,7 +319,10 @@ fn findings(
         found.extend(s.planned.operations.iter().flat_map(|o| o.plan.remarks().iter().cloned()));
         found.extend(simulate::findings(&s.trace, &simulation.effects[i], &job.tools, place));
         let fixtures = &job.setups[i].setup;
-        found.extend(contacts::findings(fixtures, &s.trace, &simulation.meetings[i], place));
+        found.extend(contacts::fixtures::findings(fixtures, &s.trace, &simulation.meetings[i], place));
+        if let Some(machine) = &simulation.machine[i] {
+            found.extend(contacts::machine::findings(machine, &s.trace, place));
+        }
         if let Some(machine) = &job.machine {
             // Of a planned program too: moves on which the tool turns, and those of a template, are not lowered to them.
             let feeds = feeds::not_held(&s.trace, machine);

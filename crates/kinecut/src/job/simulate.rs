@@ -9,7 +9,8 @@ use glam::DVec3;
 use super::budget::Budget;
 use super::check::Job;
 use super::closer::{Story, look_closer};
-use super::contacts::contacts;
+use super::contacts::machine::MachineContacts;
+use super::contacts::{fixtures, machine};
 use super::look::{Look, Looks, looks};
 use super::missed::Missed;
 use super::part_surface::PartSurface;
@@ -54,6 +55,8 @@ pub struct Simulation {
     pub looks: Vec<Looks>,
     /// For each setup, tools that meet clamps and fixtures, or pass them closely.
     pub meetings: Vec<Vec<Meeting>>,
+    /// For each setup, the bodies of the machine along its program; nothing where the machine has no bodies.
+    pub machine: Vec<Option<MachineContacts>>,
     /// The proof of the cut stock against the moves, if the job asks for it.
     pub certificate: Option<Certificate>,
 }
@@ -110,6 +113,7 @@ pub fn simulate(
         walls: vec![Vec::new(); faces.len()],
         looks: Vec::new(),
         meetings: Vec::new(),
+        machine: Vec::new(),
         certificate: None,
     };
     let mut measured: Vec<Option<PointEngagement>> = probes.iter().map(|_| None).collect();
@@ -163,7 +167,9 @@ pub fn simulate(
             effects.iter().fold(simulation.path_error, |worst, e| worst.max(e.path_error));
         simulation.effects.push(effects);
         simulation.looks.push(looked);
-        simulation.meetings.push(contacts(job, &job.setups[i].setup, trace, progress)?);
+        let setup = &job.setups[i].setup;
+        simulation.meetings.push(fixtures::contacts(job, setup, trace, progress)?);
+        simulation.machine.push(machine::contacts(job, setup, trace, progress)?);
     }
     let story = Story { job, traces, loose, moves: &all, bodies: &bodies };
     look_closer(&story, &mut simulation.effects, progress)?;

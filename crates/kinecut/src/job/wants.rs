@@ -1,12 +1,14 @@
 //! Settings of the simulation that are given beside the job.
 
-use super::check::{Job, step};
+use super::check::{Design, Job, step};
 use super::part_surface::PartSurface;
-use crate::base::Result;
+use super::{Subject, sha256};
 use crate::base::bounded::{MAX_LENGTH, length, positive};
+use crate::base::{MemoryLoader, Result};
+use crate::geom::load_mesh;
 
 /// Settings of the simulation that replace those of a job.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct StockWants {
     /// Distance of the lines of the stock model [mm]; default: that of the job.
     pub step: Option<f64>,
@@ -18,14 +20,41 @@ pub struct StockWants {
     pub certified: bool,
     /// Surface of the cut part that is wanted.
     pub surface: PartSurface,
+    /// The wanted part; default: that of the job.
+    pub design: Option<DesignWants>,
+}
+
+/// A wanted part, in the coordinates of the part: of a program by itself those of its work offset.
+#[derive(Clone, Debug, PartialEq)]
+pub struct DesignWants {
+    /// Name of its file.
+    pub name: String,
+    /// The file: a closed mesh.
+    pub bytes: Vec<u8>,
+    /// Largest allowed distance of the cut surface from it [mm]; default: that of the job, then 0.1.
+    pub tolerance: Option<f64>,
+}
+
+/// Largest allowed distance from a design, if nothing says it [mm].
+const TOLERANCE: f64 = 0.1;
+
+impl DesignWants {
+    fn apply(&self, job: &mut Job) -> Result<Subject> {
+        let loader = MemoryLoader::default().with(&self.name, self.bytes.clone());
+        let mesh = load_mesh(&self.name, &loader)?;
+        let of_job = job.design.as_ref().map_or(TOLERANCE, |design| design.tolerance);
+        let tolerance = length("--design-tolerance", self.tolerance.unwrap_or(of_job), 1e-6, 100.0)?;
+        job.design = Some(Design { mesh, tolerance });
+        Ok(Subject { role: "design".to_owned(), file: Some(self.name.clone()), sha256: sha256(&self.bytes) })
+    }
 }
 
 impl StockWants {
-    /// Puts the settings in the place of the job's.
+    /// Puts the settings in the place of the job's, and gives the further subject of its verdict.
     ///
     /// # Errors
-    /// `KC0103` for a step, tolerance or memory out of range.
-    pub(super) fn apply(&self, job: &mut Job) -> Result<()> {
+    /// `KC0103` for a step, tolerance or memory out of range; those of a mesh as design.
+    pub(super) fn apply(&self, job: &mut Job) -> Result<Option<Subject>> {
         if let Some(step) = self.step {
             job.step = length("--step", step, 1e-4, MAX_LENGTH)?;
             job.default_step = false;
@@ -39,6 +68,6 @@ impl StockWants {
         };
         job.certified |= self.certified;
         job.part_surface = self.surface;
-        Ok(())
+        self.design.as_ref().map(|design| design.apply(job)).transpose()
     }
 }

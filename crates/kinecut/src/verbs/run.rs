@@ -70,7 +70,7 @@ impl ResultFiles {
             PartSurface::Full => PartSurface::None,
             given => given,
         };
-        StockWants { surface, ..*wants }
+        StockWants { surface, ..wants.clone() }
     }
 }
 
@@ -117,7 +117,7 @@ pub fn run(
     read: &FilesRead,
     progress: &dyn Progress,
 ) -> Result<Done> {
-    let wants = RunWants { stock: files.settings(&wants.stock), ..*wants };
+    let wants = RunWants { stock: files.settings(&wants.stock), ..wants.clone() };
     done(outcome_of(job, &wants, read, progress)?, files, progress)
 }
 

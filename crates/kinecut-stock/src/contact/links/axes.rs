@@ -1,7 +1,5 @@
 //! The axes of a machine as a program moves them.
 
-use std::ops::Range;
-
 use glam::{DMat3, DVec3};
 
 use crate::geom::Rigid;
@@ -17,12 +15,8 @@ const FLAT: f64 = 1e-9;
 pub(super) struct Axes {
     /// The axis of each joint of the code, counted X Y Z A B C.
     order: Vec<usize>,
-    /// The three linear joints.
+    /// The joints of X, Y and Z.
     linear: [usize; 3],
-    /// The joints from the first linear one to the last, where no rotary one is between them.
-    pub(super) block: Option<Range<usize>>,
-    /// Most by which each linear joint moves while the tip goes 1 mm in the coordinates of the links beside them.
-    pub(super) share: [f64; 3],
 }
 
 impl Axes {
@@ -31,29 +25,23 @@ impl Axes {
     pub(super) fn of(machine: &Machine) -> Option<Axes> {
         let axis = |letter: char| LETTERS.iter().position(|l| *l == letter);
         let order = machine.joints.iter().map(|joint| axis(joint.letter)).collect::<Option<Vec<usize>>>()?;
-        let mut linear = [0; 3];
-        let mut count = 0;
-        for (i, _) in machine.joints.iter().enumerate().filter(|(_, joint)| !joint.motion.is_rotation()) {
-            if order[i] >= 3 {
-                return None;
+        let mut linear = [None; 3];
+        for (i, joint) in machine.joints.iter().enumerate() {
+            // A rotary joint with the letter of a linear one would be moved by its numbers.
+            match (joint.motion.is_rotation(), order[i]) {
+                (true, 3..) => {}
+                (false, axis @ 0..3) => linear[axis] = Some(i),
+                _ => return None,
             }
-            *linear.get_mut(count)? = i;
-            count += 1;
         }
-        // A rotary joint with the letter of a linear one would be moved by its numbers.
-        let turned = |i: usize| machine.joints[i].motion.is_rotation() && order[i] < 3;
-        if count < 3 || (0..order.len()).any(turned) {
-            return None;
-        }
+        let [Some(x), Some(y), Some(z)] = linear else { return None };
+        let linear = [x, y, z];
         let direction = |i: usize| machine.joints[linear[i]].direction * machine.joints[linear[i]].sense;
         let matrix = DMat3::from_cols(direction(0), direction(1), direction(2));
         if matrix.determinant().abs() <= FLAT {
             return None;
         }
-        let back = matrix.inverse().transpose();
-        let share = [back.x_axis, back.y_axis, back.z_axis].map(DVec3::length);
-        let block = (linear[2] - linear[0] == 2).then_some(linear[0]..linear[2] + 1);
-        Some(Axes { order, linear, block, share })
+        Some(Axes { order, linear })
     }
 
     /// Positions in the order of the code, from those of X Y Z A B C [mm, rad].
@@ -65,14 +53,9 @@ impl Axes {
         q
     }
 
-    /// The number of joints.
-    pub(super) fn count(&self) -> usize {
-        self.order.len()
-    }
-
-    /// Which of the three linear joints a joint is.
-    pub(super) fn linear_at(&self, joint: usize) -> Option<usize> {
-        self.linear.iter().position(|i| *i == joint)
+    /// The axis of each joint of the code, counted X Y Z A B C.
+    pub(super) fn order(&self) -> &[usize] {
+        &self.order
     }
 
     /// The joint that is moved by Z.
@@ -80,7 +63,7 @@ impl Axes {
         self.order.iter().position(|axis| *axis == 2)
     }
 
-    /// Maps the tip [table frame] into positions of the linear joints, at the rotary positions of `q`; `None` where they are not
+    /// Maps the tip [table frame] into positions of X, Y and Z, at the rotary positions of `q`; `None` where they are not
     /// independent there.
     pub(super) fn to_linear(&self, chain: &Kinematics, q: &JointValues) -> Option<(DMat3, DVec3)> {
         let at = |unit: Option<usize>| {
@@ -95,15 +78,6 @@ impl Axes {
         let matrix = DMat3::from_cols(at(Some(0)) - zero, at(Some(1)) - zero, at(Some(2)) - zero);
         let back = (matrix.determinant().abs() > FLAT).then(|| matrix.inverse())?;
         Some((back, -(back * zero)))
-    }
-
-    /// Positions with the linear joints set.
-    pub(super) fn with_linear(&self, q: &JointValues, linear: DVec3) -> JointValues {
-        let mut q = *q;
-        for (i, joint) in self.linear.iter().enumerate() {
-            q[*joint] = linear[i];
-        }
-        q
     }
 }
 

@@ -6,6 +6,7 @@ use rayon::prelude::*;
 use super::super::body::Body;
 use super::super::meeting::{Contact, MOST_LIFTS, TASK, cancelled};
 use super::super::motion::{Moment, Standing};
+use super::super::nearest_of::NearestOf;
 use super::super::pair::{Pair, TOUCH, clearing, may_meet};
 use super::super::piece::Piece;
 use super::super::tool::{MovingTool, ToolPart};
@@ -76,13 +77,16 @@ pub struct MachineMeeting {
 /// All that was found in moves.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Met {
-    /// In the order of the moves.
+    /// Contacts in the order of the moves, then the nearest pass of each pair in moves without a contact of it.
     pub meetings: Vec<MachineMeeting>,
     /// Moves whose joint positions are not known: nothing was compared in them.
     pub lost: Vec<u32>,
     /// Moves whose bounds rest on derivatives at single places.
     pub sampled: Vec<u32>,
 }
+
+/// Nearest passes of pairs: the tool in the spindle if it is one of the two, the moving one, the standing one.
+type Passes = NearestOf<(Option<u32>, Party, u32), MachineMeeting>;
 
 /// A machine with its bodies, tools, and what stands on its table.
 #[derive(Clone, Debug)]
@@ -206,9 +210,9 @@ impl MachineParts {
     ) -> Result<Met> {
         progress.stage("contacts of the machine", moves.len() as u64);
         let task = |(n, moves): (usize, &[MachineMove<'_>])| {
-            let mut met = Met::default();
+            let (mut met, mut near) = (Met::default(), NearestOf::new());
             if progress.cancelled() {
-                return met;
+                return (met, near);
             }
             for (i, one) in moves.iter().enumerate() {
                 let watched = (n * TASK + i) as u32;
@@ -217,26 +221,27 @@ impl MachineParts {
                         if way.is_sampled() {
                             met.sampled.push(watched);
                         }
-                        self.one_move(watched, &way, one.tool, left_out, &mut met.meetings);
+                        self.one_move(watched, &way, one.tool, left_out, (&mut met.meetings, &mut near));
                     }
                     None => met.lost.push(watched),
                 }
             }
             progress.advance(moves.len() as u64);
-            met
+            (met, near)
         };
         let tasks: Vec<_> = moves.chunks(TASK).enumerate().collect();
-        let found: Vec<Met> = tasks.into_par_iter().map(task).collect();
+        let found: Vec<(Met, Passes)> = tasks.into_par_iter().map(task).collect();
         cancelled(progress)?;
-        let mut met = Met::default();
-        for part in found {
+        let (mut met, mut near) = (Met::default(), NearestOf::new());
+        for (part, passes) in found {
+            near.join(passes);
             met.meetings.extend(part.meetings);
             met.lost.extend(part.lost);
             met.sampled.extend(part.sampled);
         }
-        let contacts = met.meetings.iter_mut().filter(|m| m.contact.is_some());
-        let mut contacts: Vec<&mut MachineMeeting> = contacts.take(MOST_LIFTS).collect();
+        let mut contacts: Vec<&mut MachineMeeting> = met.meetings.iter_mut().take(MOST_LIFTS).collect();
         contacts.par_iter_mut().for_each(|meeting| self.lift(&moves[meeting.watched as usize], meeting));
+        met.meetings.extend(near.into_passes());
         Ok(met)
     }
 
@@ -252,7 +257,7 @@ impl MachineParts {
         way: &Way<'_>,
         tool: u32,
         left_out: &[[u32; 2]],
-        found: &mut Vec<MachineMeeting>,
+        (found, near): (&mut Vec<MachineMeeting>, &mut Passes),
     ) {
         let rates = way.rates(0.0, 1.0);
         let moves = |[from, to]: [usize; 2]| rates[from..to].iter().any(|(rate, _)| *rate > 0.0);
@@ -264,10 +269,10 @@ impl MachineParts {
                 continue;
             }
             for [standing, moving] in pair.bodies.iter().filter(|p| left_out.binary_search(p).is_err()) {
-                let near = body(*standing).near.max(body(*moving).near);
+                let most = body(*standing).near.max(body(*moving).near);
                 let pair = Pair { motion: &motion, moving: body(*moving), standing: body(*standing) };
-                let two = (Party::Body(*moving), *standing);
-                found.extend(self.meeting(watched, two, &pair, &ends, near));
+                let two = (None, Party::Body(*moving), *standing);
+                self.meeting(watched, two, &pair, (&ends, most), (found, near));
             }
         }
         let (parts, _, place) = &self.tools[tool as usize];
@@ -280,22 +285,24 @@ impl MachineParts {
                 }
                 for [standing, _] in &pair.bodies {
                     let pair = Pair { motion: &motion, moving, standing: body(*standing) };
-                    let two = (Party::Tool(*part), *standing);
-                    found.extend(self.meeting(watched, two, &pair, &ends, body(*standing).near));
+                    let two = (Some(tool), Party::Tool(*part), *standing);
+                    let most = body(*standing).near;
+                    self.meeting(watched, two, &pair, (&ends, most), (found, near));
                 }
             }
         }
     }
 
-    /// The meeting of two bodies, if they do.
+    /// The contact of two bodies, or their pass where it is nearer than `most` and the nearest so far.
     fn meeting(
         &self,
         watched: u32,
-        (moving, standing): (Party, u32),
+        two: (Option<u32>, Party, u32),
         pair: &Pair<'_, LinkMotion<'_>>,
-        ends: &[Moment; 2],
-        near: f64,
-    ) -> Option<MachineMeeting> {
+        (ends, most): (&[Moment; 2], f64),
+        (found, near): (&mut Vec<MachineMeeting>, &mut Passes),
+    ) {
+        let (_, moving, standing) = two;
         let LinkMotion { way, first, .. } = pair.motion;
         let meeting = |t: f64, place: DVec3, distance: f64, contact: Option<Contact>| {
             let place = self.in_part(&way.at(t), *first, place);
@@ -303,10 +310,15 @@ impl MachineParts {
         };
         if let Some(touch) = pair.touch(ends) {
             let contact = Contact { from: touch.from, to: touch.to, clears_by: None };
-            return Some(meeting(touch.from, touch.place, 0.0, Some(contact)));
+            found.push(meeting(touch.from, touch.place, 0.0, Some(contact)));
+            return;
         }
-        let nearest = pair.nearest(ends, near).filter(|_| near > 0.0)?;
-        Some(meeting(nearest.t, nearest.place, nearest.distance, None))
+        let open = near.open(two, most);
+        if open > 0.0
+            && let Some(nearest) = pair.nearest(ends, open)
+        {
+            near.note(two, nearest.distance, meeting(nearest.t, nearest.place, nearest.distance, None));
+        }
     }
 
     fn motion<'a>(&'a self, way: &'a Way<'a>, [first, last]: [usize; 2], place: Rigid) -> LinkMotion<'a> {

@@ -7,14 +7,8 @@
 use glam::DVec3;
 
 use super::{Kind, ToolMotion, joints};
-use crate::geom::{Curve, CurveKind};
 use crate::machine::Kinematics;
 use crate::machine::kinematics::Twist;
-
-/// Samples of the curvature of a curve whose largest curvature is not known in closed form.
-const SAMPLES: usize = 32;
-/// Factor by which a sampled curvature is enlarged.
-const RESERVE: f64 = 1.5;
 
 impl ToolMotion {
     /// A bound on the distance [mm] of the points within `reach` of the tip from straight lines between their places at `from`
@@ -38,9 +32,7 @@ impl ToolMotion {
     /// A bound on the acceleration of the points within `reach` of the tip between two moments [mm by `t` squared].
     pub(crate) fn most_acceleration(&self, from: f64, to: f64, reach: f64) -> f64 {
         match &self.kind {
-            Kind::Turning { curve, rate, .. } => {
-                curve_acceleration(curve, from, to) + rate.length_squared() * reach
-            }
+            Kind::Turning { curve, rate, .. } => curve.most_bend(from, to) + rate.length_squared() * reach,
             Kind::Joints { chain, from: q0, to: q1, .. } => {
                 let jacobian = chain.jacobian(&joints::between(q0, q1, 0.5 * (from + to)));
                 chain_acceleration(
@@ -52,7 +44,7 @@ impl ToolMotion {
                 )
             }
             Kind::TipAndJoints { curve, chain, from: q0, to: q1, .. } => {
-                curve_acceleration(curve, from, to) + turning_acceleration(chain, |i| q1[i] - q0[i]) * reach
+                curve.most_bend(from, to) + turning_acceleration(chain, |i| q1[i] - q0[i]) * reach
             }
             Kind::Screw { twist, .. } => {
                 let w = twist.turn;
@@ -64,7 +56,7 @@ impl ToolMotion {
     /// True if the bound on the acceleration rests on samples of the curvature: the tip goes along a spiral or a cubic.
     pub(crate) fn is_sampled(&self) -> bool {
         match &self.kind {
-            Kind::Turning { curve, .. } | Kind::TipAndJoints { curve, .. } => is_sampled(curve),
+            Kind::Turning { curve, .. } | Kind::TipAndJoints { curve, .. } => curve.is_bend_sampled(),
             Kind::Joints { .. } | Kind::Screw { .. } => false,
         }
     }
@@ -89,28 +81,6 @@ impl ToolMotion {
         let twist = self.at(t).twist;
         twist.shift.length() + twist.turn.length() * reach
     }
-}
-
-/// True for a curve whose largest curvature is not known in closed form.
-pub(crate) fn is_sampled(curve: &Curve) -> bool {
-    !matches!(curve.kind(), CurveKind::Line(_) | CurveKind::Arc(_) | CurveKind::Involute { .. })
-}
-
-/// Largest second derivative of the place on a curve run at a constant speed.
-pub(crate) fn curve_acceleration(curve: &Curve, from: f64, to: f64) -> f64 {
-    let length = curve.length();
-    let at = |t: f64| curve.at(t * length).d2.length();
-    let curvature = match curve.kind() {
-        CurveKind::Line(_) => 0.0,
-        CurveKind::Arc(_) => at(0.0),
-        // Its radius grows steadily.
-        CurveKind::Involute { .. } => at(from).max(at(to)),
-        _ => {
-            let sample = |i: usize| at(from + (to - from) * i as f64 / SAMPLES as f64);
-            RESERVE * (0..=SAMPLES).map(sample).filter(|k| k.is_finite()).fold(0.0, f64::max)
-        }
-    };
-    curvature * length * length
 }
 
 /// A bound on `|w'| + |w|^2` of a chain whose joints go straight: each rotary joint carries those behind it.

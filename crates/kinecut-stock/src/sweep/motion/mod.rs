@@ -15,7 +15,7 @@ mod segment;
 
 use glam::{DMat3, DQuat, DVec3};
 
-pub(crate) use bound::{chain_acceleration, curve_acceleration, is_sampled};
+pub(crate) use bound::chain_acceleration;
 pub use given::{GivenTwist, ScrewMove, TipMove, TipPath, twist_of_rows};
 
 use crate::base::{Code, Finding, Result};

@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use super::axes::{MAX_REACH, axis_names, axis_of, direction, point};
 
-use crate::base::bounded::{positive, text};
+use crate::base::bounded::{length, positive, text};
 use crate::base::{Code, Finding, Loader, Result};
 use crate::geom::{Aabb, Rigid, Solid, load_mesh};
 use crate::job::file::{BodyCylinderTable, BodyTable, BoxTable};
@@ -12,6 +12,9 @@ use crate::machine::{Body, Link, Machine};
 
 /// Most bodies of a machine: far more than links, and few enough to compare each with each.
 const MOST_BODIES: usize = 1000;
+
+/// Greatest distance that others can be asked to keep from a body [mm].
+pub(super) const MOST_NEAR: f64 = 100.0;
 
 /// The bodies of a machine whose axes are known; their errors have the key within the machine.
 pub(super) fn bodies(tables: &[BodyTable], machine: &Machine, loader: &dyn Loader) -> Result<Vec<Body>> {
@@ -36,8 +39,7 @@ fn body(t: &BodyTable, machine: &Machine, loader: &dyn Loader) -> Result<Body> {
         (None, Some(c), None) => cylinder(link, c).map_err(|e| e.under("cylinder"))?,
         (None, None, Some(file)) => {
             let mesh = load_mesh(file, loader).map_err(|e| e.under("mesh"))?;
-            let solid = Solid::Mesh(mesh);
-            Body { name: String::new(), link, solid, place: Rigid::IDENTITY, file: Some(file.clone()) }
+            Body { file: Some(file.clone()), ..Body::of(link, Solid::Mesh(mesh), Rigid::IDENTITY) }
         }
         (None, None, None) => {
             return Err(Finding::error(Code::MACHINE_BODY, "a body has no form")
@@ -52,7 +54,8 @@ fn body(t: &BodyTable, machine: &Machine, loader: &dyn Loader) -> Result<Body> {
                 .into());
         }
     };
-    Ok(Body { name, ..body })
+    let near = length("near", t.near.unwrap_or(Body::NEAR), 0.0, MOST_NEAR)?;
+    Ok(Body { name, near, ..body })
 }
 
 /// The link that a word names.

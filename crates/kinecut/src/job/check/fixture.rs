@@ -5,14 +5,14 @@ use std::sync::Arc;
 use glam::{DMat3, DVec3};
 
 use super::super::file::{ClampTable, FixtureTable, StockTable, ViseTable};
+use super::body::MOST_NEAR;
 use super::stock;
 use crate::base::bounded::{MAX_LENGTH, length, positive, text};
 use crate::base::{Code, Finding, Loader, Result};
 use crate::geom::{Aabb, Rigid, Solid};
+use crate::machine::Body;
 use crate::program::Fixture;
 
-/// Distance that tools keep from a body, if nothing says it [mm].
-const NEAR: f64 = 0.5;
 /// Height of the bed of a vise, if nothing says it [mm].
 const BED: f64 = 40.0;
 
@@ -74,7 +74,7 @@ fn fixture(t: &FixtureTable, setups: usize, loader: &dyn Loader) -> Result<Place
     }
     let turn = length("turn", t.turn.unwrap_or(0.0), -360.0, 360.0)?;
     let place = Rigid { rotation: DMat3::from_rotation_z(turn.to_radians()), translation: at };
-    let near = length("near", t.near.unwrap_or(NEAR), 0.0, 100.0)?;
+    let near = length("near", t.near.unwrap_or(Body::NEAR), 0.0, MOST_NEAR)?;
     let bodies = forms(t, loader)?;
     let body = |(name, solid): (&str, Solid)| {
         let name = if name.is_empty() { t.name.clone() } else { format!("{} ({name})", t.name) };

@@ -117,9 +117,11 @@ impl GivenJob {
     /// Simulates it in another way than its job says.
     ///
     /// # Errors
-    /// `KC0103` for a step or tolerance out of range.
+    /// `KC0103` for a step or tolerance out of range; those of a mesh as design.
     pub fn simulated(&mut self, wants: &StockWants) -> Result<()> {
-        wants.apply(&mut self.job)
+        let design = wants.apply(&mut self.job)?;
+        self.subjects.extend(design);
+        Ok(())
     }
 
     /// The program.

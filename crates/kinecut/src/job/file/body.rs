@@ -24,6 +24,9 @@ pub struct BodyTable {
     /// A closed STL mesh: a file in the folder of the machine file, in the frame of the machine with all axes at zero.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub mesh: Option<String>,
+    /// Least distance that other bodies are to keep from it; nearer is a warning, 0 asks for none. Default 0.5.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub near: Option<f64>,
 }
 
 /// A cylinder along any direction.

@@ -99,6 +99,9 @@ fn body(out: &mut String, machine: &Machine, body: &Body) {
             let _ = writeln!(out, "mesh = {}", quoted(body.file.as_deref().unwrap_or_default()));
         }
     }
+    if body.near != Body::NEAR {
+        let _ = writeln!(out, "near = {}", body.near);
+    }
 }
 
 /// A link as a machine file names it.

@@ -6,12 +6,14 @@ use super::Simulated;
 use crate::base::{Code, Finding};
 use crate::job::setup_outcome::SetupOutcome;
 use crate::machine::Machine;
-use crate::trace::{Segment, SegmentPace};
+use crate::trace::{JointWay, Segment, SegmentPace};
 
 /// Addresses of the axes in the order of a segment's joints.
 const LETTERS: [char; 6] = ['X', 'Y', 'Z', 'A', 'B', 'C'];
-/// Intervals of a segment between which the mean speed of an axis is taken.
-const INTERVALS: u32 = 16;
+/// A part of a segment over which a mean speed is taken where there is no bound.
+const LEAST_STRETCH: f64 = 1.0 / 4096.0;
+/// Ratio of a bound on a speed to a speed that is reached at which both count as one.
+const CLOSE: f64 = 1.002;
 /// Ratio explained by rounding feeds and positions to the digits of a program.
 const SLACK: f64 = 1.005;
 
@@ -30,7 +32,7 @@ pub(super) fn axis_speed(simulated: &Simulated<'_>) -> Vec<Finding> {
         let mut worst: [Option<Worst>; 6] = [const { None }; 6];
         for segment in done.trace.segments.iter().filter(|s| s.motion != SegmentPace::Rapid && !s.alternative)
         {
-            let speeds = needed(segment);
+            let speeds = needed(segment, &most);
             for i in 0..6 {
                 let (Some(most), speed) = (most[i], speeds[i]) else { continue };
                 if speed > most * SLACK {
@@ -73,21 +75,42 @@ fn rapid(machine: &Machine, letter: char) -> Option<f64> {
     joint.dynamics.rapid.or(machine.dynamics.rapid.filter(|_| !joint.motion.is_rotation()))
 }
 
-/// The greatest mean speed of each axis between neighbouring places of a segment [mm/s, rad/s]; zero where its time is not
-/// known.
-fn needed(segment: &Segment) -> [f64; 6] {
-    let mut most = [0.0f64; 6];
-    let Some(seconds) = segment.duration.filter(|s| *s > 0.0) else { return most };
-    let each = seconds / f64::from(INTERVALS);
-    let mut before: Option<[f64; 6]> = None;
-    for k in 0..=INTERVALS {
-        let Some(now) = segment.joints(f64::from(k) / f64::from(INTERVALS)) else { return [0.0; 6] };
-        if let Some(before) = before {
-            for i in 0..6 {
-                most[i] = most[i].max((now[i] - before[i]).abs() / each);
-            }
+/// The greatest speed of each axis on a segment [mm/s, rad/s], where it is more than an axis has; else a bound or zero, and zero where
+/// its time or its axes are not known. Next to a pole it is a mean over a small part of the move.
+fn needed(segment: &Segment, most: &[Option<f64>; 6]) -> [f64; 6] {
+    let (Some(seconds), Some(way)) = (segment.duration.filter(|s| *s > 0.0), JointWay::new(segment)) else {
+        return [0.0; 6];
+    };
+    let mut fastest = Fastest {
+        way: &way,
+        allowed: most.map(|m| m.map_or(f64::INFINITY, |m| m * seconds)),
+        found: [0.0; 6],
+    };
+    fastest.look(0.0, 1.0, [way.at(0.0), way.at(1.0)]);
+    fastest.found.map(|speed| speed / seconds)
+}
+
+/// The greatest speeds of a way, by `t`, as far as they are more than what is allowed.
+struct Fastest<'a> {
+    way: &'a JointWay<'a>,
+    allowed: [f64; 6],
+    found: [f64; 6],
+}
+
+impl Fastest<'_> {
+    fn look(&mut self, from: f64, to: f64, ends: [[f64; 6]; 2]) {
+        let step = to - from;
+        let rates = self.way.rates(from, to);
+        for i in 0..6 {
+            self.found[i] = self.found[i].max((ends[1][i] - ends[0][i]).abs() / step);
         }
-        before = Some(now);
+        let within = |i: usize| rates[i].0 <= self.allowed[i].max(self.found[i] * CLOSE);
+        if step <= LEAST_STRETCH || (0..6).all(within) {
+            return;
+        }
+        let middle = 0.5 * (from + to);
+        let at = self.way.at(middle);
+        self.look(from, middle, [ends[0], at]);
+        self.look(middle, to, [at, ends[1]]);
     }
-    most
 }

@@ -4,6 +4,7 @@ use glam::{DVec2, DVec3};
 
 use crate::contact::Meeting;
 use crate::geom::{Rigid, Solid, convex_hull};
+use crate::job::contacts::LOOK;
 use crate::job::{Outcome, SetupOutcome};
 use crate::operations::setting::corners;
 use crate::page::{Cell, Colour, Ink, Plan, PlanLine, Row, Section, Table, Width};
@@ -112,10 +113,7 @@ impl Shown<'_> {
                 (None, Some(near)) => {
                     (Cell::new(format!("passed at {:.2} mm", near.distance)), self.line(near))
                 }
-                (None, None) if fixture.near > 0.0 => {
-                    (Cell::right(format!("nothing nearer than {} mm", fixture.near)), None)
-                }
-                (None, None) => (Cell::right("nothing meets it"), None),
+                (None, None) => (Cell::right(format!("nothing nearer than {LOOK} mm")), None),
             };
             let cells = vec![
                 Cell::new(fixture.name.clone()),

@@ -12,11 +12,13 @@
 //! assert!(page.starts_with("<!DOCTYPE html>") && page.contains("SAFE"));
 //! ```
 
+mod before_run;
 mod deviation;
 mod encode;
 mod facts;
 mod findings;
 mod fixtures;
+mod machine;
 mod model;
 mod of_job;
 mod page;

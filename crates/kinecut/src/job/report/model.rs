@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 use super::PathPiece;
 use crate::base::Finding;
 use crate::geom::Mesh;
-use crate::job::{Judgement, Unchecked};
+use crate::job::{Judgement, ToEnsure, Unchecked};
 use crate::page::{Fact, Section, serde_gap};
 
 /// The whole report. Lines of the program are counted from 0 here and shown from 1.
@@ -79,6 +79,8 @@ pub struct ReportVerdict {
     pub found: Vec<String>,
     /// Items that nobody checked.
     pub not_checked: Vec<Unchecked>,
+    /// What a person has to make sure of before the run.
+    pub to_ensure: Vec<ToEnsure>,
     /// SHA-256 of the program's bytes, hexadecimal; may be empty.
     pub sha256: String,
 }
@@ -96,6 +98,7 @@ impl ReportVerdict {
             proven: Vec::new(),
             found: Vec::new(),
             not_checked: Vec::new(),
+            to_ensure: Vec::new(),
             sha256: String::new(),
         }
     }

@@ -1,7 +1,7 @@
 //! The report of a job's outcome: what every job has. Each operation adds its own section.
 
 use super::model::{PartView, ProgramPart, ProgramView, Report, ReportVerdict, ToolView};
-use super::{PathPiece, PathRole, fixtures};
+use super::{PathPiece, PathRole, before_run, fixtures, machine};
 use crate::base::at_most;
 use crate::geom::ProfileElement;
 use crate::job::feeds::lowered_words;
@@ -64,6 +64,8 @@ fn with(outcome: &Outcome, page: bool) -> Report {
     let shown: Vec<_> = setups.flat_map(|(i, first)| outcome.shown(i, &begins, *first)).collect();
     report.sections = OperationPlan::sections(&shown);
     report.sections.extend(fixtures::section(outcome, &first_lines));
+    report.sections.extend(machine::section(outcome, &first_lines));
+    report.sections.extend(before_run::section(&outcome.verdict.to_ensure));
     count_in_own_programs(&mut report.sections, &first_lines);
     report.findings = outcome.verdict.found.clone();
     report
@@ -154,6 +156,7 @@ fn verdict(outcome: &Outcome) -> ReportVerdict {
     verdict.proven = outcome.verdict.proven.iter().map(|p| format!("{} ({})", p.claim, p.bound)).collect();
     verdict.found = found.iter().map(ToString::to_string).collect();
     verdict.not_checked = outcome.verdict.not_checked.clone();
+    verdict.to_ensure = outcome.verdict.to_ensure.clone();
     // A program that was named on a command line is the one that was simulated, whatever the job names.
     let subjects = || outcome.verdict.subjects.iter();
     let given = subjects().any(|s| s.role == "given program");

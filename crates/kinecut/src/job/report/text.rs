@@ -1,6 +1,6 @@
 //! The report in sections without pictures, for a terminal.
 
-use super::Report;
+use super::{Report, before_run};
 use crate::base::Finding;
 use crate::page::{Block, Fact, Section, duration, length};
 
@@ -25,6 +25,7 @@ pub fn sections(report: &Report) -> Vec<Section> {
         }
         sections.push(open);
     }
+    sections.extend(before_run::section(&verdict.to_ensure));
     if !verdict.sha256.is_empty() {
         let hash = Block::Text(format!("Program SHA-256 {}", verdict.sha256));
         sections.push(Section::default().with(hash));

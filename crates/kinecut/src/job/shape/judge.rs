@@ -74,7 +74,12 @@ pub(super) fn face(operation: &Operation, m: &FaceMeasure, answer: &mut Deviatio
 }
 
 /// Judges the whole part against the design mesh.
-pub(super) fn design(design: &Design, summary: &DeviationSummary, answer: &mut Deviation) {
+pub(super) fn design(
+    design: &Design,
+    summary: &DeviationSummary,
+    first: Option<WorstEnd>,
+    answer: &mut Deviation,
+) {
     let help = "add the operations that are missing, or correct those that cut too deep";
     let worst = |w: WorstEnd| Worst { depth: w.depth, point: w.point, cut: w.cut };
     let (gouge, left) = (worst(summary.gouge), worst(summary.left));
@@ -85,6 +90,11 @@ pub(super) fn design(design: &Design, summary: &DeviationSummary, answer: &mut D
         design.tolerance,
         (help, None),
     );
+    // Another block than the worst one may have been the first.
+    if let Some(first) = first.filter(|first| first.cut != summary.gouge.cut) {
+        let what = "the part is cut into the design for the first time";
+        answer.judge(Code::WALL_GOUGED, what, &worst(first), design.tolerance, (help, None));
+    }
     answer.judge(Code::STOCK_LEFT, "stock is left on the design", &left, design.tolerance, (help, None));
     let most = gouge.depth.max(left.depth);
     if most <= design.tolerance && summary.ends > 0 {

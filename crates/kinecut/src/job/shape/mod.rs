@@ -136,7 +136,8 @@ pub fn deviation(
         let summary = crate::stock::summary(stock, &from_design);
         compared.merge_from(&from_design, |old, d| old.or(Compared { deviation: d as f32, tolerance }));
         answer.note_largest(summary.ends as usize, summary.left.depth, summary.gouge.depth, design.tolerance);
-        judge::design(design, &summary, &mut answer);
+        let first = crate::stock::first_gouge(stock, &from_design, design.tolerance);
+        judge::design(design, &summary, first, &mut answer);
         tolerances.push(design.tolerance);
     }
     let first = tolerances.first().copied().unwrap_or(0.0);

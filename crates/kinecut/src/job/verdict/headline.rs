@@ -1,8 +1,10 @@
 //! The first sentence of a verdict, and of what it speaks: the same words in terminal, report, NC header and JSON.
 
 use super::super::check::Job;
+use super::super::contacts::machine::MachineContacts;
 use super::super::setup_outcome::SetupOutcome;
 use super::super::shape::Deviation;
+use super::super::simulate::Simulation;
 use super::Judgement;
 use crate::base::{Finding, Severity};
 use crate::operations::Operation;
@@ -46,24 +48,36 @@ pub(super) fn headline(found: &[Finding], files: &[String]) -> String {
 }
 
 /// Subjects of the outcome, and inputs that nobody gave: sentences without a full stop.
-pub(in crate::job) fn scope(job: &Job, setups: &[SetupOutcome], deviation: &Deviation) -> Vec<String> {
+pub(in crate::job) fn scope(
+    job: &Job,
+    setups: &[SetupOutcome],
+    simulation: &Simulation,
+    deviation: &Deviation,
+) -> Vec<String> {
     let mut scope = vec![shape(job, deviation)];
     scope.extend(holders(job, setups));
-    scope.push(bodies(job));
+    scope.push(bodies(job, simulation));
     if !job.machine.as_ref().is_some_and(|m| m.joints.iter().any(|j| j.travel.is_some())) {
         scope.push("Travel of the axes not given".to_owned());
     }
     scope
 }
 
-/// Bodies that tools were compared with.
-fn bodies(job: &Job) -> String {
+/// Bodies that were compared.
+fn bodies(job: &Job, simulation: &Simulation) -> String {
     let of_machine = job.machine.as_ref().map_or(0, |m| m.bodies.len());
     let given = job.setups.iter().filter(|setup| !setup.setup.fixtures.is_empty()).count();
-    let machine = if of_machine == 0 { "machine bodies not modelled" } else { "machine bodies not compared" };
+    let whole = |m: &Option<MachineContacts>| m.as_ref().is_some_and(MachineContacts::is_whole);
+    let some = |m: &Option<MachineContacts>| m.as_ref().is_some_and(|m| m.compared > 0);
+    let machine = match of_machine {
+        0 => "machine bodies not modelled",
+        _ if simulation.machine.iter().all(whole) => "machine bodies compared",
+        _ if simulation.machine.iter().any(some) => "machine bodies compared in part",
+        _ => "machine bodies not compared",
+    };
     match (given, of_machine) {
         (0, 0) => "Clamps, fixtures and machine bodies not modelled".to_owned(),
-        (0, _) => "Clamps and fixtures not modelled, machine bodies not compared".to_owned(),
+        (0, _) => format!("Clamps and fixtures not modelled, {machine}"),
         (n, _) if n == job.setups.len() => format!("Fixtures as given compared, {machine}"),
         (n, _) => format!("Fixtures compared in {n} of {} setups, {machine}", job.setups.len()),
     }

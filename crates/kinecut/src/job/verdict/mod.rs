@@ -1,5 +1,6 @@
 //! The verdict: what was proven of which bytes, what was found, what was not checked.
 
+mod ensure;
 mod headline;
 mod judgement;
 mod open;
@@ -13,10 +14,12 @@ use serde::{Deserialize, Serialize};
 use crate::base::{Code, Finding, Result};
 use crate::job::subject::{Subject, sha256};
 
+pub use ensure::ToEnsure;
 pub use judgement::Judgement;
 pub use unchecked::{Heading, Unchecked, UncheckedItem};
 pub use verify::{VerdictCheck, verify};
 
+pub(super) use ensure::to_ensure;
 pub(super) use headline::{banner, scope};
 pub(super) use open::not_checked;
 pub(super) use proven::proven;
@@ -43,6 +46,9 @@ pub struct Verdict {
     pub found: Vec<Finding>,
     /// Items not checked, and assumptions; only those that apply to this program.
     pub not_checked: Vec<Unchecked>,
+    /// What a person has to make sure of before the run.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub to_ensure: Vec<ToEnsure>,
     /// SHA-256 of this verdict's other fields.
     pub digest: String,
 }
@@ -67,10 +73,19 @@ impl Verdict {
             proven,
             found,
             not_checked,
+            to_ensure: Vec::new(),
             digest: String::new(),
         };
         verdict.digest = verdict.own_digest();
         verdict
+    }
+
+    /// The verdict with what a person has to make sure of before the run.
+    #[must_use]
+    pub fn ensuring(mut self, to_ensure: Vec<ToEnsure>) -> Verdict {
+        self.to_ensure = to_ensure;
+        self.digest = self.own_digest();
+        self
     }
 
     /// The outcome with the number of what led to it ("SAFE, 1 warning").

@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::super::check::Job;
+use super::super::contacts::machine::MachineContacts;
 use super::super::setup_outcome::SetupOutcome;
 use super::super::simulate::Simulation;
 use super::{Heading, UncheckedList};
@@ -22,7 +23,7 @@ pub(in crate::job) fn not_checked(
         };
         list.add(Heading::Shape, what);
     }
-    bodies(job, &mut list);
+    bodies(job, setups, simulation, &mut list);
     if let Some(certificate) = &simulation.certificate {
         let uncertain = [
             (certificate.left_out, "moves of drills that leave a core: not certified"),
@@ -45,7 +46,7 @@ pub(in crate::job) fn not_checked(
 }
 
 /// Clamps, fixtures and the machine's own bodies.
-fn bodies(job: &Job, list: &mut UncheckedList) {
+fn bodies(job: &Job, setups: &[SetupOutcome], simulation: &Simulation, list: &mut UncheckedList) {
     let bare: Vec<String> = (1..)
         .zip(&job.setups)
         .filter(|(_, setup)| setup.setup.fixtures.is_empty())
@@ -59,23 +60,47 @@ fn bodies(job: &Job, list: &mut UncheckedList) {
     }
     if none_given {
         list.add(Heading::Bodies, "clamps and fixtures: not modelled");
-    } else {
-        if !bare.is_empty() {
-            let setups = if bare.len() == 1 { "setup" } else { "setups" };
-            list.add(
-                Heading::Bodies,
-                format!("clamps and fixtures of {setups} {}: not given", bare.join(", ")),
-            );
-        }
-        let what = "clamps and fixtures: compared with tools, shanks and holders in moves, not with the spindle head, and not where a tool is changed";
-        list.add(Heading::Bodies, what);
+    } else if !bare.is_empty() {
+        let setups = if bare.len() == 1 { "setup" } else { "setups" };
+        list.add(Heading::Bodies, format!("clamps and fixtures of {setups} {}: not given", bare.join(", ")));
     }
-    match of_machine {
-        0 => list.add(Heading::Bodies, "the machine's own bodies: not modelled"),
-        count => list.add(
+    if of_machine == 0 {
+        let what = "the machine's own bodies: not modelled, fixtures are compared with tools, shanks and holders only";
+        list.add(Heading::Bodies, if none_given { "the machine's own bodies: not modelled" } else { what });
+    }
+    for (done, contacts) in setups.iter().zip(&simulation.machine) {
+        if let Some(contacts) = contacts {
+            of_machine_in(done, contacts, list);
+        }
+    }
+}
+
+/// Bodies of a machine along the program of a setup.
+fn of_machine_in(done: &SetupOutcome, contacts: &MachineContacts, list: &mut UncheckedList) {
+    let file = &done.file;
+    let line = |item: u32| done.lines.get(item as usize).copied().flatten().map(|l| l + 1);
+    let all = "the machine's bodies: not compared with the part, the tool and one another";
+    if let Some(reason) = contacts.not_compared {
+        list.at(Heading::Bodies, file, None, format!("{all}, {reason}"));
+    }
+    for tool in &contacts.without_length {
+        list.at(
             Heading::Bodies,
-            format!("the machine's {count} bodies: moved in drawings only, not compared with the part, the tool and one another"),
-        ),
+            file,
+            None,
+            format!("{all} in moves of {tool}, its gauge length is not given"),
+        );
+    }
+    if !contacts.met.lost.is_empty() {
+        let items = contacts.met.lost.iter().map(|i| done.trace.segments[*i as usize].item);
+        let mut lines: Vec<u32> = items.filter_map(line).collect();
+        lines.dedup();
+        list.at(Heading::Bodies, file, lines, format!("{all}, the positions of the axes are not known"));
+    }
+    for [standing, moving] in &contacts.touching {
+        let [one, other] = [moving, standing].map(|i| &contacts.bodies[*i as usize].name);
+        let what = format!("`{one}` and `{other}`: not compared, they touch where the program begins");
+        list.at(Heading::Bodies, file, None, what);
     }
 }
 

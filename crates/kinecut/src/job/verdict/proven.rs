@@ -1,6 +1,7 @@
 //! Claims proven by a run, each with the bound below which something can have been missed.
 
 use super::super::check::Job;
+use super::super::contacts::machine::{BodyKind, MachineContacts};
 use super::super::missed::may_clip;
 use super::super::setup_outcome::SetupOutcome;
 use super::super::shape::Deviation;
@@ -95,6 +96,10 @@ pub(in crate::job) fn proven(
                 ),
             );
         }
+        if let Some(contacts) = simulation.machine[i].as_ref().filter(|c| c.compared > 0 && c.is_clear()) {
+            let (claim, bound) = machine_clear(contacts, file, segments.iter().any(|s| s.alternative));
+            add(claim, bound);
+        }
         if let Some(machine) = &job.machine
             && machine.joints.iter().any(|a| a.travel.is_some())
             && travel_findings(&s.trace, &s.program, machine).is_empty()
@@ -131,4 +136,28 @@ pub(in crate::job) fn proven(
         add(claim.clone(), format!("exact along the lines of the stock model, {step} mm between them"));
     }
     proven
+}
+
+/// The claim that bodies of the machine meet nothing, with its bound.
+fn machine_clear(contacts: &MachineContacts, file: &str, dog_legs: bool) -> (String, String) {
+    let count = |is: &dyn Fn(&BodyKind) -> bool| contacts.bodies.iter().filter(|b| is(&b.kind)).count();
+    let fixtures = count(&|kind| matches!(kind, BodyKind::Fixture(_)));
+    let others = if fixtures > 0 { "tools, fixtures, the raw stock" } else { "tools, the raw stock" };
+    let claim = match count(&|kind| matches!(kind, BodyKind::Machine(_))) {
+        1 => format!("the body of the machine meets nothing in `{file}`: {others}"),
+        n => format!("the {n} bodies of the machine meet nothing in `{file}`: {others}, one another"),
+    };
+    let whole = match contacts.is_whole() {
+        true => String::new(),
+        false => format!("; {} moves compared, not all", contacts.compared),
+    };
+    let sampled = match contacts.met.sampled.len() {
+        0 => String::new(),
+        n => format!("; {n} moves with sampled bounds on the way of their axes"),
+    };
+    let ways = if dog_legs { "rapids straight and axis by axis" } else { "rapids straight" };
+    let bound = format!(
+        "motion of the axes swept, not sampled, {ways}; contacts within 0.01 mm count; bodies on neighbouring links not compared with each other{whole}{sampled}"
+    );
+    (claim, bound)
 }

@@ -9,6 +9,7 @@ mod five_axis;
 mod fixtures;
 mod inspect;
 mod kept;
+mod machine_bodies;
 mod picture;
 mod prove_motion;
 mod prove_rules;

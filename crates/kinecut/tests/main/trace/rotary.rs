@@ -105,7 +105,7 @@ fn consistent(segment: &Segment, machine: &Machine, program: &Program, chord: f6
     }
 }
 
-fn rotary(code: &str, first: f64, second: f64) -> [Option<f64>; 3] {
+pub(super) fn rotary(code: &str, first: f64, second: f64) -> [Option<f64>; 3] {
     let mut angles = [None; 3];
     let letters: Vec<usize> = code.chars().filter_map(|c| "456".find(c)).collect();
     angles[letters[0]] = Some(first);

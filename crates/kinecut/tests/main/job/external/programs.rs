@@ -26,7 +26,7 @@ fn a_certified_simulation_says_so_with_its_bounds() {
     let mut given = given_with_job(program, &ProgramWants::default(), ("job.toml", &job), &loader).unwrap();
     let wants = StockWants { certified: true, step: Some(1.0), ..StockWants::default() };
     given.simulated(&wants).unwrap();
-    let too_coarse = StockWants { mesh_tolerance: Some(1.1), ..wants };
+    let too_coarse = StockWants { mesh_tolerance: Some(1.1), ..wants.clone() };
     assert_eq!(given.simulated(&too_coarse).unwrap_err().code(), Code::JOB_VALUE);
     given.simulated(&wants).unwrap();
     let done = simulate_given(given, &Silent).unwrap();

@@ -2,19 +2,18 @@
 
 use glam::DVec3;
 
-use super::check::Job;
+use super::super::check::Job;
+use super::noun::noun;
+use super::{AS_LONG, AS_NEAR, AT_ONCE, LOOK, hundredths};
 use crate::base::{Code, Finding, Location, Progress, Result};
-use crate::contact::{Meeting, MovingTool, StandingBody, ToolPart, Watched, meetings};
+use crate::contact::{Body, Meeting, MovingTool, ToolPart, Watched, meetings};
 use crate::program::Setup;
 use crate::sweep::ToolMotion;
 use crate::tool::Tool;
 use crate::trace::{Segment, SegmentPace, Trace};
 
-/// Moves that are watched at once: their motions take some hundred bytes each.
-const AT_ONCE: usize = 1 << 18;
-
 /// Contacts and near passes of the segments of a setup's program; none where it has no fixtures.
-pub(super) fn contacts(
+pub(in crate::job) fn contacts(
     job: &Job,
     setup: &Setup,
     trace: &Trace,
@@ -26,7 +25,7 @@ pub(super) fn contacts(
     let tools = job.tools.iter().map(moving).collect::<Result<Vec<_>>>()?;
     let to_part = setup.part_on_table.inverse();
     let bodies = setup.fixtures.iter().map(|fixture| {
-        StandingBody::new(fixture.name.clone(), &fixture.solid, to_part.after(&fixture.place), fixture.near)
+        Body::new(fixture.name.clone(), &fixture.solid, to_part.after(&fixture.place), fixture.near.max(LOOK))
     });
     let bodies = bodies.collect::<Result<Vec<_>>>()?;
     let watched = |segment: &Segment| {
@@ -47,7 +46,7 @@ pub(super) fn contacts(
 }
 
 /// A tool with its shank and its holder.
-fn moving(tool: &Tool) -> Result<MovingTool> {
+pub(super) fn moving(tool: &Tool) -> Result<MovingTool> {
     let cutting = tool.cutting_profile()?;
     let shank = tool.shank_profile()?;
     let holder = tool.holder_profiles()?;
@@ -57,23 +56,8 @@ fn moving(tool: &Tool) -> Result<MovingTool> {
     Ok(MovingTool::new(cutter.chain(shank).chain(holder)))
 }
 
-/// Difference of two distances that counts as none [mm].
-const AS_NEAR: f64 = 2e-3;
-
-/// Difference of two ways in contact that counts as none [mm].
-const AS_LONG: f64 = 0.02;
-
-/// Noun of a part of a tool.
-fn noun(part: ToolPart) -> &'static str {
-    match part {
-        ToolPart::Cutter => "tool",
-        ToolPart::Shank => "shank",
-        ToolPart::Holder => "holder",
-    }
-}
-
 /// Findings of the meetings: contacts by block and body, near passes by tool, part and body, each at the nearest block.
-pub(super) fn findings(
+pub(in crate::job) fn findings(
     setup: &Setup,
     trace: &Trace,
     meetings: &[Meeting],
@@ -113,7 +97,6 @@ pub(super) fn findings(
         let message = format!("the {} meets {}{rapid}{alone}", noun(meeting.part), name(setup, meeting));
         let finding = Finding::error(Code::FIXTURE_MET, message).point(meeting.place.to_array());
         // Both in hundredths: the lift is not less than what clears.
-        let hundredths = |value: f64| (value * 100.0).round() / 100.0;
         let finding = if way > 0.0 { finding.value(hundredths(way), "mm of the move") } else { finding };
         let clears = meeting.contact.as_ref().and_then(|c| c.clears_by);
         let higher = clears.map(|lift| format!("{:.2} mm higher", hundredths(lift + 0.005)));
@@ -127,7 +110,8 @@ pub(super) fn findings(
         };
         (item, finding.help(help))
     });
-    let passed = near.into_iter().map(|meeting| {
+    let warned = |meeting: &&Meeting| meeting.distance < setup.fixtures[meeting.body as usize].near;
+    let passed = near.into_iter().filter(warned).map(|meeting| {
         let message = format!("the {} passes {}", noun(meeting.part), name(setup, meeting));
         let bound = setup.fixtures[meeting.body as usize].near;
         let finding = Finding::warning(Code::FIXTURE_NEAR, message)

@@ -1,0 +1,278 @@
+//! All that the machine moves: its bodies past one another, past tools, fixtures and the raw stock.
+
+use super::super::check::Job;
+use super::fixtures::moving;
+use super::noun::noun;
+use super::{AS_LONG, AS_NEAR, AT_ONCE, LOOK, hundredths};
+use crate::base::{Code, Finding, Location, Progress, Result};
+use crate::contact::{Body, LinkBody, MachineMeeting, MachineMove, MachineParts, Met, Party, ToolInSpindle};
+use crate::geom::Rigid;
+use crate::machine::Machine;
+use crate::program::Setup;
+use crate::tool::ToolNumber;
+use crate::trace::{Segment, SegmentPace, Trace};
+
+/// Bodies of a machine along the program of a setup.
+#[derive(Clone, Debug, Default)]
+pub struct MachineContacts {
+    /// Reason for which nothing was compared.
+    pub not_compared: Option<&'static str>,
+    /// The bodies: those of the machine, fixtures, the raw stock.
+    pub bodies: Vec<ComparedBody>,
+    /// Contacts and near passes; moves that were not compared as the positions of the axes are not known.
+    pub met: Met,
+    /// Pairs of bodies that touch where the program begins.
+    pub touching: Vec<[u32; 2]>,
+    /// Item at which it begins.
+    pub begins: u32,
+    /// Tools without a gauge length: in their moves nothing was compared.
+    pub without_length: Vec<ToolNumber>,
+    /// Moves that were compared.
+    pub compared: usize,
+}
+
+/// A body that was compared.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ComparedBody {
+    /// As a finding names it.
+    pub name: String,
+    /// Least distance that others are to keep [mm].
+    pub near: f64,
+    /// What it is.
+    pub kind: BodyKind,
+}
+
+/// What a body is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum BodyKind {
+    /// A body of the machine: its index there.
+    Machine(usize),
+    /// A fixture of the setup: its index there.
+    Fixture(usize),
+    /// The stock as it was before the first cut.
+    Stock,
+}
+
+/// Name of a body of a machine in words.
+pub(crate) fn body_name(machine: &Machine, index: usize) -> String {
+    match &machine.bodies[index].name[..] {
+        "" => format!("body {}", index + 1),
+        name => name.to_owned(),
+    }
+}
+
+/// Contacts and near passes along a setup's program; nothing where the machine has no bodies.
+pub(in crate::job) fn contacts(
+    job: &Job,
+    setup: &Setup,
+    trace: &Trace,
+    progress: &dyn Progress,
+) -> Result<Option<MachineContacts>> {
+    let Some(machine) = job.machine.as_ref().filter(|m| !m.bodies.is_empty()) else { return Ok(None) };
+    let mut contacts = MachineContacts::default();
+    if !setup.located {
+        contacts.not_compared =
+            Some("where the part lies on the machine is not given (`position` of the setup)");
+        return Ok(Some(contacts));
+    }
+    let (bodies, compared) = bodies(job, machine, setup)?;
+    contacts.bodies = compared;
+    let mut tools = Vec::new();
+    // Tools that have a length, by their index among all.
+    let mut index = Vec::new();
+    for tool in &job.tools {
+        index.push(tool.gauge_length.map(|length| (tools.len() as u32, length)));
+        if let Some(length) = tool.gauge_length {
+            tools.push(ToolInSpindle { tool: moving(tool)?, length });
+        }
+    }
+    let Some(parts) = MachineParts::new(machine, setup.part_on_table, bodies, tools) else {
+        contacts.not_compared =
+            Some("its axes are not three linear and some rotary ones with the letters X Y Z A B C");
+        return Ok(Some(contacts));
+    };
+    let tool = |segment: &Segment| {
+        let at = job.tools.iter().position(|tool| Some(tool.number) == segment.tool)?;
+        index[at].map(|(tool, _)| tool)
+    };
+    // Moves with the number of their segment.
+    let mut watched: Vec<(u32, MachineMove<'_>)> = Vec::new();
+    for (number, segment) in (0..).zip(&trace.segments) {
+        match tool(segment) {
+            Some(tool) => watched.push((number, MachineMove { segment, tool })),
+            None => {
+                let number = segment.tool.filter(|number| !contacts.without_length.contains(number));
+                contacts.without_length.extend(number);
+            }
+        }
+    }
+    let begin = watched.iter().find_map(|(_, one)| Some((one.segment.item, parts.touching(one)?)));
+    if let Some((item, touching)) = begin {
+        (contacts.begins, contacts.touching) = (item, touching);
+    }
+    for some in watched.chunks(AT_ONCE) {
+        let moves: Vec<MachineMove<'_>> = some.iter().map(|(_, one)| *one).collect();
+        let met = parts.meetings(&moves, &contacts.touching, progress)?;
+        let number = |i: u32| some[i as usize].0;
+        let meetings = met.meetings.into_iter().map(|m| MachineMeeting { watched: number(m.watched), ..m });
+        contacts.met.meetings.extend(meetings);
+        contacts.met.lost.extend(met.lost.into_iter().map(number));
+        contacts.met.sampled.extend(met.sampled.into_iter().map(number));
+    }
+    contacts.compared = watched.len() - contacts.met.lost.len();
+    Ok(Some(contacts))
+}
+
+/// The bodies of a machine in a setup, in the machine's coordinates with all axes at zero.
+fn bodies(job: &Job, machine: &Machine, setup: &Setup) -> Result<(Vec<LinkBody>, Vec<ComparedBody>)> {
+    let (mut bodies, mut compared) = (Vec::new(), Vec::new());
+    for (i, body) in machine.bodies.iter().enumerate() {
+        let name = body_name(machine, i);
+        let solid = Body::new(name.clone(), &body.solid, body.place, body.near.max(LOOK))
+            .map_err(|e| e.under(&format!("machine.body[{i}].mesh")))?;
+        bodies.push(LinkBody { link: body.link, body: solid, of_machine: true });
+        compared.push(ComparedBody { name, near: body.near, kind: BodyKind::Machine(i) });
+    }
+    let link = machine.work_link();
+    for (i, fixture) in setup.fixtures.iter().enumerate() {
+        let place = machine.work.after(&fixture.place);
+        let body = Body::new(fixture.name.clone(), &fixture.solid, place, fixture.near.max(LOOK))?;
+        bodies.push(LinkBody { link, body, of_machine: false });
+        let (name, near) = (fixture.name.clone(), fixture.near);
+        compared.push(ComparedBody { name, near, kind: BodyKind::Fixture(i) });
+    }
+    let place: Rigid = machine.work.after(&setup.part_on_table);
+    let body = Body::new("the stock", &job.stock, place, 0.0)?;
+    bodies.push(LinkBody { link, body, of_machine: false });
+    compared.push(ComparedBody { name: "the stock".to_owned(), near: 0.0, kind: BodyKind::Stock });
+    Ok((bodies, compared))
+}
+
+impl MachineContacts {
+    /// A body as a sentence names it.
+    fn named(&self, body: u32) -> String {
+        let body = &self.bodies[body as usize];
+        match body.kind {
+            BodyKind::Machine(_) => format!("`{}` of the machine", body.name),
+            BodyKind::Fixture(_) => format!("`{}`", body.name),
+            BodyKind::Stock => body.name.clone(),
+        }
+    }
+
+    /// One of two that meet, as a sentence names it.
+    pub(in crate::job) fn party(&self, party: Party) -> String {
+        match party {
+            Party::Tool(part) => format!("the {}", noun(part)),
+            Party::Body(body) => self.named(body),
+        }
+    }
+
+    /// Whether all bodies were compared in all moves.
+    pub(in crate::job) fn is_whole(&self) -> bool {
+        self.not_compared.is_none()
+            && self.met.lost.is_empty()
+            && self.without_length.is_empty()
+            && self.touching.is_empty()
+    }
+
+    /// Whether nothing touches in the moves, nor where the program begins.
+    pub(in crate::job) fn is_clear(&self) -> bool {
+        self.touching.is_empty() && self.met.meetings.iter().all(|m| m.contact.is_none())
+    }
+
+    /// Least distance that two are to keep [mm].
+    fn near(&self, meeting: &MachineMeeting) -> f64 {
+        let own = match meeting.moving {
+            Party::Body(i) => self.bodies[i as usize].near,
+            Party::Tool(_) => 0.0,
+        };
+        own.max(self.bodies[meeting.standing as usize].near)
+    }
+
+    fn with_stock(&self, meeting: &MachineMeeting) -> bool {
+        self.bodies[meeting.standing as usize].kind == BodyKind::Stock
+    }
+}
+
+/// Findings: pairs that touch where the program begins, contacts by block and pair, near passes by pair, each at the nearest block.
+pub(in crate::job) fn findings(
+    contacts: &MachineContacts,
+    trace: &Trace,
+    place: impl Fn(u32) -> Option<Location>,
+) -> Vec<Finding> {
+    let pair = |m: &MachineMeeting| (m.moving, m.standing);
+    // Item, and the meeting that lasts longest or is nearest.
+    let mut met: Vec<(u32, &MachineMeeting, f64)> = Vec::new();
+    let mut near: Vec<&MachineMeeting> = Vec::new();
+    for meeting in &contacts.met.meetings {
+        let segment = &trace.segments[meeting.watched as usize];
+        let Some(contact) = &meeting.contact else {
+            let tool = |m: &MachineMeeting| match m.moving {
+                Party::Tool(_) => trace.segments[m.watched as usize].tool,
+                Party::Body(_) => None,
+            };
+            match near.iter_mut().find(|m| (pair(m), tool(m)) == (pair(meeting), tool(meeting))) {
+                Some(known) if meeting.distance < known.distance - AS_NEAR => *known = meeting,
+                Some(_) => {}
+                None => near.push(meeting),
+            }
+            continue;
+        };
+        let way = segment.curve.length() * (contact.to - contact.from);
+        // Meetings are in the order of the moves: those of one block are the last.
+        let of_block = met.iter().rev().take_while(|(item, ..)| *item == segment.item).count();
+        let from = met.len() - of_block;
+        match met[from..].iter_mut().find(|(_, m, _)| pair(m) == pair(meeting)) {
+            Some(known) if way > known.2 + AS_LONG => *known = (segment.item, meeting, way),
+            Some(_) => {}
+            None => met.push((segment.item, meeting, way)),
+        }
+    }
+    let touching = contacts.touching.iter().map(|[standing, moving]| {
+        let (one, other) = (contacts.named(*moving), contacts.named(*standing));
+        let finding =
+            Finding::error(Code::BODIES_OVERLAP, format!("{one} touches {other} where the program begins"))
+                .help("correct the form or the place of one of them, or put both on one link");
+        (contacts.begins, finding)
+    });
+    let met = met.into_iter().map(|(item, meeting, way)| {
+        let segment = &trace.segments[meeting.watched as usize];
+        (item, contact(contacts, meeting, segment, way))
+    });
+    let warned = |meeting: &&MachineMeeting| meeting.distance < contacts.near(meeting);
+    let passed = near.into_iter().filter(warned).map(|meeting| {
+        let (one, other) = (contacts.party(meeting.moving), contacts.named(meeting.standing));
+        let finding = Finding::warning(Code::MACHINE_NEAR, format!("{one} passes {other}"))
+            .point(meeting.place.to_array())
+            .value(meeting.distance, "mm apart")
+            .bound(contacts.near(meeting), "mm, `near`")
+            .help("an offset or a length may be off by no more than that");
+        (trace.segments[meeting.watched as usize].item, finding)
+    });
+    let mut all: Vec<(u32, Finding)> = touching.chain(met).chain(passed).collect();
+    all.sort_by_key(|(item, _)| *item);
+    let placed = |(item, finding): (u32, Finding)| Finding { place: place(item), ..finding };
+    all.into_iter().map(placed).collect()
+}
+
+/// The finding of a contact.
+fn contact(contacts: &MachineContacts, meeting: &MachineMeeting, segment: &Segment, way: f64) -> Finding {
+    let alone = if segment.alternative { " when the axes run one by one" } else { "" };
+    let rapid = if segment.motion == SegmentPace::Rapid { " at rapid" } else { "" };
+    let (one, other) = (contacts.party(meeting.moving), contacts.named(meeting.standing));
+    let higher = meeting.contact.as_ref().and_then(|c| c.clears_by);
+    let higher = higher.map(|lift| format!("; {:.2} mm higher it clears", hundredths(lift + 0.005)));
+    let higher = higher.unwrap_or_default();
+    let finding = match contacts.with_stock(meeting) {
+        true => {
+            let what = format!("{one} comes where the stock was before the first cut{rapid}{alone}");
+            Finding::doubt(Code::MACHINE_MET, what)
+                .help(format!("make sure that it has been cut away there, or use a longer tool{higher}"))
+        }
+        false => Finding::error(Code::MACHINE_MET, format!("{one} meets {other}{rapid}{alone}")).help(
+            format!("use a longer tool, place the part elsewhere, or let the move go another way{higher}"),
+        ),
+    };
+    let finding = finding.point(meeting.place.to_array());
+    if way > 0.0 { finding.value(hundredths(way), "mm of the move") } else { finding }
+}

@@ -1,0 +1,234 @@
+//! Section of a report on the bodies of the machine: an answer for each, and a picture of each pair that meets.
+
+use std::fmt::Write;
+
+use glam::DVec3;
+
+use crate::contact::{MachineMeeting, Party};
+use crate::geom::{Rigid, Solid};
+use crate::job::check::Job;
+use crate::job::contacts::LOOK;
+use crate::job::contacts::machine::{BodyKind, MachineContacts};
+use crate::job::machine::write::link_name;
+use crate::job::{Outcome, SetupOutcome};
+use crate::machine::{JointValues, Machine};
+use crate::page::draw::{Cover, FacePiece, Facets, View, put_faces};
+use crate::page::{Cell, Colour, Ink, Picture, Row, Section, Table, Tint, Width};
+use crate::program::Setup;
+use crate::tool::Tool;
+
+/// Most pictures of contacts of a setup.
+const MOST_DRAWN: usize = 3;
+/// Size of a picture [px].
+const SIZE: [f64; 2] = [620.0, 420.0];
+/// Room about what it shows [px].
+const AROUND: f64 = 12.0;
+/// Directions from which a contact is looked at: the first from which it is not hidden, as azimuths [degrees].
+const AZIMUTHS: [f64; 6] = [-50.0, 40.0, -130.0, 130.0, -90.0, 90.0];
+/// Elevations of the viewer [degrees].
+const ELEVATIONS: [f64; 2] = [24.0, 6.0];
+
+/// The section; none where the machine has no bodies.
+pub(super) fn section(outcome: &Outcome, first_lines: &[u32]) -> Option<Section> {
+    let machine = outcome.job.machine.as_ref()?;
+    let mut section = Section::new("Bodies of the machine");
+    for (i, done) in outcome.setups.iter().enumerate() {
+        let Some(contacts) = outcome.simulation.machine[i].as_ref().filter(|c| !c.bodies.is_empty()) else {
+            continue;
+        };
+        let setup = &outcome.job.setups[i].clamping.setup;
+        let of = if outcome.setups.len() > 1 { format!(", {}", setup.name) } else { String::new() };
+        let first_line = first_lines[i];
+        let shown = Shown { job: &outcome.job, machine, setup, done, contacts, first_line };
+        for (number, meeting) in shown.first_contacts().into_iter().enumerate() {
+            let id = format!("machine-contact-{}-{}", i + 1, number + 1);
+            section = section.with(shown.picture(id, meeting)?);
+        }
+        section = section.with(shown.table(&of));
+    }
+    (!section.blocks.is_empty()).then_some(section)
+}
+
+/// A setup on a machine with bodies.
+struct Shown<'a> {
+    job: &'a Job,
+    machine: &'a Machine,
+    setup: &'a Setup,
+    done: &'a SetupOutcome,
+    contacts: &'a MachineContacts,
+    first_line: u32,
+}
+
+impl Shown<'_> {
+    fn line(&self, meeting: &MachineMeeting) -> Option<u32> {
+        let item = self.done.trace.segments[meeting.watched as usize].item;
+        self.done.lines.get(item as usize).copied().flatten().map(|line| line + self.first_line)
+    }
+
+    /// The first contact of each pair, as many as are drawn.
+    fn first_contacts(&self) -> Vec<&MachineMeeting> {
+        let mut all: Vec<&MachineMeeting> = Vec::new();
+        for meeting in self.contacts.met.meetings.iter().filter(|m| m.contact.is_some()) {
+            let same = |m: &&MachineMeeting| (m.moving, m.standing) == (meeting.moving, meeting.standing);
+            if all.len() < MOST_DRAWN && !all.iter().any(|m| same(m)) {
+                all.push(meeting);
+            }
+        }
+        all
+    }
+
+    /// The answer for each body.
+    fn table(&self, of: &str) -> Table {
+        let rows = (0..).zip(&self.contacts.bodies).map(|(body, compared)| {
+            let own = || {
+                let is_own = move |m: &&MachineMeeting| m.standing == body || m.moving == Party::Body(body);
+                self.contacts.met.meetings.iter().filter(is_own)
+            };
+            let mut lines: Vec<_> = own().filter(|m| m.contact.is_some()).map(|m| self.line(m)).collect();
+            lines.dedup();
+            let near = own().min_by(|a, b| a.distance.total_cmp(&b.distance));
+            let touching = self.contacts.touching.iter().find(|pair| pair.contains(&body));
+            let (answer, at) = match (lines.first(), touching, near) {
+                (Some(first), ..) => {
+                    let blocks = if lines.len() == 1 { "block brings" } else { "blocks bring" };
+                    (Cell::wrong(format!("{} {blocks} it into contact", lines.len())), *first)
+                }
+                (None, Some([standing, moving]), _) => {
+                    let other = if *standing == body { moving } else { standing };
+                    let other = &self.contacts.bodies[*other as usize].name;
+                    (Cell::wrong(format!("touches {other} where the program begins")), None)
+                }
+                (None, None, Some(near)) => {
+                    (Cell::new(format!("passed at {:.2} mm", near.distance)), self.line(near))
+                }
+                (None, None, None) if compared.kind == BodyKind::Stock => {
+                    (Cell::right("nothing meets it"), None)
+                }
+                (None, None, None) => (Cell::right(format!("nothing nearer than {LOOK} mm")), None),
+            };
+            let link = match compared.kind {
+                BodyKind::Machine(i) => link_name(self.machine, self.machine.bodies[i].link),
+                BodyKind::Fixture(_) | BodyKind::Stock => "work".to_owned(),
+            };
+            let row = Row::new(vec![Cell::new(compared.name.clone()), Cell::new(link), answer]);
+            at.map_or(row.clone(), |line| row.at(line))
+        });
+        let caption = format!("Bodies that the axes move against one another{of}");
+        Table::new(caption, "Body; Carried by; Answer").rows(rows).note(
+            "Two bodies of the machine on neighbouring links are not compared, as one is guided by the other. The stock counts as before the first cut, and not against the tool.",
+        )
+    }
+
+    /// All bodies at the moment at which two of them begin to touch.
+    fn picture(&self, id: String, meeting: &MachineMeeting) -> Option<Picture> {
+        let segment = &self.done.trace.segments[meeting.watched as usize];
+        let t = meeting.contact.as_ref()?.from;
+        let axes = segment.joints(t)?;
+        let position = |letter: char| "XYZABC".find(letter).map_or(0.0, |i| axes[i]);
+        let q: Vec<f64> = self.machine.joints.iter().map(|joint| position(joint.letter)).collect();
+        let q = JointValues::new(&q);
+        let mut drawn: Vec<(Facets, Tint)> = Vec::new();
+        let meets = |body: u32| body == meeting.standing || meeting.moving == Party::Body(body);
+        let at_work = self.machine.link(self.machine.work_link(), &q).after(&self.machine.work);
+        for (body, compared) in (0..).zip(&self.contacts.bodies) {
+            let (solid, place): (&Solid, Rigid) = match compared.kind {
+                BodyKind::Machine(i) => {
+                    let body = &self.machine.bodies[i];
+                    (&body.solid, self.machine.link(body.link, &q).after(&body.place))
+                }
+                BodyKind::Fixture(i) => {
+                    let fixture = &self.setup.fixtures[i];
+                    (&fixture.solid, at_work.after(&fixture.place))
+                }
+                BodyKind::Stock => (&self.job.stock, at_work.after(&self.setup.part_on_table)),
+            };
+            let tint = match compared.kind {
+                _ if meets(body) => Tint::Rose,
+                BodyKind::Machine(_) => Tint::Grey,
+                BodyKind::Fixture(_) => Tint::Steel,
+                BodyKind::Stock => Tint::Sand,
+            };
+            drawn.push((Facets::of(solid, &place), tint));
+        }
+        if let Some(tool) = self.job.tools.iter().find(|tool| Some(tool.number) == segment.tool) {
+            let length = tool.gauge_length.unwrap_or(0.0);
+            let tip = self.machine.spindle.after(&Rigid::from_translation(DVec3::Z * -length));
+            let place = self.machine.link(self.machine.tool_link(), &q).after(&tip);
+            let tint = if matches!(meeting.moving, Party::Tool(_)) { Tint::Rose } else { Tint::Orange };
+            drawn.extend(drums(tool).iter().map(|drum| (Facets::of(drum, &place), tint)));
+        }
+        let place = at_work.after(&self.setup.part_on_table).point(meeting.place);
+        let one = match meeting.moving {
+            Party::Tool(_) => self.contacts.party(meeting.moving),
+            Party::Body(body) => self.name(body).to_owned(),
+        };
+        let other = self.name(meeting.standing);
+        let mut picture = Picture {
+            id,
+            title: format!("{one} meets {other}"),
+            about: self.about(meeting, axes),
+            summary: format!("The machine at the moment at which {one} meets {other}"),
+            size: SIZE,
+            ..Picture::default()
+        };
+        picture.legend = vec![
+            (Ink::Face(Tint::Rose, 0), "the two that meet".to_owned()),
+            (Ink::Face(Tint::Grey, 0), "machine".to_owned()),
+            (Ink::Face(Tint::Sand, 0), "stock".to_owned()),
+        ];
+        put(&mut picture, &drawn, place);
+        Some(picture)
+    }
+
+    fn name(&self, body: u32) -> &str {
+        &self.contacts.bodies[body as usize].name
+    }
+
+    /// Line and positions of the axes.
+    fn about(&self, meeting: &MachineMeeting, axes: [f64; 6]) -> String {
+        let mut about = self.line(meeting).map_or_else(String::new, |line| format!("line {}: ", line + 1));
+        for (i, letter) in "XYZABC".chars().enumerate() {
+            if self.machine.joint(letter).is_some() {
+                let value = if i < 3 { axes[i] } else { axes[i].to_degrees() };
+                let _ = write!(about, "{letter}{value:.2} ");
+            }
+        }
+        about.trim_end().to_owned()
+    }
+}
+
+/// Bodies on paper, seen from where a place is not hidden, with a mark at that place.
+fn put(picture: &mut Picture, drawn: &[(Facets, Tint)], place: DVec3) {
+    let within = [AROUND, AROUND, SIZE[0] - 2.0 * AROUND, SIZE[1] - 2.0 * AROUND];
+    let seen_from = |azimuth: f64, elevation: f64| {
+        let corners = drawn.iter().flat_map(|(facets, _)| facets.corners.iter().copied());
+        let view = View::from(azimuth.to_radians(), elevation.to_radians()).fitting(corners, within);
+        let mut pieces = Vec::new();
+        for (body, (facets, _)) in drawn.iter().enumerate() {
+            pieces.extend(facets.seen(view.viewer).into_iter().map(|(_, face)| FacePiece { face, body }));
+        }
+        (view, pieces)
+    };
+    let ways = ELEVATIONS.into_iter().flat_map(|e| AZIMUTHS.into_iter().map(move |a| (a, e)));
+    let open = |&(azimuth, elevation): &(f64, f64)| {
+        let (view, pieces) = seen_from(azimuth, elevation);
+        // A place on a surface is not hidden by that surface.
+        !Cover::new(view, &pieces, view.mm(6.0)).hides(place)
+    };
+    let (azimuth, elevation) = ways.clone().find(open).unwrap_or((AZIMUTHS[0], ELEVATIONS[0]));
+    let (view, pieces) = seen_from(azimuth, elevation);
+    put_faces(picture, &view, pieces, |body| drawn[body].1);
+    let mark = view.px(place);
+    picture.circle(Ink::line(Colour::Bad, Width::Thick), mark, 9.0);
+}
+
+/// A tool as cylinders, in its own coordinates.
+fn drums(tool: &Tool) -> Vec<Solid> {
+    let profiles = tool.profiles().unwrap_or_default();
+    let drum = |(profile, above): &(crate::geom::Profile, f64)| Solid::Cylinder {
+        base: DVec3::Z * *above,
+        radius: profile.max_radius(),
+        height: profile.top(),
+    };
+    profiles.iter().map(drum).collect()
+}

@@ -1,0 +1,199 @@
+//! Bodies of the machine in a job: contacts at their block with what clears, near passes, bodies that touch from the start, and what is
+//! said where nothing can be compared.
+//!
+//! Expected values follow by hand: the nose of the spindle, 80 mm wide, begins at the gauge point, 100 mm above the tip; a groove at Y 0
+//! is cut from X 0 to X 30 at Z -5, with an approach and a return at Z 50.
+
+use kinecut::base::{Code, Finding, Severity};
+use kinecut::job::Outcome;
+
+use crate::common::job::run_program;
+
+const GROOVE: &str = "%\nO1\nG21 G17 G40 G80 G90 G94\nG54\nT1 M6\nS2000 M3\nG0 X0 Y0\nG43 H1 Z50\nG0 Z2\nG1 Z-5 F200\nX30 F400\nG0 Z50\nM30\n%\n";
+
+/// A job with a machine of three axes whose nose is 80 mm wide, further bodies, and fixtures.
+fn text(bodies: &str, fixtures: &str, position: &str) -> String {
+    format!(
+        r#"format = 1
+stock = {{ box = {{ min = [-10, -10, -20], max = [40, 10, 0] }} }}
+post = {{ control = "fanuc" }}
+simulate = {{ step = 0.5 }}
+
+[machine]
+code = "1203"
+travel = {{ X = [-500, 500], Y = [-500, 500], Z = [-500, 500] }}
+dynamics = {{ rapid = 24000 }}
+
+[[machine.body]]
+name = "nose"
+link = "Z"
+cylinder = {{ base = [0, 0, 0], diameter = 80, height = 60 }}
+{bodies}
+
+[[tool]]
+number = 1
+type = "end-mill"
+diameter = 8
+flute_length = 20
+stickout = 60
+gauge_length = 100
+{fixtures}
+[[setup]]
+offset = "G54"
+{position}
+program = {{ file = "P.nc" }}
+"#
+    )
+}
+
+/// The work zero is at the zero of the machine.
+const PLACED: &str = "position = [0, 0, 0]";
+
+fn outcome(bodies: &str, fixtures: &str) -> Outcome {
+    run_program(&text(bodies, fixtures, PLACED), GROOVE).unwrap_or_else(|e| panic!("{e}"))
+}
+
+/// A post beside the groove, 20 mm wide, up to Z 110.
+fn post(x: f64) -> String {
+    format!(
+        "[[fixture]]\nname = \"post\"\ncylinder = {{ base = [{x}, 0, -20], diameter = 20, height = 130 }}\n"
+    )
+}
+
+fn found(outcome: &Outcome, code: Code) -> Vec<&Finding> {
+    outcome.verdict.found.iter().filter(|f| f.code == code).collect()
+}
+
+fn line(finding: &Finding) -> &str {
+    &finding.place.as_ref().unwrap().text
+}
+
+fn value(finding: &Finding) -> f64 {
+    let text = finding.value.as_ref().unwrap().to_string();
+    text.split_whitespace().next().unwrap().parse().unwrap()
+}
+
+#[test]
+fn the_nose_meets_a_post_at_its_block_with_what_clears() {
+    // Edges 40 + 10 mm apart from the middles: from X 10 on; 110 - 95 = 15 mm higher it clears.
+    let done = outcome("", &post(60.0));
+    let met = found(&done, Code::MACHINE_MET);
+    let lines: Vec<&str> = met.iter().map(|f| line(f)).collect();
+    assert_eq!(lines, ["X30 F400", "G0 Z50"]);
+    assert_eq!(met[0].message, "`nose` of the machine meets `post`");
+    assert_eq!(met[1].message, "`nose` of the machine meets `post` at rapid");
+    assert!((value(met[0]) - 20.0).abs() < 0.03 && (value(met[1]) - 15.0).abs() < 0.03, "{met:?}");
+    let help = &met[0].help;
+    assert!(
+        help.ends_with("; 15.01 mm higher it clears") || help.ends_with("; 15.02 mm higher it clears"),
+        "{help}"
+    );
+    // The place: the side of the post towards the nose.
+    let place = met[0].point.unwrap();
+    assert!(
+        (place[0] - 50.0).abs() < 0.05 && place[1].abs() < 1.5 && (place[2] - 95.0).abs() < 15.1,
+        "{place:?}"
+    );
+    assert!(!done.verdict.is_safe());
+    assert!(done.verdict.scope.iter().any(|s| s == "Fixtures as given compared, machine bodies compared"));
+    // 5 mm further away it is clear, and that is proven.
+    let done = outcome("", &post(81.0));
+    assert!(found(&done, Code::MACHINE_MET).is_empty() && found(&done, Code::MACHINE_NEAR).is_empty());
+    let claims: Vec<&str> = done.verdict.proven.iter().map(|p| p.claim.as_str()).collect();
+    assert!(
+        claims.contains(&"the body of the machine meets nothing in `P.nc`: tools, fixtures, the raw stock"),
+        "{claims:?}"
+    );
+}
+
+#[test]
+fn a_near_pass_is_a_warning_with_its_distance() {
+    // At X 30 the edges are 80.3 - 30 - 50 = 0.3 mm apart.
+    let done = outcome("", &post(80.3));
+    let near = found(&done, Code::MACHINE_NEAR);
+    let [one] = near[..] else { panic!("{near:?}") };
+    assert_eq!((one.severity, line(one)), (Severity::Warning, "X30 F400"));
+    assert_eq!(one.message, "`nose` of the machine passes `post`");
+    assert!((value(one) - 0.3).abs() < 2e-3, "{one:?}");
+    // The distance to keep is that of the fixture, or of the nose, whichever is more.
+    let quiet = post(80.3).replace("name =", "near = 0\nname =");
+    assert_eq!(found(&outcome("", &quiet), Code::MACHINE_NEAR).len(), 1);
+    let text = text("", &quiet, PLACED).replace("link = \"Z\"", "link = \"Z\"\nnear = 0");
+    let done = run_program(&text, GROOVE).unwrap();
+    assert!(found(&done, Code::MACHINE_NEAR).is_empty());
+}
+
+#[test]
+fn the_tool_meets_a_body_of_a_link_below_it() {
+    // A wall on the table link from X 25: the cutter of 8 mm is at it from X 21.
+    let wall = "[[machine.body]]\nname = \"wall\"\nlink = \"work\"\nbox = { min = [25, -5, -4], max = [26, 5, 0.5] }";
+    let done = outcome(wall, "");
+    let met = found(&done, Code::MACHINE_MET);
+    assert_eq!((met.len(), line(met[0])), (1, "X30 F400"));
+    assert_eq!(met[0].message, "the tool meets `wall` of the machine");
+    // To the end of the move: the cutter is at X 26 to 34 there.
+    assert!((value(met[0]) - 9.0).abs() < 0.03, "{met:?}");
+}
+
+#[test]
+fn bodies_that_touch_from_the_start_are_one_error_and_not_compared() {
+    let column = "[[machine.body]]\nname = \"column\"\nlink = \"bed\"\nbox = { min = [-100, -100, -100], max = [100, -5, 300] }";
+    let done = outcome(column, "");
+    let touch = found(&done, Code::BODIES_OVERLAP);
+    // Nose and column are on neighbouring links: not compared. The stock is 10 mm to each side of the groove.
+    let [one] = touch[..] else { panic!("{touch:?}") };
+    assert_eq!(one.message, "the stock touches `column` of the machine where the program begins");
+    assert_eq!((one.severity, line(one)), (Severity::Error, "G0 Z2"));
+    assert!(found(&done, Code::MACHINE_MET).iter().all(|f| !f.message.contains("stock")));
+    let open: Vec<String> = done.verdict.unchecked().map(ToString::to_string).collect();
+    assert!(open.iter().any(|o| o.contains("`the stock` and `column`: not compared")), "{open:?}");
+    assert!(done.verdict.scope.iter().any(|s| s.ends_with("machine bodies compared in part")));
+}
+
+#[test]
+fn the_nose_where_the_stock_was_is_a_doubt() {
+    // With a gauge length of 3 mm the nose is 2 mm below the top of the stock at Z -5.
+    let short = text("", "", PLACED)
+        .replace("gauge_length = 100", "gauge_length = 3")
+        .replace("stickout = 60", "stickout = 21");
+    let done = run_program(&short, GROOVE).unwrap();
+    let met = found(&done, Code::MACHINE_MET);
+    assert!(!met.is_empty() && met.iter().all(|f| f.severity == Severity::Doubt), "{met:?}");
+    assert_eq!(met[0].message, "`nose` of the machine comes where the stock was before the first cut");
+}
+
+#[test]
+fn what_is_not_compared_is_said() {
+    let open = |text: &str| {
+        let done = run_program(text, GROOVE).unwrap();
+        let open: Vec<String> = done.verdict.unchecked().map(ToString::to_string).collect();
+        (open.join("\n"), done.verdict.scope.join("\n"))
+    };
+    let (not_placed, scope) = open(&text("", &post(60.0), ""));
+    assert!(not_placed.contains("where the part lies on the machine is not given"), "{not_placed}");
+    assert!(scope.contains("machine bodies not compared"), "{scope}");
+    let bare = text("", &post(60.0), PLACED).replace("gauge_length = 100\n", "");
+    let (no_length, scope) = open(&bare);
+    assert!(no_length.contains("in moves of T1, its gauge length is not given"), "{no_length}");
+    assert!(scope.contains("machine bodies not compared"), "{scope}");
+}
+
+#[test]
+fn the_example_finds_what_its_readme_says() {
+    let done = super::examples::run("18_head_and_table", &[]);
+    let met = found(&done, Code::MACHINE_MET);
+    assert_eq!(met.len(), 6);
+    assert!(met.iter().all(|f| f.message.starts_with("`head` of the machine meets `table` of the machine")));
+    assert_eq!(met[0].place.as_ref().unwrap().line, 32);
+    // The head has a radius of 95 and is 70 above the table.
+    assert!((value(met[0]) - 25.0).abs() < 0.03, "{:?}", met[0]);
+    assert!(met[0].help.contains("25.01 mm higher it clears"));
+    let report = kinecut::job::report::html(&kinecut::job::report::of_job(&done));
+    assert!(report.contains("id=\"machine-contact-1-1\""));
+    // At the height of the first hole nothing is met.
+    let done = super::examples::run("18_head_and_table", &[("[0, 70]", "[0, 100]")]);
+    assert!(found(&done, Code::MACHINE_MET).is_empty());
+    assert!(
+        done.verdict.proven.iter().any(|p| p.claim.starts_with("the 8 bodies of the machine meet nothing"))
+    );
+}
