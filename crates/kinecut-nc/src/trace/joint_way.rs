@@ -7,7 +7,7 @@
 use glam::{DMat3, DVec3};
 
 use super::axis_path::AxisPath;
-use super::segment::Segment;
+use super::segment::{AxisJet, Segment};
 use super::turning::Carried;
 use crate::geom::{CurveKind, Rigid};
 use crate::machine::kinematics::Jacobian;
@@ -19,6 +19,8 @@ const SAMPLES: u32 = 8;
 const ROUNDING: f64 = 1e-7;
 /// Factor by which they are enlarged.
 const RESERVE: f64 = 1.5;
+/// Part of the greatest acceleration that may be unexplained between two places.
+const UNEXPLAINED: f64 = 0.1;
 /// Volume of the box of three unit directions below which they count as flat.
 const FLAT: f64 = 1e-9;
 
@@ -212,28 +214,32 @@ fn shares(jacobian: &Jacobian, first: usize) -> [f64; 3] {
     [rows.x_axis, rows.y_axis, rows.z_axis].map(DVec3::length)
 }
 
-/// Bounds from derivatives at some places, enlarged. Where positions and speeds between the places do not fit them there is no bound.
+/// Bounds from derivatives at some places, enlarged. Where the derivatives at two places do not explain what is between them there is
+/// no bound: the axes do something that the places do not show.
 fn sampled(path: &AxisPath<'_>, from: f64, to: f64) -> AxisRates {
     let length = path.length();
     let step = (to - from) / f64::from(SAMPLES);
     let jets: [_; SAMPLES as usize + 1] = std::array::from_fn(|k| path.at((from + step * k as f64) * length));
-    let mut rates = [(0.0, 0.0); 6];
-    let mut fits = [true; 6];
-    let most = |a: f64, b: f64| if b.is_finite() { a.max(RESERVE * b.abs()) } else { f64::INFINITY };
+    let mut rates = [(0.0f64, 0.0f64); 6];
     for place in &jets {
         for (rate, jet) in rates.iter_mut().zip(place) {
-            *rate = (most(rate.0, jet.d1 * length), most(rate.1, jet.d2 * length * length));
+            // A maximum passes over what is not a number.
+            *rate = (rate.0.max((jet.d1 * length).abs()), rate.1.max((jet.d2 * length * length).abs()));
         }
     }
-    for pair in jets.windows(2) {
-        let (before, now) = (&pair[0], &pair[1]);
-        for i in 0..6 {
-            let (v0, v1) = (before[i].d1 * length, now[i].d1 * length);
-            fits[i] &= (v1 - v0).abs() <= step * rates[i].1 + ROUNDING
-                && (now[i].q - before[i].q - step * v0).abs() <= 0.5 * step * step * rates[i].1 + ROUNDING;
-        }
+    let explained = |before: &AxisJet, now: &AxisJet, bend: f64| {
+        let [v0, v1] = [before.d1, now.d1].map(|d| d * length);
+        let [a0, a1] = [before.d2, now.d2].map(|d| d * length * length);
+        let place = now.q - before.q - 0.5 * step * (v0 + v1) + step * step * (a1 - a0) / 12.0;
+        let speed = v1 - v0 - 0.5 * step * (a0 + a1);
+        place.abs() <= UNEXPLAINED * step * step * bend + ROUNDING
+            && speed.abs() <= UNEXPLAINED * step * bend + ROUNDING
+    };
+    let fits = |pair: &[[AxisJet; 6]]| (0..6).all(|i| explained(&pair[0][i], &pair[1][i], rates[i].1));
+    match jets.windows(2).all(fits) {
+        true => rates.map(|(rate, bend)| (RESERVE * rate, RESERVE * bend)),
+        false => [(f64::INFINITY, f64::INFINITY); 6],
     }
-    std::array::from_fn(|i| if fits[i] { rates[i] } else { (f64::INFINITY, f64::INFINITY) })
 }
 
 /// Bounds on the motion of a point that joints carry one after the other.

@@ -93,15 +93,15 @@ impl Body {
     }
 
     /// Calls a function with each of its pieces that may meet another body between two places; `margin`: its pieces may be that far
-    /// from the hull of the places. The function has a box about the piece.
+    /// from the hull of the places at the moment. The function has a box about the piece.
     pub(super) fn pieces_between(
         &self,
         ends: &[Rigid; 2],
-        margin: f64,
+        margin: impl Fn() -> f64,
         other: &Body,
         mut each: impl FnMut(&Piece, Aabb),
     ) {
-        let region = |of: &dyn Fn(&Rigid) -> Aabb| of(&ends[0]).union(of(&ends[1])).grown(margin);
+        let region = |of: &dyn Fn(&Rigid) -> Aabb| of(&ends[0]).union(of(&ends[1])).grown(margin());
         match &self.pieces {
             Pieces::Convex(all) => {
                 for piece in all {
@@ -112,7 +112,7 @@ impl Body {
                 }
             }
             Pieces::Triangles { triangles, tree, .. } => {
-                let near = |own: Aabb| region(&|pose| moved_box(own, pose)).meets(other.bounds);
+                let near = |own: Aabb| other.has_in(region(&|pose| moved_box(own, pose)));
                 tree.each_of(near, |i| {
                     let piece = &triangles[i];
                     each(piece, region(&|pose| piece.bounds_at(pose)));
@@ -120,6 +120,22 @@ impl Body {
                 });
             }
         }
+    }
+
+    /// Whether a box of its pieces meets another.
+    fn has_in(&self, region: Aabb) -> bool {
+        let mut found = false;
+        match &self.pieces {
+            Pieces::Convex(_) => found = self.bounds.meets(region),
+            Pieces::Triangles { tree, .. } => tree.each_of(
+                |own| own.meets(region),
+                |_| {
+                    found = true;
+                    true
+                },
+            ),
+        }
+        found
     }
 
     /// Calls a function with each piece whose box meets another.

@@ -4,6 +4,7 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 use super::body::Body;
+use super::clearance::Clearances;
 use super::motion::Moment;
 use super::nearest_of::NearestOf;
 use super::pair::{Pair, TOUCH, clearing, may_meet};
@@ -71,16 +72,17 @@ pub fn meetings(
     progress.stage("contacts", moves.len() as u64);
     let all = bodies.iter().fold(Aabb::EMPTY, |sum, body| sum.union(body.bounds.grown(body.near)));
     let task = |(n, moves): (usize, &[Watched])| {
-        let (mut found, mut near) = (Vec::new(), NearestOf::new());
+        let mut found = Vec::new();
+        let mut kept = Kept { near: NearestOf::new(), clear: Clearances::new() };
         if progress.cancelled() {
-            return (found, near);
+            return (found, kept.near);
         }
         for (i, watched) in moves.iter().enumerate() {
             let tool = &tools[watched.tool as usize];
-            one_move((n * TASK + i) as u32, watched, tool, (bodies, all), (&mut found, &mut near));
+            one_move((n * TASK + i) as u32, watched, tool, (bodies, all), (&mut found, &mut kept));
         }
         progress.advance(moves.len() as u64);
-        (found, near)
+        (found, kept.near)
     };
     let tasks: Vec<_> = moves.chunks(TASK).enumerate().collect();
     let parts: Vec<_> = tasks.into_par_iter().map(task).collect();
@@ -118,8 +120,14 @@ pub(super) fn cancelled(progress: &dyn Progress) -> Result<()> {
     }
 }
 
-/// Nearest passes of a tool, a body and a part of the tool.
-type Passes = NearestOf<(u32, u32, ToolPart), Meeting>;
+/// A tool, a body and a part of the tool.
+type Two = (u32, u32, ToolPart);
+
+/// What is kept from move to move.
+struct Kept {
+    near: NearestOf<Two, Meeting>,
+    clear: Clearances<Two>,
+}
 
 /// Contacts and passes of the parts of a tool with bodies in one move; `all` holds all bodies.
 fn one_move(
@@ -127,7 +135,7 @@ fn one_move(
     Watched { motion, tool: number }: &Watched,
     tool: &MovingTool,
     (bodies, all): (&[Body], Aabb),
-    (found, near): (&mut Vec<Meeting>, &mut Passes),
+    (found, Kept { near, clear }): (&mut Vec<Meeting>, &mut Kept),
 ) {
     let ends = [0.0, 1.0].map(|t| Moment::of(motion, t));
     let near_all = |(_, part): &&(ToolPart, Body)| may_meet(motion, part, &ends, all, TOUCH);
@@ -135,10 +143,19 @@ fn one_move(
     if parts.is_empty() {
         return;
     }
+    let mut cleared = Vec::new();
     for (body, standing) in (0..).zip(bodies) {
         let first = found.len();
+        cleared.clear();
         for (part, moving) in &parts {
             let pair = Pair { motion, moving, standing };
+            let two = (*number, body, *part);
+            let open = near.open(two, standing.near);
+            let near_it = may_meet(motion, moving, &ends, standing.bounds, open.max(TOUCH));
+            if !near_it || clear.clear(two, &pair, &ends, open) {
+                cleared.push(*part);
+                continue;
+            }
             if let Some(touch) = pair.touch(&ends) {
                 let contact = Some(Contact { from: touch.from, to: touch.to, clears_by: None });
                 let (part, place) = (*part, touch.place);
@@ -148,7 +165,7 @@ fn one_move(
         for (part, moving) in &parts {
             let part = *part;
             let open = near.open((*number, body, part), standing.near);
-            if open <= 0.0 || found[first..].iter().any(|m| m.part == part) {
+            if open <= 0.0 || cleared.contains(&part) || found[first..].iter().any(|m| m.part == part) {
                 continue;
             }
             let pair = Pair { motion, moving, standing };

@@ -27,6 +27,7 @@
 //! ```
 
 mod body;
+mod clearance;
 mod gap;
 mod links;
 mod meeting;

@@ -12,6 +12,15 @@ pub(super) struct Ball {
     pub(super) radius: f64,
 }
 
+impl Ball {
+    /// A bound on the distance of the places of each of its points in two poses [mm].
+    pub(super) fn travel(&self, from: &Rigid, to: &Rigid) -> f64 {
+        let by = to.rotation - from.rotation;
+        let turned = [by.x_axis, by.y_axis, by.z_axis].map(DVec3::length_squared).iter().sum::<f64>().sqrt();
+        (to.point(self.centre) - from.point(self.centre)).length() + self.radius * turned
+    }
+}
+
 /// A motion over `t` from 0 to 1.
 pub(super) trait Motion: Sync {
     /// From the coordinates of the moving body into those of the other one.

@@ -1,5 +1,7 @@
 //! A body that moves past another one.
 
+use std::cell::Cell;
+
 use glam::DVec3;
 
 use super::body::Body;
@@ -86,28 +88,32 @@ impl<M: Motion> Pair<'_, M> {
         let mut met = self.within(ends);
         stretches(self.motion, self.moving, *ends, (self.standing.bounds, TOUCH), &mut |stretch| {
             let [start, end] = stretch.ends;
-            self.pieces(&stretch, TOUCH, |search| {
-                // Only what is sooner than the first, and later than the last.
-                if met.is_none_or(|m| start.t < m.from)
-                    && let Some((from, place)) = search.touch([start, end], TOUCH, false)
-                    && met.is_none_or(|m| from < m.from)
-                {
-                    met = Some(Touch { from, to: met.map_or(from, |m| m.to), place });
-                }
-                if let Some(m) = &mut met
-                    && end.t > m.to
-                    && let Some((to, _)) = search.touch([start, end], TOUCH, true)
-                    && to > m.to
-                {
-                    m.to = to;
-                }
-            });
+            self.pieces(
+                &stretch,
+                || TOUCH,
+                |search| {
+                    // Only what is sooner than the first, and later than the last.
+                    if met.is_none_or(|m| start.t < m.from)
+                        && let Some((from, place)) = search.touch([start, end], TOUCH, false)
+                        && met.is_none_or(|m| from < m.from)
+                    {
+                        met = Some(Touch { from, to: met.map_or(from, |m| m.to), place });
+                    }
+                    if let Some(m) = &mut met
+                        && end.t > m.to
+                        && let Some((to, _)) = search.touch([start, end], TOUCH, true)
+                        && to > m.to
+                    {
+                        m.to = to;
+                    }
+                },
+            );
         });
         met
     }
 
     /// One body at an end of the move within another of triangles, away from all of them.
-    fn within(&self, ends: &[Moment; 2]) -> Option<Touch> {
+    pub(super) fn within(&self, ends: &[Moment; 2]) -> Option<Touch> {
         let [begin, end] = ends.map(|moment| {
             let moved = moment.pose.point(self.moving.a_point());
             let standing = self.standing.a_point();
@@ -125,25 +131,34 @@ impl<M: Motion> Pair<'_, M> {
 
     /// The least distance of the two where it is less than `near` [mm], and its place on the standing body.
     pub(super) fn nearest(&self, ends: &[Moment; 2], near: f64) -> Option<Nearest> {
+        let best = Cell::new(near);
         let mut nearest: Option<Nearest> = None;
         stretches(self.motion, self.moving, *ends, (self.standing.bounds, near), &mut |stretch| {
-            self.pieces(&stretch, near, |search| {
-                let best = nearest.map_or(near, |n| n.distance);
-                nearest = search.nearest(stretch.ends, best).or(nearest);
+            let margin = || best.get();
+            self.pieces(&stretch, margin, |search| {
+                if let Some(found) = search.nearest(stretch.ends, best.get()) {
+                    best.set(found.distance);
+                    nearest = Some(found);
+                }
             });
         });
         nearest
     }
 
     /// Calls a function with the pieces that may come within a distance of each other.
-    fn pieces(&self, stretch: &Stretch, margin: f64, mut each: impl FnMut(Search<'_, M>)) {
+    fn pieces(&self, stretch: &Stretch, margin: impl Fn() -> f64, mut each: impl FnMut(Search<'_, M>)) {
         let poses = stretch.ends.map(|end| end.pose);
-        self.moving.pieces_between(&poses, stretch.room + margin, self.standing, |moving, region| {
-            self.standing.pieces_in(region, |standing| {
-                let Body { ball, round, .. } = *self.moving;
-                each(Search { motion: self.motion, moving, ball, round, standing });
-            });
-        });
+        self.moving.pieces_between(
+            &poses,
+            || stretch.room + margin(),
+            self.standing,
+            |moving, region| {
+                self.standing.pieces_in(region, |standing| {
+                    let Body { ball, round, .. } = *self.moving;
+                    each(Search { motion: self.motion, moving, ball, round, standing });
+                });
+            },
+        );
     }
 }
 

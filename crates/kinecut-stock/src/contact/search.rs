@@ -67,13 +67,10 @@ impl<M: Motion> Search<'_, M> {
     /// A bound on the distance of the places of each point of the moving body at two moments [mm].
     fn travel(&self, from: &Moment, to: &Moment) -> f64 {
         let (a, b) = (&from.pose, &to.pose);
-        let turned = match self.round {
-            true => (b.rotation.z_axis - a.rotation.z_axis).length(),
-            false => {
-                let by = b.rotation - a.rotation;
-                [by.x_axis, by.y_axis, by.z_axis].map(DVec3::length_squared).iter().sum::<f64>().sqrt()
-            }
-        };
+        if !self.round {
+            return self.ball.travel(a, b);
+        }
+        let turned = (b.rotation.z_axis - a.rotation.z_axis).length();
         (b.point(self.ball.centre) - a.point(self.ball.centre)).length() + self.ball.radius * turned
     }
 

@@ -182,3 +182,62 @@ fn a_tool_within_a_mesh_meets_it_all_the_way_whichever_way_its_triangles_turn() 
         assert_eq!(contact([46.0, 0.0, 40.0], [48.0, 0.0, 40.0]), None);
     }
 }
+
+#[test]
+fn many_short_moves_find_what_each_finds_by_itself() {
+    const NEAR: f64 = 4.0;
+    let mut random = Random(23);
+    let (mut contacts, mut passes) = (0, 0);
+    for _ in 0..12 {
+        let (moving, ..) = tool(&mut random);
+        let tool = [moving];
+        let at = random.point(40.0);
+        let bodies: Vec<Body> = (0..4)
+            .map(|i| {
+                let there = at + random.point(90.0);
+                let (solid, place, _) = body(&mut random, there);
+                Body::new(format!("body {i}"), &solid, place, NEAR).unwrap()
+            })
+            .collect();
+        // A walk in steps of a tenth of a millimetre to a few, now and then far away.
+        let mut start = at;
+        let mut moves = Vec::new();
+        for k in 0..400 {
+            let by = if k % 97 == 96 { 60.0 } else { 0.1 * f64::from(1 + k % 30) };
+            let end = start + random.point(by);
+            let line = Line { start, end };
+            let axis = DVec3::new(random.between(-0.3, 0.3), 0.1, 1.0);
+            let motion = match k % 5 {
+                0 => ToolMotion::between(line.into(), axis, axis + random.point(0.01)),
+                _ => ToolMotion::fixed(line.into(), DVec3::Z),
+            };
+            moves.push(Watched { motion: motion.unwrap(), tool: 0 });
+            start = end;
+        }
+        let all = meetings(&tool, &bodies, &moves, DVec3::Z, &Silent).unwrap();
+        let touched = |found: &[kinecut_stock::contact::Meeting], by: u32| -> Vec<_> {
+            let own = found.iter().filter_map(|m| m.contact.map(|c| (m, c)));
+            own.map(|(m, c)| (m.watched + by, m.body, m.part, c.from.to_bits(), c.to.to_bits())).collect()
+        };
+        let mut alone = Vec::new();
+        let mut nearest = std::collections::BTreeMap::new();
+        for (i, one) in (0..).zip(&moves) {
+            let found = meetings(&tool, &bodies, std::slice::from_ref(one), DVec3::Z, &Silent).unwrap();
+            alone.extend(touched(&found, i));
+            for pass in found.iter().filter(|m| m.contact.is_none()) {
+                let least = nearest.entry((pass.body, pass.part)).or_insert(pass.distance);
+                *least = pass.distance.min(*least);
+            }
+        }
+        assert_eq!(touched(&all, 0), alone);
+        contacts += alone.len();
+        let found: Vec<_> = all.iter().filter(|m| m.contact.is_none()).collect();
+        assert_eq!(found.len(), nearest.len());
+        for pass in found {
+            let least = nearest[&(pass.body, pass.part)];
+            assert!((pass.distance - least).abs() <= 4e-3, "{} {least}", pass.distance);
+            passes += 1;
+        }
+    }
+    assert!(contacts > 100 && passes > 20, "{contacts} {passes}");
+}

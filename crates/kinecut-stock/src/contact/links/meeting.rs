@@ -4,6 +4,7 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 use super::super::body::Body;
+use super::super::clearance::Clearances;
 use super::super::meeting::{Contact, MOST_LIFTS, TASK, cancelled};
 use super::super::motion::{Moment, Standing};
 use super::super::nearest_of::NearestOf;
@@ -85,8 +86,17 @@ pub struct Met {
     pub sampled: Vec<u32>,
 }
 
-/// Nearest passes of pairs: the tool in the spindle if it is one of the two, the moving one, the standing one.
-type Passes = NearestOf<(Option<u32>, Party, u32), MachineMeeting>;
+/// A pair: the tool in the spindle if it is one of the two, the moving one, the standing one.
+type Two = (Option<u32>, Party, u32);
+
+/// Nearest passes of pairs.
+type Passes = NearestOf<Two, MachineMeeting>;
+
+/// What is kept from move to move.
+struct Kept {
+    near: Passes,
+    clear: Clearances<Two>,
+}
 
 /// A machine with its bodies, tools, and what stands on its table.
 #[derive(Clone, Debug)]
@@ -210,9 +220,10 @@ impl MachineParts {
     ) -> Result<Met> {
         progress.stage("contacts of the machine", moves.len() as u64);
         let task = |(n, moves): (usize, &[MachineMove<'_>])| {
-            let (mut met, mut near) = (Met::default(), NearestOf::new());
+            let mut met = Met::default();
+            let mut kept = Kept { near: NearestOf::new(), clear: Clearances::new() };
             if progress.cancelled() {
-                return (met, near);
+                return (met, kept.near);
             }
             for (i, one) in moves.iter().enumerate() {
                 let watched = (n * TASK + i) as u32;
@@ -221,13 +232,13 @@ impl MachineParts {
                         if way.is_sampled() {
                             met.sampled.push(watched);
                         }
-                        self.one_move(watched, &way, one.tool, left_out, (&mut met.meetings, &mut near));
+                        self.one_move(watched, &way, one.tool, left_out, (&mut met.meetings, &mut kept));
                     }
                     None => met.lost.push(watched),
                 }
             }
             progress.advance(moves.len() as u64);
-            (met, near)
+            (met, kept.near)
         };
         let tasks: Vec<_> = moves.chunks(TASK).enumerate().collect();
         let found: Vec<(Met, Passes)> = tasks.into_par_iter().map(task).collect();
@@ -257,7 +268,7 @@ impl MachineParts {
         way: &Way<'_>,
         tool: u32,
         left_out: &[[u32; 2]],
-        (found, near): (&mut Vec<MachineMeeting>, &mut Passes),
+        (found, kept): (&mut Vec<MachineMeeting>, &mut Kept),
     ) {
         let rates = way.rates(0.0, 1.0);
         let moves = |[from, to]: [usize; 2]| rates[from..to].iter().any(|(rate, _)| *rate > 0.0);
@@ -272,7 +283,7 @@ impl MachineParts {
                 let most = body(*standing).near.max(body(*moving).near);
                 let pair = Pair { motion: &motion, moving: body(*moving), standing: body(*standing) };
                 let two = (None, Party::Body(*moving), *standing);
-                self.meeting(watched, two, &pair, (&ends, most), (found, near));
+                self.meeting(watched, two, &pair, (&ends, most), (found, kept));
             }
         }
         let (parts, _, place) = &self.tools[tool as usize];
@@ -287,7 +298,7 @@ impl MachineParts {
                     let pair = Pair { motion: &motion, moving, standing: body(*standing) };
                     let two = (Some(tool), Party::Tool(*part), *standing);
                     let most = body(*standing).near;
-                    self.meeting(watched, two, &pair, (&ends, most), (found, near));
+                    self.meeting(watched, two, &pair, (&ends, most), (found, kept));
                 }
             }
         }
@@ -297,12 +308,17 @@ impl MachineParts {
     fn meeting(
         &self,
         watched: u32,
-        two: (Option<u32>, Party, u32),
+        two: Two,
         pair: &Pair<'_, LinkMotion<'_>>,
         (ends, most): (&[Moment; 2], f64),
-        (found, near): (&mut Vec<MachineMeeting>, &mut Passes),
+        (found, Kept { near, clear }): (&mut Vec<MachineMeeting>, &mut Kept),
     ) {
         let (_, moving, standing) = two;
+        let open = near.open(two, most);
+        let near_it = may_meet(pair.motion, pair.moving, ends, pair.standing.bounds, open.max(TOUCH));
+        if !near_it || clear.clear(two, pair, ends, open) {
+            return;
+        }
         let LinkMotion { way, first, .. } = pair.motion;
         let meeting = |t: f64, place: DVec3, distance: f64, contact: Option<Contact>| {
             let place = self.in_part(&way.at(t), *first, place);
@@ -313,7 +329,6 @@ impl MachineParts {
             found.push(meeting(touch.from, touch.place, 0.0, Some(contact)));
             return;
         }
-        let open = near.open(two, most);
         if open > 0.0
             && let Some(nearest) = pair.nearest(ends, open)
         {

@@ -13,7 +13,7 @@ pub(super) fn section(list: &[ToEnsure]) -> Option<Section> {
         Row::new([one.what.clone(), one.value.clone(), room].map(Cell::new).to_vec())
     };
     let rooms = list.iter().any(|one| one.room.is_some());
-    let table = Table::new("", "Make sure of; As the run took it; May be off by").rows(list.iter().map(row));
+    let table = Table::new("", "Item; As the run took it; May be off by").rows(list.iter().map(row));
     let note = "Up to the first contact of bodies that are given; the stock is not counted.";
     Some(Section::new("Before the run").with(if rooms { table.note(note) } else { table }))
 }

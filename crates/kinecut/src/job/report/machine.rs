@@ -19,6 +19,8 @@ use crate::tool::Tool;
 
 /// Most pictures of contacts of a setup.
 const MOST_DRAWN: usize = 3;
+/// Most triangles of the meshes of a picture beside the two bodies that meet.
+const MOST_TRIANGLES: usize = 6000;
 /// Size of a picture [px].
 const SIZE: [f64; 2] = [620.0, 420.0];
 /// Room about what it shows [px].
@@ -28,8 +30,8 @@ const AZIMUTHS: [f64; 6] = [-50.0, 40.0, -130.0, 130.0, -90.0, 90.0];
 /// Elevations of the viewer [degrees].
 const ELEVATIONS: [f64; 2] = [24.0, 6.0];
 
-/// The section; none where the machine has no bodies.
-pub(super) fn section(outcome: &Outcome, first_lines: &[u32]) -> Option<Section> {
+/// The section, for a page with its pictures; none where the machine has no bodies.
+pub(super) fn section(outcome: &Outcome, first_lines: &[u32], page: bool) -> Option<Section> {
     let machine = outcome.job.machine.as_ref()?;
     let mut section = Section::new("Bodies of the machine");
     for (i, done) in outcome.setups.iter().enumerate() {
@@ -40,7 +42,7 @@ pub(super) fn section(outcome: &Outcome, first_lines: &[u32]) -> Option<Section>
         let of = if outcome.setups.len() > 1 { format!(", {}", setup.name) } else { String::new() };
         let first_line = first_lines[i];
         let shown = Shown { job: &outcome.job, machine, setup, done, contacts, first_line };
-        for (number, meeting) in shown.first_contacts().into_iter().enumerate() {
+        for (number, meeting) in shown.first_contacts().into_iter().filter(|_| page).enumerate() {
             let id = format!("machine-contact-{}-{}", i + 1, number + 1);
             section = section.with(shown.picture(id, meeting)?);
         }
@@ -128,6 +130,7 @@ impl Shown<'_> {
         let q: Vec<f64> = self.machine.joints.iter().map(|joint| position(joint.letter)).collect();
         let q = JointValues::new(&q);
         let mut drawn: Vec<(Facets, Tint)> = Vec::new();
+        let (mut budget, mut left_out) = (MOST_TRIANGLES, 0);
         let meets = |body: u32| body == meeting.standing || meeting.moving == Party::Body(body);
         let at_work = self.machine.link(self.machine.work_link(), &q).after(&self.machine.work);
         for (body, compared) in (0..).zip(&self.contacts.bodies) {
@@ -148,6 +151,15 @@ impl Shown<'_> {
                 BodyKind::Fixture(_) => Tint::Steel,
                 BodyKind::Stock => Tint::Sand,
             };
+            if let (Solid::Mesh(mesh), false) = (solid, meets(body)) {
+                match budget.checked_sub(mesh.triangles.len()) {
+                    Some(rest) => budget = rest,
+                    None => {
+                        left_out += 1;
+                        continue;
+                    }
+                }
+            }
             drawn.push((Facets::of(solid, &place), tint));
         }
         if let Some(tool) = self.job.tools.iter().find(|tool| Some(tool.number) == segment.tool) {
@@ -176,6 +188,12 @@ impl Shown<'_> {
             (Ink::Face(Tint::Grey, 0), "machine".to_owned()),
             (Ink::Face(Tint::Sand, 0), "stock".to_owned()),
         ];
+        if left_out > 0 {
+            let meshes =
+                if left_out == 1 { "1 mesh of many triangles is" } else { "meshes of many triangles are" };
+            let count = if left_out == 1 { String::new() } else { format!("{left_out} ") };
+            picture.notes.push(format!("{count}{meshes} left out of the picture."));
+        }
         put(&mut picture, &drawn, place);
         Some(picture)
     }

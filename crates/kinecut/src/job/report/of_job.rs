@@ -64,7 +64,7 @@ fn with(outcome: &Outcome, page: bool) -> Report {
     let shown: Vec<_> = setups.flat_map(|(i, first)| outcome.shown(i, &begins, *first)).collect();
     report.sections = OperationPlan::sections(&shown);
     report.sections.extend(fixtures::section(outcome, &first_lines));
-    report.sections.extend(machine::section(outcome, &first_lines));
+    report.sections.extend(machine::section(outcome, &first_lines, page));
     report.sections.extend(before_run::section(&outcome.verdict.to_ensure));
     count_in_own_programs(&mut report.sections, &first_lines);
     report.findings = outcome.verdict.found.clone();

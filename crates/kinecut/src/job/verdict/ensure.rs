@@ -99,7 +99,10 @@ fn value(tool: &Tool, done: &SetupOutcome) -> String {
     let Some(length) = tool.gauge_length else { return format!("{name}its length as measured") };
     let items = &done.program.items;
     let register = items.few().find_map(|i| match items.get(i) {
-        Item::Tool { id, length: Some(register), .. } if id == tool.number => Some(register),
+        // That of its own number needs no word.
+        Item::Tool { id, length: Some(register), .. } if id == tool.number && register != id.0 => {
+            Some(register)
+        }
         _ => None,
     });
     let register = register.map(|r| format!(" in register {r}")).unwrap_or_default();

@@ -125,13 +125,12 @@ fn a_near_pass_is_a_warning_with_its_distance() {
 
 #[test]
 fn the_tool_meets_a_body_of_a_link_below_it() {
-    // A wall on the table link from X 25: the cutter of 8 mm is at it from X 21.
-    let wall = "[[machine.body]]\nname = \"wall\"\nlink = \"work\"\nbox = { min = [25, -5, -4], max = [26, 5, 0.5] }";
+    // A wall on the table link from X 24 to 25: the cutter of 8 mm is at it from X 20 to X 29.
+    let wall = "[[machine.body]]\nname = \"wall\"\nlink = \"work\"\nbox = { min = [24, -5, -4], max = [25, 5, 0.5] }";
     let done = outcome(wall, "");
     let met = found(&done, Code::MACHINE_MET);
     assert_eq!((met.len(), line(met[0])), (1, "X30 F400"));
     assert_eq!(met[0].message, "the tool meets `wall` of the machine");
-    // To the end of the move: the cutter is at X 26 to 34 there.
     assert!((value(met[0]) - 9.0).abs() < 0.03, "{met:?}");
 }
 
@@ -142,20 +141,18 @@ fn bodies_that_touch_from_the_start_are_one_error_and_not_compared() {
     let touch = found(&done, Code::BODIES_OVERLAP);
     // Nose and column are on neighbouring links: not compared. The stock is 10 mm to each side of the groove.
     let [one] = touch[..] else { panic!("{touch:?}") };
-    assert_eq!(one.message, "the stock touches `column` of the machine where the program begins");
+    assert_eq!(one.message, "`column` of the machine touches the stock where the program begins");
     assert_eq!((one.severity, line(one)), (Severity::Error, "G0 Z2"));
     assert!(found(&done, Code::MACHINE_MET).iter().all(|f| !f.message.contains("stock")));
     let open: Vec<String> = done.verdict.unchecked().map(ToString::to_string).collect();
-    assert!(open.iter().any(|o| o.contains("`the stock` and `column`: not compared")), "{open:?}");
+    assert!(open.iter().any(|o| o.contains("`column` and `the stock`: not compared")), "{open:?}");
     assert!(done.verdict.scope.iter().any(|s| s.ends_with("machine bodies compared in part")));
 }
 
 #[test]
 fn the_nose_where_the_stock_was_is_a_doubt() {
-    // With a gauge length of 3 mm the nose is 2 mm below the top of the stock at Z -5.
-    let short = text("", "", PLACED)
-        .replace("gauge_length = 100", "gauge_length = 3")
-        .replace("stickout = 60", "stickout = 21");
+    // A nose that ends 2 mm above the tip is 3 mm below the top of the stock at Z -5.
+    let short = text("", "", PLACED).replace("base = [0, 0, 0]", "base = [0, 0, -98]");
     let done = run_program(&short, GROOVE).unwrap();
     let met = found(&done, Code::MACHINE_MET);
     assert!(!met.is_empty() && met.iter().all(|f| f.severity == Severity::Doubt), "{met:?}");
@@ -196,4 +193,32 @@ fn the_example_finds_what_its_readme_says() {
     assert!(
         done.verdict.proven.iter().any(|p| p.claim.starts_with("the 8 bodies of the machine meet nothing"))
     );
+}
+
+#[test]
+fn what_to_make_sure_of_has_its_room() {
+    let room = |done: &Outcome, what: &str| {
+        let one = done.verdict.to_ensure.iter().find(|e| e.what == what).unwrap();
+        (one.value.clone(), one.room.clone())
+    };
+    // The nose passes the post at 1.256 mm.
+    let done = outcome("", &post(81.256));
+    let (value, near) = room(&done, "G54");
+    assert_eq!(value, "machine X 0 Y 0 Z 0");
+    assert!(near.unwrap().starts_with("1.25 mm: `nose` of the machine and `post`, line "));
+    // The tool itself is further away than anything is looked for.
+    assert_eq!(
+        room(&done, "T1"),
+        ("`end mill`, gauge length 100 mm".to_owned(), Some("more than 5 mm".to_owned()))
+    );
+    assert_eq!(room(&done, "clamps and fixtures").0, "`post`, where the job has them");
+    assert_eq!(room(&done, "raw stock"), ("block 50 x 20 x 20 mm".to_owned(), None));
+    let met = outcome("", &post(60.0));
+    assert!(room(&met, "G54").1.unwrap().starts_with("`nose` of the machine and `post` touch, line "));
+    let html = kinecut::job::report::html(&kinecut::job::report::of_job(&met));
+    assert!(html.contains("Before the run"));
+    // The list is part of what the digest covers.
+    let mut changed = met.verdict.clone();
+    changed.to_ensure[0].value.push('0');
+    assert!(kinecut::job::Verdict::from_json(&changed.to_json()).is_err());
 }
