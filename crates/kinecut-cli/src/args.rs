@@ -60,7 +60,7 @@ pub(crate) enum Verb {
     /// Plan, post, read back, simulate and report a job
     Run(Run),
     /// Simulate a program that others wrote: cut part, findings, comparison, report
-    Simulate(Simulate),
+    Simulate(Box<Simulate>),
     /// Read a program that others wrote and say what is wrong with it; nothing is cut
     Check(Check),
     /// Time of a program or a job under the limits of the machine's axes, where it is lost, samples of the motion

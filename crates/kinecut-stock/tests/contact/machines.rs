@@ -24,8 +24,8 @@ const CODES: [&str; 8] = ["2103", "0213", "641203", "651203", "450123", "012365"
 
 /// A machine with offsets, so that nothing cancels by chance.
 fn machine(random: &mut Random, code: &str) -> Machine {
-    let code = CoordinateCode::parse(code).unwrap();
-    let mut machine = Machine::new(code, [None; 3], Default::default()).unwrap();
+    let code = CoordinateCode::parse(code).expect("a case of these numbers");
+    let mut machine = Machine::new(code, [None; 3], Default::default()).expect("a case of these numbers");
     for joint in &mut machine.joints {
         if joint.motion.is_rotation() {
             joint.point = random.point(60.0);
@@ -85,7 +85,7 @@ fn program(random: &mut Random, machine: &Machine) -> Program {
         state.tcp = if turns { Tcp::Axes } else { Tcp::Off };
         let centre = start + random.point(40.0).with_z(0.0);
         let (sweep, rise) = (random.between(-6.0, 6.0), random.between(-9.0, 9.0));
-        let arc = Arc::new(start, centre, DVec3::Z, sweep, rise).unwrap();
+        let arc = Arc::new(start, centre, DVec3::Z, sweep, rise).expect("a case of these numbers");
         let end = Curve::from(arc).end();
         to(&state, end, ToolAxis::Fixed, Path::Arc { centre, axis: DVec3::Z, sweep, rise });
     }
@@ -144,9 +144,13 @@ struct Case<'a> {
 
 impl Case<'_> {
     fn joints(&self, t: f64) -> JointValues {
-        let axes = self.segment.joints(t).unwrap();
-        let values: Vec<f64> =
-            self.machine.joints.iter().map(|j| axes["XYZABC".find(j.letter).unwrap()]).collect();
+        let axes = self.segment.joints(t).expect("a case of these numbers");
+        let values: Vec<f64> = self
+            .machine
+            .joints
+            .iter()
+            .map(|j| axes["XYZABC".find(j.letter).expect("a case of these numbers")])
+            .collect();
         JointValues::new(&values)
     }
 

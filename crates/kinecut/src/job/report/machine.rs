@@ -72,7 +72,7 @@ impl Shown<'_> {
         let mut all: Vec<&MachineMeeting> = Vec::new();
         for meeting in self.contacts.met.meetings.iter().filter(|m| m.contact.is_some()) {
             let same = |m: &&MachineMeeting| (m.moving, m.standing) == (meeting.moving, meeting.standing);
-            if all.len() < MOST_DRAWN && !all.iter().any(|m| same(m)) {
+            if all.len() < MOST_DRAWN && !all.iter().any(same) {
                 all.push(meeting);
             }
         }
