@@ -15,7 +15,7 @@ pub fn sha256(bytes: &[u8]) -> String {
 /// A thing that the verdict is about: its role, the file it came from if there is one, and its hash.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Subject {
-    /// "program", "output", "job", "tools", "machine", "stock", "design", "setups".
+    /// "program", "output", "given program", "given design", "job", "tools", "machine", "stock", "design", "setups".
     pub role: String,
     /// File, relative to the folder of the verdict for outputs, as the job spells it for inputs; `None` for a part
     /// of the job.

@@ -45,7 +45,11 @@ impl DesignWants {
         let of_job = job.design.as_ref().map_or(TOLERANCE, |design| design.tolerance);
         let tolerance = length("--design-tolerance", self.tolerance.unwrap_or(of_job), 1e-6, 100.0)?;
         job.design = Some(Design { mesh, tolerance });
-        Ok(Subject { role: "design".to_owned(), file: Some(self.name.clone()), sha256: sha256(&self.bytes) })
+        Ok(Subject {
+            role: "given design".to_owned(),
+            file: Some(self.name.clone()),
+            sha256: sha256(&self.bytes),
+        })
     }
 }
 

@@ -76,7 +76,7 @@ pub fn verify(verdict: &Path, job: Option<&Path>) -> Result<VerdictCheck> {
             }
             "program" | "output" => answer.note(subject, beside.read(name)),
             // A file named on a command line lies at its own path, not in the verdict's folder.
-            "given program" => answer.note(subject, here(name)),
+            "given program" | "given design" => answer.note(subject, here(name)),
             "tools" | "stock" if !has_job => answer.note(subject, here(name)),
             _ => {}
         }
@@ -88,7 +88,7 @@ pub fn verify(verdict: &Path, job: Option<&Path>) -> Result<VerdictCheck> {
 
 /// Compares the parts that a job defines with those of the verdict.
 fn job_parts(verdict: &Verdict, path: &Path, bytes: &[u8], loader: &dyn Loader, answer: &mut VerdictCheck) {
-    const NOT_PARTS: [&str; 4] = ["job", "program", "output", "given program"];
+    const NOT_PARTS: [&str; 5] = ["job", "program", "output", "given program", "given design"];
     let mut sources = Sources::default();
     let id = sources.add(path.display().to_string(), String::from_utf8_lossy(bytes).into_owned());
     let read = JobText::read(&mut sources, id, loader)
