@@ -196,6 +196,9 @@ codes! {
     BODIES_OVERLAP = "KC0540", "bodies touch where the program begins",
         "Before anything has moved these two bodies already touch, so that one of them is drawn too large or at a wrong place, or the part does not lie where the job says. They are not compared any further. Correct the `[[body]]` or the `[[fixture]]`, or put both on one link where one carries the other.";
 
+    FIXTURE_IN_STOCK = "KC0541", "a fixture and the raw stock are in the same place",
+        "A body that a `[[fixture]]` describes reaches into the raw stock by more than a tenth of a millimetre. Mostly its `at` or its size is wrong, or the stock lies elsewhere: what is compared with tools is then not what is on the machine. A stock that rests on a body, or between two jaws, only touches them.";
+
     MESH_UNREADABLE = "KC0601", "a mesh file cannot be read",
         "The file is neither binary nor text STL, ends early, or holds numbers that are not finite.";
     MESH_OPEN = "KC0602", "a mesh does not close",

@@ -3,7 +3,8 @@
 use glam::DVec3;
 
 use super::gap::Convex;
-use super::motion::Ball;
+use super::motion::{Ball, Moment, Standing};
+use super::pair::Pair;
 use super::piece::{Between, Piece, Placed};
 use super::tree::Tree;
 use crate::base::Result;
@@ -82,6 +83,23 @@ impl Body {
         let bounds = all.iter().fold(Aabb::EMPTY, whole);
         let ball = Ball { centre: 0.5 * (bounds.min + bounds.max), radius: 0.5 * bounds.size().length() };
         Body { name, near, bounds, ball, round, pieces }
+    }
+
+    /// Whether it touches another body, both where they are.
+    ///
+    /// ```
+    /// # use kinecut_stock as kinecut;
+    /// use glam::DVec3;
+    /// use kinecut::contact::Body;
+    /// use kinecut::geom::{Aabb, Rigid, Solid};
+    /// let cube = Solid::Box(Aabb { min: DVec3::ZERO, max: DVec3::splat(10.0) });
+    /// let at = |x: f64| Body::new("cube", &cube, Rigid::from_translation(DVec3::X * x), 0.0).unwrap();
+    /// assert!(at(0.0).touches(&at(9.9)) && !at(0.0).touches(&at(10.1)));
+    /// ```
+    pub fn touches(&self, other: &Body) -> bool {
+        let motion = Standing(Rigid::IDENTITY);
+        let here = [Moment::of(&motion, 0.0); 2];
+        Pair { motion: &motion, moving: self, standing: other }.touch(&here).is_some()
     }
 
     /// A box that holds it at a place.

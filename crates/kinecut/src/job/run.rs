@@ -111,6 +111,7 @@ pub(crate) fn run_checked(
     progress.stage("compare", 1);
     let deviation = deviation(&job, &setups, &simulation, &part)?;
     still_wanted(progress)?;
+    let notes = [notes, contacts::fixtures::in_stock(&job)?].concat();
     let located = |f: Finding| *locate(f.into()).0;
     let mut found = findings(&job, &setups, &simulation, &deviation, (&measured, &notes), &located);
     if head_line(&found) != head_line(&[]) && setups.iter().any(|s| s.external.is_none()) {

@@ -4,9 +4,10 @@ use glam::DVec3;
 
 use super::super::check::Job;
 use super::noun::noun;
-use super::{AS_LONG, AS_NEAR, AT_ONCE, LOOK, hundredths};
+use super::{AS_LONG, AS_NEAR, AT_ONCE, LOOK, changed_before, hundredths};
 use crate::base::{Code, Finding, Location, Progress, Result};
 use crate::contact::{Body, Meeting, MovingTool, ToolPart, Watched, meetings};
+use crate::geom::{Rigid, Solid};
 use crate::program::Setup;
 use crate::sweep::ToolMotion;
 use crate::tool::Tool;
@@ -66,6 +67,8 @@ pub(in crate::job) fn findings(
     // Item, body, and the one that lasts longest or is nearest.
     let mut contacts: Vec<(u32, &Meeting, f64)> = Vec::new();
     let mut near: Vec<&Meeting> = Vec::new();
+    // A tool that touches a body as soon as it is in the spindle.
+    let mut changed: Vec<(u32, &Meeting)> = Vec::new();
     for meeting in meetings {
         let segment = &trace.segments[meeting.watched as usize];
         let Some(contact) = &meeting.contact else {
@@ -78,6 +81,11 @@ pub(in crate::job) fn findings(
             }
             continue;
         };
+        if let Some(item) = changed_before(trace, meeting.watched).filter(|_| contact.from == 0.0)
+            && !changed.iter().any(|(known, m)| (*known, m.body) == (item, meeting.body))
+        {
+            changed.push((item, meeting));
+        }
         let way = segment.curve.length() * (contact.to - contact.from);
         // Meetings are in the order of the moves: those of one block are the last.
         let of_block = contacts.iter().rev().take_while(|(item, ..)| *item == segment.item).count();
@@ -121,7 +129,13 @@ pub(in crate::job) fn findings(
             .help("its offset may be off by no more than that");
         (trace.segments[meeting.watched as usize].item, finding)
     });
-    let mut all: Vec<(u32, Finding)> = hit.chain(passed).collect();
+    let changed = changed.into_iter().map(|(item, meeting)| {
+        let what =
+            format!("the {} meets {} as it comes into the spindle", noun(meeting.part), name(setup, meeting));
+        let finding = Finding::error(Code::FIXTURE_MET, what).point(meeting.place.to_array());
+        (item, finding.help("retract before the tool is changed, or move the body"))
+    });
+    let mut all: Vec<(u32, Finding)> = changed.chain(hit).chain(passed).collect();
     all.sort_by_key(|(item, _)| *item);
     all.into_iter()
         .map(|(item, mut finding)| {
@@ -129,6 +143,49 @@ pub(in crate::job) fn findings(
             finding
         })
         .collect()
+}
+
+/// Depth to which a body and the stock may be in the same place [mm]: rounding of drawn sizes.
+const SHARED: f64 = 0.1;
+
+/// Fixtures that reach into the raw stock of the first setup; one that has holes may stand on pins.
+pub(in crate::job) fn in_stock(job: &Job) -> Result<Vec<Finding>> {
+    let Some(setup) = job.setups.first().map(|own| &own.setup).filter(|_| job.drilled.is_empty()) else {
+        return Ok(Vec::new());
+    };
+    let to_part = setup.part_on_table.inverse();
+    let mut found = Vec::new();
+    for fixture in &setup.fixtures {
+        // One of the two is taken smaller by what does not count.
+        let (stock, body) = match (smaller(&job.stock), smaller(&fixture.solid)) {
+            (Some(stock), _) => (stock, (*fixture.solid).clone()),
+            (None, Some(body)) => (job.stock.clone(), body),
+            (None, None) => continue,
+        };
+        let stock = Body::new("stock", &stock, Rigid::IDENTITY, 0.0)?;
+        let body = Body::new(fixture.name.clone(), &body, to_part.after(&fixture.place), 0.0)?;
+        if body.touches(&stock) {
+            let what = format!("`{}` reaches into the raw stock", fixture.name);
+            let help = "correct its `at` or its size, or the stock";
+            found.push(Finding::warning(Code::FIXTURE_IN_STOCK, what).bound_mm(SHARED).help(help));
+        }
+    }
+    Ok(found)
+}
+
+/// A solid smaller on all sides; none of a mesh, and of what would vanish.
+fn smaller(solid: &Solid) -> Option<Solid> {
+    match solid {
+        Solid::Box(bounds) => {
+            let inner = bounds.grown(-SHARED);
+            (!inner.is_empty()).then_some(Solid::Box(inner))
+        }
+        Solid::Cylinder { base, radius, height } => {
+            let (base, radius, height) = (*base + DVec3::Z * SHARED, radius - SHARED, height - 2.0 * SHARED);
+            (radius > 0.0 && height > 0.0).then_some(Solid::Cylinder { base, radius, height })
+        }
+        Solid::Mesh(_) => None,
+    }
 }
 
 fn name(setup: &Setup, meeting: &Meeting) -> String {

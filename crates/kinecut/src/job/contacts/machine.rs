@@ -3,9 +3,11 @@
 use super::super::check::Job;
 use super::fixtures::moving;
 use super::noun::noun;
-use super::{AS_LONG, AS_NEAR, AT_ONCE, LOOK, hundredths};
+use super::{AS_LONG, AS_NEAR, AT_ONCE, LOOK, changed_before, hundredths};
 use crate::base::{Code, Finding, Location, Progress, Result};
-use crate::contact::{Body, LinkBody, MachineMeeting, MachineMove, MachineParts, Met, Party, ToolInSpindle};
+use crate::contact::{
+    Body, LinkBody, MachineMeeting, MachineMove, MachineParts, Met, Party, ToolInSpindle, ToolPart,
+};
 use crate::geom::Rigid;
 use crate::machine::Machine;
 use crate::program::Setup;
@@ -204,6 +206,8 @@ pub(in crate::job) fn findings(
     // Item, and the meeting that lasts longest or is nearest.
     let mut met: Vec<(u32, &MachineMeeting, f64)> = Vec::new();
     let mut near: Vec<&MachineMeeting> = Vec::new();
+    // A tool that touches a body as soon as it is in the spindle.
+    let mut changed: Vec<(u32, &MachineMeeting, ToolPart)> = Vec::new();
     for meeting in &contacts.met.meetings {
         let segment = &trace.segments[meeting.watched as usize];
         let Some(contact) = &meeting.contact else {
@@ -218,6 +222,12 @@ pub(in crate::job) fn findings(
             }
             continue;
         };
+        if let (Some(item), Party::Tool(part)) = (changed_before(trace, meeting.watched), meeting.moving)
+            && contact.from == 0.0
+            && !changed.iter().any(|(known, m, _)| (*known, pair(m)) == (item, pair(meeting)))
+        {
+            changed.push((item, meeting, part));
+        }
         let way = segment.curve.length() * (contact.to - contact.from);
         // Meetings are in the order of the moves: those of one block are the last.
         let of_block = met.iter().rev().take_while(|(item, ..)| *item == segment.item).count();
@@ -249,7 +259,13 @@ pub(in crate::job) fn findings(
             .help("an offset or a length may be off by no more than that");
         (trace.segments[meeting.watched as usize].item, finding)
     });
-    let mut all: Vec<(u32, Finding)> = touching.chain(met).chain(passed).collect();
+    let changed = changed.into_iter().map(|(item, meeting, part)| {
+        let other = contacts.named(meeting.standing);
+        let what = format!("the {} meets {other} as it comes into the spindle", noun(part));
+        let finding = Finding::error(Code::MACHINE_MET, what).point(meeting.place.to_array());
+        (item, finding.help("retract before the tool is changed"))
+    });
+    let mut all: Vec<(u32, Finding)> = touching.chain(changed).chain(met).chain(passed).collect();
     all.sort_by_key(|(item, _)| *item);
     let placed = |(item, finding): (u32, Finding)| Finding { place: place(item), ..finding };
     all.into_iter().map(placed).collect()

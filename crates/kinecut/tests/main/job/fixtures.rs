@@ -210,3 +210,22 @@ fn the_example_finds_what_its_readme_says() {
     let groove = met(&[("at = [67, 36, 0]", "at = [67, 12, 0]")]);
     assert_eq!(groove[0], "11 the tool meets `left clamp (strap)`");
 }
+
+#[test]
+fn a_fixture_that_reaches_into_the_raw_stock_is_a_warning() {
+    let said = |replace: &[(&str, &str)]| -> Vec<String> {
+        let done = super::examples::run("17_vise_and_clamp", replace);
+        let found = found(&done, Code::FIXTURE_IN_STOCK);
+        assert!(found.iter().all(|f| f.severity == Severity::Warning));
+        found.iter().map(|f| f.message.clone()).collect()
+    };
+    // The plate, 60 wide and 20 high, rests on parallels between the jaws.
+    assert_eq!(said(&[]), Vec::<String>::new());
+    let jaws =
+        ["`vise (jaw at Y+)` reaches into the raw stock", "`vise (jaw at Y-)` reaches into the raw stock"];
+    assert_eq!(said(&[("opening = 60", "opening = 59")]), jaws);
+    // A tenth of a millimetre is how one draws.
+    assert_eq!(said(&[("opening = 60", "opening = 59.85")]), Vec::<String>::new());
+    let strap = ["`left clamp (strap)` reaches into the raw stock"];
+    assert_eq!(said(&[("at = [67, 36, 0]", "at = [67, 36, -5]")]), strap);
+}
