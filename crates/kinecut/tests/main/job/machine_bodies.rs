@@ -228,7 +228,7 @@ fn a_longer_tool_that_comes_into_the_spindle_above_a_body_meets_it_at_its_change
     // 50 mm above the work zero the second tool, 30 mm longer, ends at Z 20: 10 mm within the block.
     let block = "[[fixture]]\nname = \"stop\"\nbox = { min = [100, -10, -20], max = [120, 10, 30] }\n";
     let longer = "\n[[tool]]\nnumber = 2\ntype = \"end-mill\"\ndiameter = 8\nflute_length = 20\nstickout = 90\ngauge_length = 130\n";
-    let program = GROOVE.replace("G0 Z50\nM30", "G0 Z50\nX110.\nT2 M6\nG43 H2 Z80\nM30");
+    let program = GROOVE.replace("G0 Z50\nM30", "G0 Z50\nX110\nT2 M6\nG43 H2 Z80\nM30");
     let done = run_program(&text("", &format!("{longer}{block}"), PLACED), &program).unwrap();
     let met = found(&done, Code::FIXTURE_MET);
     let said: Vec<(&str, &str)> = met.iter().map(|f| (line(f), f.message.as_str())).collect();
@@ -241,7 +241,7 @@ fn a_longer_tool_that_comes_into_the_spindle_above_a_body_meets_it_at_its_change
     );
     assert!((value(met[1]) - 10.0).abs() < 0.03, "{met:?}");
     // Changed higher it clears.
-    let high = program.replace("X110.\nT2", "Z90\nX110.\nT2").replace("Z80", "Z100");
+    let high = program.replace("X110\nT2", "Z90\nX110\nT2").replace("Z80", "Z100");
     let done = run_program(&text("", &format!("{longer}{block}"), PLACED), &high).unwrap();
     assert!(found(&done, Code::FIXTURE_MET).is_empty());
 }
