@@ -14,7 +14,7 @@ use super::Mesh;
 use crate::base::{Code, Finding, Result};
 
 /// Most bytes of an unpacked model: about eight million triangles.
-const MOST_BYTES: u64 = 1 << 29;
+const MOST_BYTES: u64 = 1 << 28;
 /// Most triangles of all items: parts may be used many times.
 const MOST_TRIANGLES: usize = 16_000_000;
 /// Most objects that are placed.

@@ -4,6 +4,8 @@
 //! distance: from the tip inwards to the linear axes this bounds what they have to do. Along tool vectors, and on chains with a rotary
 //! axis between two linear ones, bounds are derivatives at some places, enlarged, and checked against the positions between them.
 
+use std::cell::Cell;
+
 use glam::{DMat3, DVec3};
 
 use super::axis_path::AxisPath;
@@ -15,6 +17,8 @@ use crate::machine::{JointValues, Kinematics};
 
 /// Places of a stretch at which derivatives are taken whose bounds are not known in closed form.
 const SAMPLES: u32 = 8;
+/// Places of a way between whose ends the directions of the tool are not known to be within reach.
+const PLACES: u32 = 64;
 /// Difference of positions and speeds that is rounding [mm, rad].
 const ROUNDING: f64 = 1e-7;
 /// Factor by which they are enlarged.
@@ -28,10 +32,55 @@ const FLAT: f64 = 1e-9;
 pub type AxisRates = [(f64, f64); 6];
 
 /// The way of the axes X Y Z A B C along a segment, over `t` from 0 to 1.
+///
+/// ```
+/// # use kinecut_nc as kinecut;
+/// use glam::DVec3;
+/// use kinecut::geom::Rigid;
+/// use kinecut::machine::{CoordinateCode, Machine};
+/// use kinecut::program::{Frame, Move, Origin, Path, Program, Setup, SetupId, Speed, State, Target, ToolAxis, WorkOffset};
+/// use kinecut::trace::{CompStart, JointWay, RegisterState, TraceOptions, trace};
+/// // The table of this machine moves in X and Y, its head in Z; the tip runs 100 mm along X.
+/// let code = CoordinateCode::parse("2103").unwrap();
+/// let machine = Machine::new(code, [None; 3], Default::default()).unwrap();
+/// let setup = Setup {
+///     name: "setup 1".to_owned(),
+///     part_on_table: Rigid::IDENTITY,
+///     work_offsets: [(WorkOffset::G54, Rigid::IDENTITY)].into(),
+///     located: true,
+///     stock: None,
+///     fixtures: Vec::new(),
+/// };
+/// let mut program = Program::new(vec![setup]);
+/// let frame = program.add_frame(Frame::Work(WorkOffset::G54));
+/// let mut state = State::start(SetupId(0), frame);
+/// state.speed = Speed::Rapid { linear: true };
+/// for x in [0.0, 100.0] {
+///     let end = Target::Tip { point: DVec3::new(x, 0.0, 30.0), axis: ToolAxis::Fixed };
+///     program.push_move(Move { end, path: Path::Line }, &state, Origin::default());
+/// }
+/// let options = TraceOptions {
+///     machine: Some(&machine),
+///     tools: &[],
+///     retract_height: 250.0,
+///     operator: RegisterState::default(),
+///     radii: &[],
+///     comp_start: CompStart::AtNext,
+///     chord: 0.5,
+/// };
+/// let trace = trace(&program, &options).unwrap();
+/// let segment = trace.segments.last().unwrap();
+/// let way = JointWay::new(segment).unwrap();
+/// assert_eq!(way.at(0.25)[0], 25.0);
+/// // X goes at one speed, the other axes stand.
+/// assert_eq!(way.rates(0.0, 1.0)[..2], [(100.0, 0.0), (0.0, 0.0)]);
+/// ```
 #[derive(Clone, Debug)]
 pub struct JointWay<'a> {
     segment: &'a Segment,
     law: Law<'a>,
+    /// A position was asked for that is not known.
+    lost: Cell<bool>,
 }
 
 #[derive(Clone, Debug)]
@@ -81,19 +130,20 @@ impl<'a> JointWay<'a> {
             }
             Carried::Plane => Law::Sampled(Box::new(segment.axis_path()?)),
         };
-        let way = JointWay { segment, law };
+        let way = JointWay { segment, law, lost: Cell::new(false) };
         // A direction on the way may lie outside of what the axes reach.
-        let places = if way.is_by_samples() { SAMPLES } else { 1 };
+        let places = if way.is_by_samples() { PLACES } else { 1 };
         let known = |k: u32| way.at(f64::from(k) / f64::from(places)).iter().all(|q| q.is_finite());
         (0..=places).all(known).then_some(way)
     }
 
     /// The way along a segment on which the tool does not turn, with a map of the tip into positions of X Y Z.
     pub fn still(segment: &'a Segment, matrix: DMat3, shift: DVec3) -> JointWay<'a> {
-        JointWay { segment, law: Law::Still { rotary: segment.rotary(), matrix, shift } }
+        let law = Law::Still { rotary: segment.rotary(), matrix, shift };
+        JointWay { segment, law, lost: Cell::new(false) }
     }
 
-    /// Positions [mm, rad]; not numbers where they are not known.
+    /// Positions [mm, rad]; not numbers where they are not known ([`JointWay::is_lost`]).
     pub fn at(&self, t: f64) -> [f64; 6] {
         match &self.law {
             Law::Still { rotary, matrix, shift } => {
@@ -102,8 +152,20 @@ impl<'a> JointWay<'a> {
                 [x, y, z, rotary[0], rotary[1], rotary[2]]
             }
             Law::Straight { from, to } => std::array::from_fn(|i| from[i] + (to[i] - from[i]) * t),
-            Law::Tip(_) | Law::Sampled(_) => self.segment.joints(t).unwrap_or([f64::NAN; 6]),
+            Law::Tip(_) | Law::Sampled(_) => {
+                let known = self.segment.joints(t).filter(|q| q.iter().all(|q| q.is_finite()));
+                known.unwrap_or_else(|| {
+                    self.lost.set(true);
+                    [f64::NAN; 6]
+                })
+            }
         }
+    }
+
+    /// True once a position was asked for that is not known: a direction of the tool lies outside of what the axes reach. Nothing that
+    /// was found along the way counts for all of it.
+    pub fn is_lost(&self) -> bool {
+        self.lost.get()
     }
 
     /// True while no rotary axis moves.
@@ -142,7 +204,7 @@ impl<'a> JointWay<'a> {
             }
             Law::Straight { from, to } => straight(&mut rates, *from, *to),
             Law::Tip(law) => self.tip_rates(law, from, to, &mut rates),
-            Law::Sampled(path) => return sampled(path, from, to),
+            Law::Sampled(path) => return self.sampled_rates(path, from, to),
         }
         rates
     }
@@ -184,6 +246,38 @@ impl<'a> JointWay<'a> {
             };
         }
     }
+
+    /// Bounds from derivatives at some places, enlarged. Where the derivatives at two places do not explain what is between them there
+    /// is no bound: the axes do something that the places do not show.
+    fn sampled_rates(&self, path: &AxisPath<'_>, from: f64, to: f64) -> AxisRates {
+        let length = path.length();
+        let step = (to - from) / f64::from(SAMPLES);
+        let jets: [_; SAMPLES as usize + 1] =
+            std::array::from_fn(|k| path.at((from + step * k as f64) * length));
+        if jets.iter().flatten().any(|jet| !jet.q.is_finite()) {
+            self.lost.set(true);
+        }
+        let mut rates = [(0.0f64, 0.0f64); 6];
+        for place in &jets {
+            for (rate, jet) in rates.iter_mut().zip(place) {
+                // A maximum passes over what is not a number.
+                *rate = (rate.0.max((jet.d1 * length).abs()), rate.1.max((jet.d2 * length * length).abs()));
+            }
+        }
+        let explained = |before: &AxisJet, now: &AxisJet, bend: f64| {
+            let [v0, v1] = [before.d1, now.d1].map(|d| d * length);
+            let [a0, a1] = [before.d2, now.d2].map(|d| d * length * length);
+            let place = now.q - before.q - 0.5 * step * (v0 + v1) + step * step * (a1 - a0) / 12.0;
+            let speed = v1 - v0 - 0.5 * step * (a0 + a1);
+            place.abs() <= UNEXPLAINED * step * step * bend + ROUNDING
+                && speed.abs() <= UNEXPLAINED * step * bend + ROUNDING
+        };
+        let fits = |pair: &[[AxisJet; 6]]| (0..6).all(|i| explained(&pair[0][i], &pair[1][i], rates[i].1));
+        match jets.windows(2).all(fits) {
+            true => rates.map(|(rate, bend)| (RESERVE * rate, RESERVE * bend)),
+            false => [(f64::INFINITY, f64::INFINITY); 6],
+        }
+    }
 }
 
 /// Rates of axes that go straight.
@@ -212,34 +306,6 @@ fn directions(jacobian: &Jacobian, first: usize) -> DMat3 {
 fn shares(jacobian: &Jacobian, first: usize) -> [f64; 3] {
     let rows = directions(jacobian, first).inverse().transpose();
     [rows.x_axis, rows.y_axis, rows.z_axis].map(DVec3::length)
-}
-
-/// Bounds from derivatives at some places, enlarged. Where the derivatives at two places do not explain what is between them there is
-/// no bound: the axes do something that the places do not show.
-fn sampled(path: &AxisPath<'_>, from: f64, to: f64) -> AxisRates {
-    let length = path.length();
-    let step = (to - from) / f64::from(SAMPLES);
-    let jets: [_; SAMPLES as usize + 1] = std::array::from_fn(|k| path.at((from + step * k as f64) * length));
-    let mut rates = [(0.0f64, 0.0f64); 6];
-    for place in &jets {
-        for (rate, jet) in rates.iter_mut().zip(place) {
-            // A maximum passes over what is not a number.
-            *rate = (rate.0.max((jet.d1 * length).abs()), rate.1.max((jet.d2 * length * length).abs()));
-        }
-    }
-    let explained = |before: &AxisJet, now: &AxisJet, bend: f64| {
-        let [v0, v1] = [before.d1, now.d1].map(|d| d * length);
-        let [a0, a1] = [before.d2, now.d2].map(|d| d * length * length);
-        let place = now.q - before.q - 0.5 * step * (v0 + v1) + step * step * (a1 - a0) / 12.0;
-        let speed = v1 - v0 - 0.5 * step * (a0 + a1);
-        place.abs() <= UNEXPLAINED * step * step * bend + ROUNDING
-            && speed.abs() <= UNEXPLAINED * step * bend + ROUNDING
-    };
-    let fits = |pair: &[[AxisJet; 6]]| (0..6).all(|i| explained(&pair[0][i], &pair[1][i], rates[i].1));
-    match jets.windows(2).all(fits) {
-        true => rates.map(|(rate, bend)| (RESERVE * rate, RESERVE * bend)),
-        false => [(f64::INFINITY, f64::INFINITY); 6],
-    }
 }
 
 /// Bounds on the motion of a point that joints carry one after the other.

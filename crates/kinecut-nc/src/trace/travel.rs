@@ -102,7 +102,7 @@ const AT_LIMIT: f64 = 1e-9;
 /// Accuracy of the greatest and least positions of a move in which the tool turns [mm, rad].
 const POSITION: [f64; 6] = [1e-3, 1e-3, 1e-3, 1e-6, 1e-6, 1e-6];
 /// A stretch of a move that is not halved again: next to a pole there is no bound.
-const LEAST_STRETCH: f64 = 1e-9;
+const LEAST_STRETCH: f64 = 1e-6;
 /// Intervals of a move in which an axis may swing round.
 const INTERVALS: u32 = 128;
 /// Places in an interval at which it may begin.
@@ -154,7 +154,7 @@ impl Extremes<'_> {
             a.max(b) + beyond(i) <= self.high[i] + POSITION[i]
                 && a.min(b) - beyond(i) >= self.low[i] - POSITION[i]
         };
-        if step <= LEAST_STRETCH || (0..6).all(within) {
+        if step <= LEAST_STRETCH || self.way.is_lost() || (0..6).all(within) {
             return;
         }
         let middle = 0.5 * (from + to);
@@ -191,7 +191,7 @@ fn span(segment: &Segment) -> Option<AxisTravel> {
     }
     let way = JointWay::new(segment)?;
     let Extremes { low, high, .. } = Extremes::of(&way);
-    Some(AxisTravel { item: segment.item, low, high, at_low, at_high })
+    (!way.is_lost()).then_some(AxisTravel { item: segment.item, low, high, at_low, at_high })
 }
 
 /// True if a matrix keeps lengths, angles and hands: linear axes square to one another, none with a sense of its own.

@@ -123,7 +123,7 @@ pub(super) fn cancelled(progress: &dyn Progress) -> Result<()> {
 /// A tool, a body and a part of the tool.
 type Two = (u32, u32, ToolPart);
 
-/// What is kept from move to move.
+/// Distances that serve later moves.
 struct Kept {
     near: NearestOf<Two, Meeting>,
     clear: Clearances<Two>,

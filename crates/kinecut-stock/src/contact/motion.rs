@@ -22,8 +22,8 @@ impl Ball {
 }
 
 /// A motion over `t` from 0 to 1.
-pub(super) trait Motion: Sync {
-    /// From the coordinates of the moving body into those of the other one.
+pub(super) trait Motion {
+    /// From the coordinates of the moving body into those of the other one; not of numbers where it is not known.
     fn pose(&self, t: f64) -> Rigid;
 
     /// A bound on the distance of the points of a ball from straight lines between their places at two moments [mm].
@@ -83,5 +83,10 @@ pub(super) struct Moment {
 impl Moment {
     pub(super) fn of(motion: &(impl Motion + ?Sized), t: f64) -> Moment {
         Moment { t, pose: motion.pose(t) }
+    }
+
+    /// Whether the pose is known. Where it is not, a search ends: the move is one in which nothing counts as compared.
+    pub(super) fn is_known(&self) -> bool {
+        self.pose.translation.is_finite()
     }
 }

@@ -55,6 +55,9 @@ fn stretches(
     (near, margin): (Aabb, f64),
     each: &mut impl FnMut(Stretch),
 ) {
+    if !ends.iter().all(Moment::is_known) {
+        return;
+    }
     let room = motion.room(ends[0].t, ends[1].t, &moving.ball);
     let [from, to] = ends.map(|end| moving.bounds_at(&end.pose));
     if !from.union(to).grown(room + margin).meets(near) {

@@ -50,6 +50,9 @@ impl<M: Motion> Search<'_, M> {
     /// The first time in a stretch at which the piece is no farther than `touch` from the other, and the place; the last one
     /// where `back`. A piece that stays farther away by a hundredth of a millimetre is not found.
     pub(super) fn touch(&self, stretch: [Moment; 2], touch: f64, back: bool) -> Option<(f64, DVec3)> {
+        if !stretch.iter().all(Moment::is_known) {
+            return None;
+        }
         let (gap, room) = self.gap(&stretch, 0.0, touch);
         if gap.least > touch + room {
             return None;
@@ -76,6 +79,9 @@ impl<M: Motion> Search<'_, M> {
 
     /// The least distance in a stretch where it is less than `best`, and the place on the standing piece.
     pub(super) fn nearest(&self, stretch: [Moment; 2], best: f64) -> Option<Nearest> {
+        if !stretch.iter().all(Moment::is_known) {
+            return None;
+        }
         let (gap, room) = self.gap(&stretch, 0.0, best);
         if gap.least - room >= best - STRAIGHT {
             return None;

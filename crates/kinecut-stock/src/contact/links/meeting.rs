@@ -80,7 +80,7 @@ pub struct MachineMeeting {
 pub struct Met {
     /// Contacts in the order of the moves, then the nearest pass of each pair in moves without a contact of it.
     pub meetings: Vec<MachineMeeting>,
-    /// Moves whose joint positions are not known: nothing was compared in them.
+    /// Moves in which joint positions are not known, all the way or somewhere: not compared in whole.
     pub lost: Vec<u32>,
     /// Moves whose bounds rest on derivatives at single places.
     pub sampled: Vec<u32>,
@@ -92,13 +92,70 @@ type Two = (Option<u32>, Party, u32);
 /// Nearest passes of pairs.
 type Passes = NearestOf<Two, MachineMeeting>;
 
-/// What is kept from move to move.
+/// Distances that serve later moves.
 struct Kept {
     near: Passes,
     clear: Clearances<Two>,
 }
 
 /// A machine with its bodies, tools, and what stands on its table.
+///
+/// ```
+/// # use kinecut_stock as kinecut;
+/// use glam::DVec3;
+/// use kinecut::base::Silent;
+/// use kinecut::contact::{Body, LinkBody, MachineMove, MachineParts, MovingTool, Party, ToolInSpindle};
+/// use kinecut::geom::{Aabb, Rigid, Solid};
+/// use kinecut::machine::{CoordinateCode, Machine};
+/// use kinecut::program::{Frame, Move, Origin, Path, Program, Setup, SetupId, Speed, State, Target, ToolAxis, WorkOffset};
+/// use kinecut::trace::{CompStart, RegisterState, TraceOptions, trace};
+/// // The table of this machine moves in X and Y, its head in Z; the tip runs 100 mm along X.
+/// let code = CoordinateCode::parse("2103").unwrap();
+/// let machine = Machine::new(code, [None; 3], Default::default()).unwrap();
+/// let setup = Setup {
+///     name: "setup 1".to_owned(),
+///     part_on_table: Rigid::IDENTITY,
+///     work_offsets: [(WorkOffset::G54, Rigid::IDENTITY)].into(),
+///     located: true,
+///     stock: None,
+///     fixtures: Vec::new(),
+/// };
+/// let mut program = Program::new(vec![setup]);
+/// let frame = program.add_frame(Frame::Work(WorkOffset::G54));
+/// let mut state = State::start(SetupId(0), frame);
+/// state.speed = Speed::Rapid { linear: true };
+/// for x in [0.0, 100.0] {
+///     let end = Target::Tip { point: DVec3::new(x, 0.0, 30.0), axis: ToolAxis::Fixed };
+///     program.push_move(Move { end, path: Path::Line }, &state, Origin::default());
+/// }
+/// let options = TraceOptions {
+///     machine: Some(&machine),
+///     tools: &[],
+///     retract_height: 250.0,
+///     operator: RegisterState::default(),
+///     radii: &[],
+///     comp_start: CompStart::AtNext,
+///     chord: 0.5,
+/// };
+/// let trace = trace(&program, &options).unwrap();
+/// let segment = trace.segments.last().unwrap();
+/// // A head 40 mm wide, and a post on the table that begins at X 60.
+/// let body = |name: &str, link, min, max| {
+///     let solid = Solid::Box(Aabb { min, max });
+///     LinkBody { link, body: Body::new(name, &solid, Rigid::IDENTITY, 0.0).unwrap(), of_machine: true }
+/// };
+/// let head = body("head", machine.tool_link(), DVec3::new(-20.0, -20.0, 0.0), DVec3::new(20.0, 20.0, 100.0));
+/// let post = body("post", machine.work_link(), DVec3::new(60.0, -10.0, 0.0), DVec3::new(80.0, 10.0, 50.0));
+/// let tool = ToolInSpindle { tool: MovingTool::new([]), length: 0.0 };
+/// let parts = MachineParts::new(&machine, Rigid::IDENTITY, vec![head, post], vec![tool]).unwrap();
+/// let met = parts.meetings(&[MachineMove { segment, tool: 0 }], &[], &Silent).unwrap();
+/// let [meeting] = &met.meetings[..] else { panic!() };
+/// assert_eq!((meeting.moving, meeting.standing), (Party::Body(0), 1));
+/// // From X 40 on; 20 mm higher it clears.
+/// let contact = meeting.contact.as_ref().unwrap();
+/// assert!((contact.from - 0.4).abs() < 1e-3 && contact.to == 1.0);
+/// assert!((contact.clears_by.unwrap() - 20.0).abs() < 0.02);
+/// ```
 #[derive(Clone, Debug)]
 pub struct MachineParts {
     machine: Machine,
@@ -233,6 +290,9 @@ impl MachineParts {
                             met.sampled.push(watched);
                         }
                         self.one_move(watched, &way, one.tool, left_out, (&mut met.meetings, &mut kept));
+                        if way.is_lost() {
+                            met.lost.push(watched);
+                        }
                     }
                     None => met.lost.push(watched),
                 }

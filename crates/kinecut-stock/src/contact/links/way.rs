@@ -50,6 +50,11 @@ impl<'a> Way<'a> {
         self.way.is_sampled()
     }
 
+    /// True once a position was asked for that is not known.
+    pub(super) fn is_lost(&self) -> bool {
+        self.way.is_lost()
+    }
+
     /// Bounds on speed and acceleration of the joints between two moments.
     pub(super) fn rates(&self, from: f64, to: f64) -> Rates {
         let mut rates = [(0.0, 0.0); MOST_JOINTS];

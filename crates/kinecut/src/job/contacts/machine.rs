@@ -40,11 +40,11 @@ pub struct ComparedBody {
     pub name: String,
     /// Least distance that others are to keep [mm].
     pub near: f64,
-    /// What it is.
+    /// Machine, fixture or stock.
     pub kind: BodyKind,
 }
 
-/// What a body is.
+/// Origin of a body.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum BodyKind {
     /// A body of the machine: its index there.
@@ -171,10 +171,12 @@ impl MachineContacts {
 
     /// Whether all bodies were compared in all moves.
     pub(in crate::job) fn is_whole(&self) -> bool {
-        self.not_compared.is_none()
-            && self.met.lost.is_empty()
-            && self.without_length.is_empty()
-            && self.touching.is_empty()
+        self.is_for_all_moves() && self.touching.is_empty()
+    }
+
+    /// Whether bodies were compared in all moves.
+    pub(in crate::job) fn is_for_all_moves(&self) -> bool {
+        self.not_compared.is_none() && self.met.lost.is_empty() && self.without_length.is_empty()
     }
 
     /// Whether nothing touches in the moves, nor where the program begins.

@@ -12,6 +12,9 @@ const AT_ONCE: usize = 1 << 18;
 /// Distance up to which passes are looked for [mm]: how far an offset or a length may be off.
 pub(in crate::job) const LOOK: f64 = 5.0;
 
+/// Accuracy of the distance of a pass [mm], with room.
+pub(in crate::job) const ACCURACY: f64 = 4e-3;
+
 /// Difference of two distances that counts as none [mm].
 const AS_NEAR: f64 = 2e-3;
 

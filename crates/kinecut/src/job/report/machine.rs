@@ -103,10 +103,10 @@ impl Shown<'_> {
                 (None, None, Some(near)) => {
                     (Cell::new(format!("passed at {:.2} mm", near.distance)), self.line(near))
                 }
-                (None, None, None) if compared.kind == BodyKind::Stock => {
-                    (Cell::right("nothing meets it"), None)
+                (None, None, None) => {
+                    let stock = compared.kind == BodyKind::Stock;
+                    (free(stock, self.contacts.is_for_all_moves()), None)
                 }
-                (None, None, None) => (Cell::right(format!("nothing nearer than {LOOK} mm")), None),
             };
             let link = match compared.kind {
                 BodyKind::Machine(i) => link_name(self.machine, self.machine.bodies[i].link),
@@ -212,6 +212,16 @@ impl Shown<'_> {
             }
         }
         about.trim_end().to_owned()
+    }
+}
+
+/// The answer for a body that nothing meets; it is not right where not all was compared.
+fn free(stock: bool, all: bool) -> Cell {
+    match (stock, all) {
+        (true, true) => Cell::right("nothing meets it"),
+        (true, false) => Cell::new("nothing meets it in the moves compared"),
+        (false, true) => Cell::right(format!("nothing nearer than {LOOK} mm")),
+        (false, false) => Cell::new(format!("nothing nearer than {LOOK} mm in the moves compared")),
     }
 }
 

@@ -1,10 +1,12 @@
-//! What a person has to make sure of before the program runs, as the run took it, and by how much it may be off before something is met.
+//! The list that a person goes through before the program runs: each thing as the run took it, and by how much it may be off before
+//! something is met.
 
 use serde::{Deserialize, Serialize};
 
 use super::super::check::Job;
-use super::super::contacts::LOOK;
+use super::super::contacts::machine::{BodyKind, MachineContacts};
 use super::super::contacts::noun::noun;
+use super::super::contacts::{ACCURACY, LOOK};
 use super::super::setup_outcome::SetupOutcome;
 use super::super::simulate::Simulation;
 use crate::contact::Party;
@@ -43,9 +45,12 @@ pub(in crate::job) fn to_ensure(
         let own = &job.setups[i];
         let of = if setups.len() > 1 { format!(" of {}", own.setup.name) } else { String::new() };
         let passes = passes(job, done, simulation, i);
-        let bodies = !own.setup.fixtures.is_empty()
-            || simulation.machine[i].as_ref().is_some_and(|m| m.not_compared.is_none());
-        let room = |of: &dyn Fn(&Pass) -> bool| bodies.then(|| room(done, passes.iter().filter(|p| of(p))));
+        let compared =
+            Compared { fixtures: !own.setup.fixtures.is_empty(), machine: simulation.machine[i].as_ref() };
+        let room = |tool: Option<ToolNumber>| {
+            let own = passes.iter().filter(|pass| tool.is_none() || pass.tool == tool);
+            compared.any(tool).then(|| room(done, own, compared.all(tool)))
+        };
         for (offset, zero) in &own.setup.work_offsets {
             let value = match own.setup.located {
                 true => {
@@ -54,7 +59,7 @@ pub(in crate::job) fn to_ensure(
                 }
                 false => "where the job has its zero on the part".to_owned(),
             };
-            list.push(ToEnsure { what: format!("{offset}{of}"), value, room: room(&|_| true) });
+            list.push(ToEnsure { what: format!("{offset}{of}"), value, room: room(None) });
         }
         let names: Vec<String> = own.setup.fixtures.iter().map(|f| format!("`{}`", f.name)).collect();
         if !names.is_empty() {
@@ -63,8 +68,8 @@ pub(in crate::job) fn to_ensure(
         }
         for tool in &job.tools {
             if done.trace.segments.iter().any(|s| s.tool == Some(tool.number)) {
-                let room = room(&|pass| pass.tool == Some(tool.number));
-                list.push(ToEnsure { what: format!("{}{of}", tool.number), value: value(tool, done), room });
+                let (what, value) = (format!("{}{of}", tool.number), value(tool, done));
+                list.push(ToEnsure { what, value, room: room(Some(tool.number)) });
             }
         }
         for (register, radius) in own.program.iter().flat_map(|program| &program.radii) {
@@ -73,6 +78,36 @@ pub(in crate::job) fn to_ensure(
         }
     }
     list
+}
+
+/// Bodies of a setup that were compared.
+#[derive(Clone, Copy)]
+struct Compared<'a> {
+    fixtures: bool,
+    machine: Option<&'a MachineContacts>,
+}
+
+impl Compared<'_> {
+    fn lacks_length(of: &MachineContacts, tool: Option<ToolNumber>) -> bool {
+        match tool {
+            Some(tool) => of.without_length.contains(&tool),
+            None => !of.without_length.is_empty(),
+        }
+    }
+
+    /// Whether anything was compared with a tool, or with anything.
+    fn any(&self, tool: Option<ToolNumber>) -> bool {
+        let by_machine =
+            |m: &MachineContacts| m.compared > 0 && (tool.is_none() || !Compared::lacks_length(m, tool));
+        self.fixtures || self.machine.is_some_and(by_machine)
+    }
+
+    /// Whether all was compared in all of its moves.
+    fn all(&self, tool: Option<ToolNumber>) -> bool {
+        self.machine.is_none_or(|m| {
+            m.not_compared.is_none() && m.met.lost.is_empty() && !Compared::lacks_length(m, tool)
+        })
+    }
 }
 
 /// A length in words.
@@ -109,7 +144,7 @@ fn value(tool: &Tool, done: &SetupOutcome) -> String {
     format!("{name}gauge length {} mm{register}", millimetres(length))
 }
 
-/// Passes and contacts along the program of a setup.
+/// Passes and contacts along the program of a setup; those of the stock do not count.
 fn passes(job: &Job, done: &SetupOutcome, simulation: &Simulation, setup: usize) -> Vec<Pass> {
     let segment = |watched: u32| &done.trace.segments[watched as usize];
     let fixtures = simulation.meetings[setup].iter().map(|m| {
@@ -119,27 +154,38 @@ fn passes(job: &Job, done: &SetupOutcome, simulation: &Simulation, setup: usize)
         Pass { tool: segment.tool, words, distance: m.distance, item: segment.item }
     });
     let machine = simulation.machine[setup].iter().flat_map(|contacts| {
-        contacts.met.meetings.iter().map(|m| {
+        let name = |body: u32| contacts.party(Party::Body(body));
+        let touching = contacts.touching.iter().map(move |[standing, moving]| {
+            let words = format!("{} and {}", name(*moving), name(*standing));
+            Pass { tool: None, words, distance: 0.0, item: contacts.begins }
+        });
+        let stock = |body: u32| contacts.bodies[body as usize].kind == BodyKind::Stock;
+        let met = contacts.met.meetings.iter().filter(move |m| !stock(m.standing)).map(move |m| {
             let segment = segment(m.watched);
             let tool = segment.tool.filter(|_| matches!(m.moving, Party::Tool(_)));
             let words =
                 format!("{} and {}", contacts.party(m.moving), contacts.party(Party::Body(m.standing)));
             Pass { tool, words, distance: m.distance, item: segment.item }
-        })
+        });
+        touching.chain(met)
     });
     fixtures.chain(machine).collect()
 }
 
-/// The nearest pass in words.
-fn room<'a>(done: &SetupOutcome, passes: impl Iterator<Item = &'a Pass>) -> String {
+/// The nearest pass in words; whether all was compared in all moves.
+fn room<'a>(done: &SetupOutcome, passes: impl Iterator<Item = &'a Pass>, all: bool) -> String {
+    let compared = if all { "" } else { ", in the moves compared" };
     let Some(nearest) = passes.min_by(|a, b| a.distance.total_cmp(&b.distance)) else {
-        return format!("more than {LOOK} mm");
+        return format!("more than {LOOK} mm{compared}");
     };
     let line = done.lines.get(nearest.item as usize).copied().flatten();
     let line = line.map(|line| format!(", line {}", line + 1)).unwrap_or_default();
     match nearest.distance {
         0.0 => format!("{} touch{line}", nearest.words),
         // Not more than there is.
-        distance => format!("{:.2} mm: {}{line}", (distance * 100.0).floor() / 100.0, nearest.words),
+        distance => {
+            let least = ((distance - ACCURACY).max(0.0) * 100.0).floor() / 100.0;
+            format!("{least:.2} mm: {}{line}{compared}", nearest.words)
+        }
     }
 }

@@ -46,7 +46,7 @@ pub struct Verdict {
     pub found: Vec<Finding>,
     /// Items not checked, and assumptions; only those that apply to this program.
     pub not_checked: Vec<Unchecked>,
-    /// What a person has to make sure of before the run.
+    /// Things that a person has to make sure of before the run.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub to_ensure: Vec<ToEnsure>,
     /// SHA-256 of this verdict's other fields.

@@ -7,6 +7,8 @@ use super::super::contacts::machine::MachineContacts;
 use super::super::setup_outcome::SetupOutcome;
 use super::super::simulate::Simulation;
 use super::{Heading, UncheckedList};
+use crate::tool::ToolNumber;
+use crate::trace::StandKind;
 
 /// Items of the programs that were not checked.
 pub(in crate::job) fn not_checked(
@@ -68,10 +70,34 @@ fn bodies(job: &Job, setups: &[SetupOutcome], simulation: &Simulation, list: &mu
         let what = "the machine's own bodies: not modelled, fixtures are compared with tools, shanks and holders only";
         list.add(Heading::Bodies, if none_given { "the machine's own bodies: not modelled" } else { what });
     }
+    for (setup, done) in job.setups.iter().zip(setups).filter(|(own, _)| !own.setup.fixtures.is_empty()) {
+        changes(job, setup.setup.located, done, list);
+    }
     for (done, contacts) in setups.iter().zip(&simulation.machine) {
         if let Some(contacts) = contacts {
             of_machine_in(done, contacts, list);
         }
+    }
+}
+
+/// Tool changes among clamps and fixtures: a tool comes there by its length.
+fn changes(job: &Job, located: bool, done: &SetupOutcome, list: &mut UncheckedList) {
+    let changed = done.trace.stands.iter().filter_map(|stand| match stand.kind {
+        StandKind::Change(number) => Some((stand.item, number)),
+        _ => None,
+    });
+    let length = |number| job.tools.iter().find(|t| t.number == number).and_then(|t| t.gauge_length);
+    let unknown = |number: &ToolNumber| !located || length(*number).is_none();
+    let lines: Vec<u32> = changed
+        .filter(|(_, number)| unknown(number))
+        .filter_map(|(item, _)| done.lines.get(item as usize).copied().flatten().map(|l| l + 1))
+        .collect();
+    if !lines.is_empty() {
+        let reason = if located { "its gauge length" } else { "the place of the part on the machine" };
+        let what = format!(
+            "the tool as it comes into the spindle: not compared with clamps and fixtures, {reason} is not given"
+        );
+        list.at(Heading::Bodies, &done.file, lines, what);
     }
 }
 

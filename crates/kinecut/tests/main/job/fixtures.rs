@@ -17,16 +17,16 @@ fn text(fixture: &str) -> String {
     format!("post = {{ control = \"fanuc\" }}\n{HEAD}{fixture}\n[[setup]]\noffset = \"G54\"\n{PLAIN}\n")
 }
 
-fn found(outcome: &Outcome, code: Code) -> Vec<&Finding> {
+pub(super) fn found(outcome: &Outcome, code: Code) -> Vec<&Finding> {
     outcome.verdict.found.iter().filter(|f| f.code == code).collect()
 }
 
-fn line(finding: &Finding) -> &str {
+pub(super) fn line(finding: &Finding) -> &str {
     &finding.place.as_ref().unwrap().text
 }
 
 /// Value, its unit left out.
-fn value(finding: &Finding) -> f64 {
+pub(super) fn value(finding: &Finding) -> f64 {
     let text = finding.value.as_ref().unwrap().to_string();
     text.split(' ').next().unwrap().parse().unwrap()
 }
@@ -228,4 +228,13 @@ fn a_fixture_that_reaches_into_the_raw_stock_is_a_warning() {
     assert_eq!(said(&[("opening = 60", "opening = 59.85")]), Vec::<String>::new());
     let strap = ["`left clamp (strap)` reaches into the raw stock"];
     assert_eq!(said(&[("at = [67, 36, 0]", "at = [67, 36, -5]")]), strap);
+}
+
+#[test]
+fn a_tool_whose_height_is_not_known_comes_into_the_spindle_unseen() {
+    let done = outcome("[[fixture]]\nname = \"post\"\nbox = { min = [80, 80, -20], max = [90, 90, 90] }");
+    let said = done.verdict.unchecked().any(|item| {
+        item.what.starts_with("the tool as it comes into the spindle: not compared with clamps and fixtures")
+    });
+    assert!(said, "{:?}", done.verdict.not_checked);
 }

@@ -4,9 +4,10 @@
 //! Expected values follow by hand: the nose of the spindle, 80 mm wide, begins at the gauge point, 100 mm above the tip; a groove at Y 0
 //! is cut from X 0 to X 30 at Z -5, with an approach and a return at Z 50.
 
-use kinecut::base::{Code, Finding, Severity};
+use kinecut::base::{Code, Severity};
 use kinecut::job::Outcome;
 
+use super::fixtures::{found, line, value};
 use crate::common::job::run_program;
 
 const GROOVE: &str = "%\nO1\nG21 G17 G40 G80 G90 G94\nG54\nT1 M6\nS2000 M3\nG0 X0 Y0\nG43 H1 Z50\nG0 Z2\nG1 Z-5 F200\nX30 F400\nG0 Z50\nM30\n%\n";
@@ -58,19 +59,6 @@ fn post(x: f64) -> String {
     format!(
         "[[fixture]]\nname = \"post\"\ncylinder = {{ base = [{x}, 0, -20], diameter = 20, height = 130 }}\n"
     )
-}
-
-fn found(outcome: &Outcome, code: Code) -> Vec<&Finding> {
-    outcome.verdict.found.iter().filter(|f| f.code == code).collect()
-}
-
-fn line(finding: &Finding) -> &str {
-    &finding.place.as_ref().unwrap().text
-}
-
-fn value(finding: &Finding) -> f64 {
-    let text = finding.value.as_ref().unwrap().to_string();
-    text.split_whitespace().next().unwrap().parse().unwrap()
 }
 
 #[test]
