@@ -3,7 +3,7 @@
 //! A line holds one interval in place, or up to two in a tile where one has ever had two; a line with more keeps them in a run of
 //! the tile's arena. A tile whose lines are all alike (raw stock) holds one line only, until one of them is changed.
 
-use super::{EndPoint, Interval};
+use super::{CutId, EndPoint, Interval};
 
 /// Lines along an edge of a tile.
 pub(crate) const TILE_EDGE: u32 = 16;
@@ -35,6 +35,19 @@ pub(crate) struct Tile {
     /// Indices of runs that no line uses.
     idle: Vec<u32>,
     arena: Vec<Interval>,
+    /// Stretches of material that cuts take, in order, while somebody wants to know.
+    taken: Option<Vec<TakenStretch>>,
+}
+
+/// A stretch of material that a cut has taken from a line.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct TakenStretch {
+    /// The cut.
+    pub(crate) cut: CutId,
+    /// Index of the line in its tile.
+    pub(crate) line: u16,
+    /// Its ends [fixed steps].
+    pub(crate) ends: [i32; 2],
 }
 
 impl Tile {
@@ -58,6 +71,23 @@ impl Tile {
             runs: Vec::new(),
             idle: Vec::new(),
             arena: Vec::new(),
+            taken: None,
+        }
+    }
+
+    /// Notes from now on what cuts take.
+    pub(crate) fn note_taken(&mut self) {
+        self.taken = Some(Vec::new());
+    }
+
+    /// All that cuts have taken since; nothing is noted any more.
+    pub(crate) fn take_noted(&mut self) -> Vec<TakenStretch> {
+        self.taken.take().unwrap_or_default()
+    }
+
+    fn note(&mut self, line: usize, cut: CutId, ends: [i32; 2]) {
+        if let Some(taken) = &mut self.taken {
+            taken.push(TakenStretch { cut, line: line as u16, ends });
         }
     }
 
@@ -159,6 +189,7 @@ impl Tile {
             // Nearly all calls.
             let (from, to) = (i.lo.at.max(lo.at), i.hi.at.min(hi.at));
             self.part();
+            self.note(line, lo.cut, [from, to]);
             let (left, right) = (i.lo.at < lo.at, hi.at < i.hi.at);
             self.make_room(usize::from(left) + usize::from(right));
             let place = line * self.room as usize;
@@ -197,8 +228,19 @@ impl Tile {
                 n += 1;
             }
         }
+        if self.taken.is_some() {
+            for [from, to] in self.within(line, [lo.at, hi.at]) {
+                self.note(line, lo.cut, [from, to]);
+            }
+        }
         self.set(line, &kept[..n]);
         removed
+    }
+
+    /// The material of a line between two coordinates.
+    fn within(&self, line: usize, [low, high]: [i32; 2]) -> Vec<[i32; 2]> {
+        let part = |i: &Interval| [i.lo.at.max(low), i.hi.at.min(high)];
+        self.line(line).iter().map(part).filter(|[from, to]| from < to).collect()
     }
 
     /// Length of all material of the lines `0..width` of the rows `0..height` [fixed steps].

@@ -34,6 +34,7 @@ mod axis;
 mod body;
 mod edge;
 mod effect;
+mod engaged;
 mod face;
 mod followed;
 mod hollow;
@@ -62,6 +63,7 @@ use crate::sweep::ToolMotion;
 
 pub(in crate::stock) use above::FromAbove;
 pub use axis::CutAxis;
+pub use engaged::{EngagedStretch, MoveEngagement, adjust_volumes, engagements};
 pub use face::SweptFace;
 pub(in crate::stock) use leaning::{OwedAcross, may_meet_at_rest, meets_at_rest};
 pub use list::CutList;

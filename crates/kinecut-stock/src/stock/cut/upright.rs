@@ -146,6 +146,24 @@ pub(super) fn tasks_of<'a>(
     (error, filled)
 }
 
+/// Cuts moves of tools that stand along an axis line by line in their order; their effects are of no interest.
+pub(super) fn cut_one_by_one(
+    stock: &mut TriDexel,
+    axis: CutAxis,
+    list: &CutList,
+    moves: Range<usize>,
+    progress: &dyn Progress,
+) {
+    let frame = ToolFrame::new(axis);
+    let mut next = moves.start;
+    while next < moves.end && !progress.cancelled() {
+        let batch = Batch::new(list, next..moves.end.min(next + BATCH), &frame, |_| false);
+        let count = batch.errors.len();
+        batch.cut_in_order(stock, &frame, 0..count, progress);
+        next += count;
+    }
+}
+
 /// Cuts moves of tools that stand along an axis, and adds their effects.
 pub(super) fn cut_upright(
     stock: &mut TriDexel,

@@ -64,6 +64,22 @@ pub(in super::super) fn cut_leaning(
     Ok(())
 }
 
+/// Cuts moves that lean in their order; their effects are of no interest.
+pub(in super::super) fn cut_leaning_one_by_one(
+    stock: &mut TriDexel,
+    list: &CutList,
+    moves: Range<usize>,
+    progress: &dyn Progress,
+) {
+    let mut next = moves.start;
+    while next < moves.end && !progress.cancelled() {
+        let batch = Batch::new((stock.lattice(), stock.bounds()), list, next..moves.end);
+        let mut sums: Vec<Sum> = batch.moves.iter().map(|_| Sum::new(true)).collect();
+        cut_in_order(stock, &batch, 0..batch.moves.len(), &mut sums, progress);
+        next += batch.moves.len();
+    }
+}
+
 /// The end of the run that begins at a move, and the cells if it may be cut at once: a run of moves that may, if it has enough
 /// spans, else all moves up to one of those.
 fn next_run<'c>(batch: &Batch, able: &[bool], from: usize, cells: &'c Cells) -> (usize, Option<&'c Cells>) {

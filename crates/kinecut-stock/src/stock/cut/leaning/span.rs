@@ -29,22 +29,22 @@ const DEEPEST: u32 = 24;
 
 /// A stretch of a motion.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct PoseSpan {
+pub(in super::super) struct PoseSpan {
     /// Coefficients of the tip by powers of the parameter [mm].
     tip: [DVec3; 4],
     /// Coefficients of the axis.
     axis: [DVec3; 4],
     /// Fractions of the move at its start and end.
-    pub(super) fractions: [f64; 2],
+    pub(in super::super) fractions: [f64; 2],
 }
 
 /// A tool at one moment of a span, with rates by its parameter.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Pose {
-    pub(super) tip: DVec3,
-    pub(super) axis: DVec3,
-    pub(super) tip_rate: DVec3,
-    pub(super) axis_rate: DVec3,
+pub(in super::super) struct Pose {
+    pub(in super::super) tip: DVec3,
+    pub(in super::super) axis: DVec3,
+    pub(in super::super) tip_rate: DVec3,
+    pub(in super::super) axis_rate: DVec3,
 }
 
 /// Spans of a motion for a tool that reaches `reach` from its tip and may travel `travel` in one that is not straight [mm]; and the largest error of
@@ -83,7 +83,7 @@ pub(super) fn spans(
 }
 
 impl PoseSpan {
-    fn through(motion: &ToolMotion, fractions: [f64; 2]) -> PoseSpan {
+    pub(in super::super) fn through(motion: &ToolMotion, fractions: [f64; 2]) -> PoseSpan {
         let [from, to] = fractions;
         let poses = [0.0, 1.0 / 3.0, 2.0 / 3.0, 1.0].map(|f| motion.pose(from + (to - from) * f));
         PoseSpan {
@@ -94,7 +94,7 @@ impl PoseSpan {
     }
 
     /// Tip, axis and their rates.
-    pub(super) fn at(&self, t: f64) -> Pose {
+    pub(in super::super) fn at(&self, t: f64) -> Pose {
         let value = |[a, b, c, d]: [DVec3; 4]| a + (b + (c + d * t) * t) * t;
         let rate = |[_, b, c, d]: [DVec3; 4]| b + (c * 2.0 + d * (3.0 * t)) * t;
         Pose {
@@ -111,7 +111,7 @@ impl PoseSpan {
     }
 
     /// Fraction of the move at a parameter.
-    pub(super) fn fraction(&self, t: f64) -> f64 {
+    pub(in super::super) fn fraction(&self, t: f64) -> f64 {
         let [from, to] = self.fractions;
         from + (to - from) * (t + 0.5)
     }
@@ -138,7 +138,7 @@ impl PoseSpan {
     }
 
     /// Most that a point within `reach` of the tip moves away from its place at the middle [mm].
-    pub(super) fn stray(&self, reach: f64) -> f64 {
+    pub(in super::super) fn stray(&self, reach: f64) -> f64 {
         0.5 * (self.tip[1].length() + reach * self.axis[1].length()) + self.bend(reach)
     }
 
@@ -173,7 +173,7 @@ fn cubic([a, b, c, d]: [DVec3; 4]) -> [DVec3; 4] {
 impl Pose {
     /// Velocity of a point that is carried along, its place given from the tip [mm by the span's parameter]. The turn about the
     /// tool's own axis is left out.
-    pub(super) fn velocity(&self, from_tip: DVec3) -> DVec3 {
+    pub(in super::super) fn velocity(&self, from_tip: DVec3) -> DVec3 {
         self.tip_rate + self.axis_rate * from_tip.dot(self.axis) - self.axis * from_tip.dot(self.axis_rate)
     }
 }

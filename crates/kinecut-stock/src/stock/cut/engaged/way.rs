@@ -1,0 +1,228 @@
+//! The way of a tool in short stretches, and the moment at which it comes to a point.
+
+use glam::DVec3;
+
+use super::super::CutMove;
+use super::super::body::{ConvexPart, Foot, RevolvedParts, bounds};
+use super::super::leaning::{Pose, PoseSpan};
+use crate::geom::Aabb;
+use crate::sweep::ToolMotion;
+
+/// Travel of a tool in a stretch as a part of the least radius of its parts.
+const TRAVEL: f64 = 0.5;
+/// Turn of a tool in a stretch [rad].
+const TURN: f64 = 0.05;
+/// Least travel of a tool in a stretch [mm].
+const LEAST_TRAVEL: f64 = 0.05;
+/// Most stretches of a move.
+const MOST: f64 = 200_000.0;
+/// Most by which a point may lie outside of a tool that holds it: rounding of ends [mm].
+const ROUNDING: f64 = 3e-5;
+/// Looks for the time at which a tool is nearest to a point.
+const LOOKS: u32 = 12;
+/// Looks for the time at which it comes there.
+const MOST_LOOKS: u32 = 24;
+/// Part of a stretch in which the tool comes to a point as it does at one moment.
+const SHORT: f64 = 5e-4;
+
+/// The way of a tool along a move.
+#[derive(Debug)]
+pub(super) struct ToolWay<'a> {
+    pub(super) body: &'a RevolvedParts,
+    /// Stretches in order.
+    spans: Vec<WaySpan>,
+}
+
+/// A stretch of the way.
+#[derive(Clone, Copy, Debug)]
+struct WaySpan {
+    span: PoseSpan,
+    /// The tool in the middle.
+    middle: Pose,
+    /// A box about all that it sweeps.
+    swept: Aabb,
+    /// Most that a point of the tool moves from its place in the middle [mm].
+    stray: f64,
+    /// Square of the distance from the axis in the middle beyond which nothing is swept [mm^2].
+    far: f64,
+}
+
+/// A tool as it comes to a point.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Coming {
+    pub(super) pose: Pose,
+    /// Fraction of the move.
+    pub(super) at: f64,
+    /// Length of the stretch in fractions of the move, in which rates are given.
+    pub(super) span: f64,
+    /// The part that comes first.
+    pub(super) part: usize,
+}
+
+impl<'a> ToolWay<'a> {
+    pub(super) fn new(one: &CutMove, motion: &ToolMotion, body: &'a RevolvedParts) -> ToolWay<'a> {
+        let thinnest = body.parts.iter().map(|part| part.r1).fold(f64::INFINITY, f64::min);
+        let travel = (TRAVEL * thinnest).max(LEAST_TRAVEL);
+        let turned = turned(motion);
+        let reach = body.radius + body.top.max(-body.bottom);
+        let way = one.curve.length() + turned * reach;
+        let count = (way / travel).max(turned / TURN).ceil().clamp(1.0, MOST) as u32;
+        let span = |k: u32| {
+            let fractions = [k, k + 1].map(|k| f64::from(k) / f64::from(count));
+            let span = PoseSpan::through(motion, fractions);
+            let stray = span.stray(reach);
+            let middle = span.at(0.0);
+            let swept = bounds(middle.tip, middle.axis, &[body]).grown(stray + ROUNDING);
+            let far = (body.radius + stray + ROUNDING).powi(2);
+            WaySpan { span, middle, swept, stray, far }
+        };
+        ToolWay { body, spans: (0..count).map(span).collect() }
+    }
+
+    /// The stretches that may reach into a box.
+    pub(super) fn near(&self, region: Aabb) -> Vec<u32> {
+        (0..).zip(&self.spans).filter(|(_, own)| own.swept.meets(region)).map(|(k, _)| k).collect()
+    }
+
+    /// The stretches of some that may reach into a box.
+    pub(super) fn nearer(&self, near: &[u32], region: Aabb, kept: &mut Vec<u32>) {
+        kept.clear();
+        kept.extend(near.iter().filter(|k| self.spans[**k as usize].swept.meets(region)));
+    }
+
+    /// The tool as it first comes to a point in some stretches, or as it comes nearest to it.
+    pub(super) fn coming(&self, near: &[u32], point: DVec3) -> Option<Coming> {
+        let mut nearest: Option<(f64, Coming)> = None;
+        for WaySpan { span, middle, stray, far, .. } in near.iter().map(|k| &self.spans[*k as usize]) {
+            let from_tip = point - middle.tip;
+            if from_tip.length_squared() - from_tip.dot(middle.axis).powi(2) > *far {
+                continue;
+            }
+            let off = |t: f64| self.outside(&span.at(t), point);
+            let [from, to] = span.fractions;
+            let coming = |t: f64, part: usize| Coming {
+                pose: span.at(t),
+                at: span.fraction(t),
+                span: to - from,
+                part,
+            };
+            let middle = self.outside(middle, point);
+            if middle.0 > stray + ROUNDING {
+                continue;
+            }
+            let start = off(-0.5);
+            if start.0 <= ROUNDING {
+                return Some(coming(-0.5, start.1));
+            }
+            // A moment that is known to be in the tool, else the one that is nearest to it.
+            let (t, (least, part)) =
+                if middle.0 <= ROUNDING { (0.0, middle) } else { held(off, [start, middle], *stray) };
+            if nearest.is_none_or(|(known, _)| least < known) {
+                nearest = Some((least, coming(t, part)));
+            }
+            if least <= ROUNDING {
+                let (t, part) = begins(off, start.0, (t, least, part));
+                return Some(coming(t, part));
+            }
+        }
+        nearest.map(|(_, coming)| coming)
+    }
+
+    /// By how far a point is outside of the tool [mm], at most; below zero inside; and the part that is nearest.
+    fn outside(&self, pose: &Pose, point: DVec3) -> (f64, usize) {
+        let from_tip = point - pose.tip;
+        let z = from_tip.dot(pose.axis);
+        let rho = (from_tip - pose.axis * z).length();
+        let mut least = (f64::INFINITY, 0);
+        for (i, part) in self.body.parts.iter().enumerate() {
+            let by = outside(part, rho, z);
+            if by < least.0 {
+                least = (by, i);
+            }
+        }
+        least
+    }
+}
+
+/// A moment of a stretch at which a tool holds a point that it does not at its start and in its middle, or the moment at which it is
+/// nearest; with how far the point then is outside, and the part.
+fn held(
+    off: impl Fn(f64) -> (f64, usize),
+    [start, middle]: [(f64, usize); 2],
+    stray: f64,
+) -> (f64, (f64, usize)) {
+    let end = off(0.5);
+    let ends = [(-0.5, start), (0.0, middle), (0.5, end)];
+    let mut best = if end.0 < middle.0 { ends[2] } else { ends[1] };
+    // No point of the tool moves by more than `stray` in half of the stretch.
+    let may_dip = |a: f64, b: f64| 0.5 * (a + b - stray) <= ROUNDING;
+    for pair in ends.windows(2) {
+        if best.1.0 <= ROUNDING || !may_dip(pair[0].1.0, pair[1].1.0) {
+            continue;
+        }
+        let (mut low, mut high) = (pair[0].0, pair[1].0);
+        for _ in 0..LOOKS {
+            let (a, b) = (low + 0.382 * (high - low), low + 0.618 * (high - low));
+            let [at_a, at_b] = [off(a), off(b)];
+            for found in [(a, at_a), (b, at_b)] {
+                if found.1.0 < best.1.0 {
+                    best = found;
+                }
+            }
+            if at_a.0 <= at_b.0 { high = b } else { low = a }
+        }
+    }
+    best
+}
+
+/// The moment at which a tool comes to a point that is outside by `by` at the start of the stretch and inside at a later moment, by false
+/// position (the Illinois rule); with the part.
+fn begins(off: impl Fn(f64) -> (f64, usize), by: f64, (t, least, part): (f64, f64, usize)) -> (f64, usize) {
+    let (mut out, mut held, mut part) = ((-0.5, by - ROUNDING), (t, least - ROUNDING), part);
+    let mut last = 0;
+    for look in 0..MOST_LOOKS {
+        if held.0 - out.0 < SHORT {
+            break;
+        }
+        // A little beyond the expected place, so that both ends come near. The later moment may be one at which the tool leaves the point.
+        let share = if look % 3 == 2 { 0.5 } else { (out.1 / (out.1 - held.1) + 0.01).clamp(0.02, 0.98) };
+        let t = out.0 + (held.0 - out.0) * share;
+        match off(t) {
+            (by, first) if by <= ROUNDING => {
+                (held, part) = ((t, by - ROUNDING), first);
+                if last == 1 {
+                    out.1 *= 0.5;
+                }
+                last = 1;
+            }
+            (by, _) => {
+                out = (t, by - ROUNDING);
+                if last == 2 {
+                    held.1 *= 0.5;
+                }
+                last = 2;
+            }
+        }
+    }
+    (held.0, part)
+}
+
+/// Angle through which the axis of a tool turns along a motion [rad].
+pub(super) fn turned(motion: &ToolMotion) -> f64 {
+    let axis = |k: u32| motion.pose(f64::from(k) / 8.0).rotation.z_axis;
+    (0..8).map(|k| axis(k).angle_between(axis(k + 1))).sum()
+}
+
+/// By how far a point at a distance from the axis and a height is outside of a part [mm]: no more than it is.
+fn outside(part: &ConvexPart, rho: f64, z: f64) -> f64 {
+    let sides = (part.z0 - z).max(z - part.top).max(rho - part.r1);
+    let foot = match part.foot {
+        Foot::Flat => f64::NEG_INFINITY,
+        Foot::Cone { rise } => (rise * (rho - part.r0) - (z - part.z0)) / rise.hypot(1.0),
+        Foot::Torus { centre_radius, centre_z, radius } if z < centre_z && rho > centre_radius => {
+            (rho - centre_radius).hypot(z - centre_z) - radius
+        }
+        Foot::Torus { .. } => f64::NEG_INFINITY,
+    };
+    sides.max(foot)
+}
