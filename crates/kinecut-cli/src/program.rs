@@ -65,6 +65,12 @@ struct Stock {
     /// Prove the cut stock against the moves by branch and bound; takes longer
     #[arg(long)]
     certified: bool,
+    /// Measure how the tools are engaged in each block; by itself for programs of less than 20 000 moves
+    #[arg(long, overrides_with = "no_engagement")]
+    engagement: bool,
+    /// Do not measure it
+    #[arg(long)]
+    no_engagement: bool,
     /// Wanted part to compare the cut part with: a closed STL or 3MF mesh in part coordinates, of a program by itself those of the work
     /// offset; default: that of the job
     #[arg(long, value_name = "FILE.stl|FILE.3mf")]
@@ -76,7 +82,16 @@ struct Stock {
 
 impl Stock {
     fn wants(&self) -> Result<StockWants, Error> {
-        let Stock { step, mesh_tolerance, memory, certified, design, design_tolerance } = self;
+        let Stock {
+            step,
+            mesh_tolerance,
+            memory,
+            certified,
+            engagement,
+            no_engagement,
+            design,
+            design_tolerance,
+        } = self;
         let design = design.as_ref().map(|path| {
             let bytes = files::bytes(path, FileKind::Mesh)?;
             Ok::<_, Error>(DesignWants {
@@ -90,6 +105,7 @@ impl Stock {
             mesh_tolerance: *mesh_tolerance,
             memory: *memory,
             certified: *certified,
+            engagement: (*engagement || *no_engagement).then_some(*engagement),
             design: design.transpose()?,
             ..StockWants::default()
         })

@@ -21,7 +21,8 @@ use crate::shell::{folder, root};
 const OTHERS: [&str; 4] = ["cargo test", "cargo bench", "cargo doc", "apt-get"];
 
 /// Files that `kinecut run` writes beside the program, as README says.
-const RESULTS: [&str; 5] = ["report.html", "plan.json", "verdict.json", "part.stl", "part.glb"];
+const RESULTS: [&str; 6] =
+    ["report.html", "plan.json", "engagement.json", "verdict.json", "part.stl", "part.glb"];
 
 fn copy(from: &Path, to: &Path) {
     std::fs::create_dir_all(to).unwrap();

@@ -6,6 +6,7 @@ pub(crate) mod check;
 mod closer;
 mod contacts;
 pub mod contour;
+pub(crate) mod engagement;
 pub(crate) mod external;
 pub(crate) mod facets;
 pub(crate) mod feeds;
@@ -47,6 +48,7 @@ mod wrong_type;
 
 pub use budget::Budget;
 pub use check::{Design, Job, JobProgram, JobSetup, Subprogram, check, program_text, subprograms};
+pub use engagement::{Engagement, engagement_json};
 pub use external::{
     Carried, CarriedStock, CarriedTool, ExternalProgram, GivenFile, GivenJob, GivenStock, ProgramWants,
     Unfollowed, carried, control_of, control_of_name, given_alone, given_with_job, is_tool_table,

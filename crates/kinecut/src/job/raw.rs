@@ -1,10 +1,10 @@
-//! Changes of the stock by hand: holes that are there before the job, and cores that a person takes out.
+//! The raw stock, and changes of it by hand: holes that are there before the job, and cores that a person takes out.
 
 use glam::DVec3;
 
 use super::check::Job;
 use crate::base::{Code, Finding, Result, Silent};
-use crate::geom::{Line, Profile};
+use crate::geom::{Line, Profile, Solid};
 use crate::operations::measured::Loose;
 use crate::stock::TriDexel;
 use crate::stock::cut::{CutAxis, CutMove, CutOptions, ToolBody, cut};
@@ -18,6 +18,15 @@ pub(super) fn drill(stock: &mut TriDexel, job: &Job) -> Result<()> {
         cut(stock, &[body], &[CutMove::new(down, CutAxis::PlusZ, 0)], &options, &Silent)?;
     }
     Ok(())
+}
+
+/// The raw stock with lines at a distance [mm].
+pub(super) fn raw_stock(stock: &Solid, step: f64) -> Result<TriDexel> {
+    match stock {
+        Solid::Box(bounds) => TriDexel::from_box(*bounds, step),
+        Solid::Cylinder { base, radius, height } => TriDexel::from_cylinder(*base, *radius, *height, step),
+        Solid::Mesh(mesh) => TriDexel::from_mesh(mesh, step),
+    }
 }
 
 /// Takes a loose core out.

@@ -11,10 +11,12 @@ use super::check::Job;
 use super::closer::{Story, look_closer};
 use super::contacts::machine::MachineContacts;
 use super::contacts::{fixtures, machine};
+use super::engagement;
+use super::engagement::Engagement;
 use super::look::{Look, Looks, looks};
 use super::missed::Missed;
 use super::part_surface::PartSurface;
-use super::raw::{drill, off_axis, take_out};
+use super::raw::{drill, off_axis, raw_stock, take_out};
 use crate::base::{Code, Finding, Progress, Result, Severity};
 use crate::contact::Meeting;
 use crate::geom::Solid;
@@ -59,6 +61,8 @@ pub struct Simulation {
     pub machine: Vec<Option<MachineContacts>>,
     /// The proof of the cut stock against the moves, if the job asks for it.
     pub certificate: Option<Certificate>,
+    /// Engagement of the tools, where it was measured.
+    pub engagement: Option<Engagement>,
 }
 
 /// Cuts the stock of a job along the trace of each setup's program; `loose` are the cores that are taken out in each,
@@ -79,13 +83,7 @@ pub fn simulate(
     budget.check(job)?;
     progress.note(&budget.told(job));
     progress.stage("stock", 1);
-    let mut stock = match &job.stock {
-        Solid::Box(b) => TriDexel::from_box(*b, job.step)?,
-        Solid::Cylinder { base, radius, height } => {
-            TriDexel::from_cylinder(*base, *radius, *height, job.step)?
-        }
-        Solid::Mesh(mesh) => TriDexel::from_mesh(mesh, job.step)?,
-    };
+    let mut stock = raw_stock(&job.stock, job.step)?;
     drill(&mut stock, job)?;
     let raw_volume = stock.volume();
     let raw = if job.drilled.is_empty() {
@@ -115,6 +113,7 @@ pub fn simulate(
         meetings: Vec::new(),
         machine: Vec::new(),
         certificate: None,
+        engagement: None,
     };
     let mut measured: Vec<Option<PointEngagement>> = probes.iter().map(|_| None).collect();
     // Cuts are numbered: drilled holes, cores taken out, then the segments.
@@ -173,6 +172,8 @@ pub fn simulate(
     }
     let story = Story { job, traces, loose, moves: &all, bodies: &bodies };
     look_closer(&story, &mut simulation.effects, progress)?;
+    let gone = || simulation.raw_volume - simulation.stock.volume();
+    simulation.engagement = engagement::measure(&story, gone, progress)?;
     if job.certified {
         let runs = simulation.first_cut.iter().zip(&all);
         let runs: Vec<_> =

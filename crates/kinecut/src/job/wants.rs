@@ -18,6 +18,8 @@ pub struct StockWants {
     pub memory: Option<f64>,
     /// Whether the cut stock is proven against the moves; if not, the job may still say so.
     pub certified: bool,
+    /// Whether the engagement of the tools is measured; default: as the job says.
+    pub engagement: Option<bool>,
     /// Surface of the cut part that is wanted.
     pub surface: PartSurface,
     /// The wanted part; default: that of the job.
@@ -71,6 +73,7 @@ impl StockWants {
             None => step::surface("simulate.mesh_tolerance", job.surface.tolerance, job.step)?,
         };
         job.certified |= self.certified;
+        job.engagement = self.engagement.or(job.engagement);
         job.part_surface = self.surface;
         self.design.as_ref().map(|design| design.apply(job)).transpose()
     }

@@ -83,7 +83,7 @@ pub struct Done {
     /// The report without its pictures.
     #[serde(skip)]
     pub sections: Vec<Section>,
-    /// The programs, `plan.json`, the [`ResultFiles`] and, last, `verdict.json`.
+    /// The programs, `plan.json`, `engagement.json` where it was measured, the [`ResultFiles`] and, last, `verdict.json`.
     #[serde(skip)]
     pub outputs: Outputs,
 }
@@ -194,6 +194,9 @@ fn done(outcome: Outcome, files: &ResultFiles, progress: &dyn Progress) -> Resul
     let ((plan, page), meshes) = rayon::join(|| (job::plan_json(&outcome), page()), meshes);
     still_wanted(progress)?;
     outputs.add("plan.json", plan);
+    if let Some(engagement) = job::engagement_json(&outcome) {
+        outputs.add("engagement.json", engagement);
+    }
     for (name, bytes) in meshes? {
         outputs.add(name, bytes);
     }

@@ -65,6 +65,8 @@ pub struct Job {
     pub surface: SurfaceOptions,
     /// Whether the cut stock is proven against the moves.
     pub certified: bool,
+    /// Whether the engagement of the tools is measured; if nothing says so, for programs that take little time.
+    pub engagement: Option<bool>,
     /// Surface of the cut part that is made.
     pub part_surface: PartSurface,
     /// Clampings, in order.
@@ -184,6 +186,7 @@ pub fn check(file: &JobFile, name: &str, loader: &dyn Loader) -> Result<Job> {
         memory: (memory * 1e6) as u64,
         surface: step::surface("simulate.mesh_tolerance", file.simulate.mesh_tolerance, step)?,
         certified: file.simulate.certified,
+        engagement: file.simulate.engagement,
         part_surface: PartSurface::Full,
         setups,
         compare: false,

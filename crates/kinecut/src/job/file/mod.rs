@@ -198,6 +198,10 @@ pub struct SimulateTable {
     /// Prove the cut stock against the moves by branch and bound.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub certified: bool,
+    /// Measure how the tools are engaged in each block: arc, depth, width, removal rate, thickness of chips, in a pass of its own;
+    /// default: for programs of less than 20 000 moves.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub engagement: Option<bool>,
 }
 
 /// A clamping of the part.

@@ -15,6 +15,7 @@
 mod before_run;
 mod deviation;
 mod encode;
+mod engagement;
 mod facts;
 mod findings;
 mod fixtures;

@@ -1,0 +1,77 @@
+//! Engagement over the time of a program.
+
+use std::collections::BTreeMap;
+use std::f64::consts::TAU;
+
+use super::super::outcome::Outcome;
+use super::super::setup_outcome::SetupOutcome;
+use crate::stock::cut::MoveEngagement;
+use crate::tool::Tool;
+use crate::trace::{Segment, SegmentPace};
+
+/// A stretch of time in which a tool takes material at feed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Course {
+    /// Its beginning and its end [s].
+    pub(crate) time: [f64; 2],
+    /// Arc of contact [degrees].
+    pub(crate) arc: f64,
+    /// Removal rate [mm^3/s].
+    pub(crate) rate: f64,
+    /// Greatest thickness of a chip [mm]; nothing where spindle, teeth or feed are not known.
+    pub(crate) chip: Option<f64>,
+}
+
+/// Teeth that come by in the time of a segment at the programmed feed.
+pub(super) fn bites(done: &SetupOutcome, segment: &Segment, tools: &[Tool]) -> Option<f64> {
+    let turns = done.program.state(segment.item as usize).spindle.rate() / TAU;
+    let teeth = tools.iter().find(|t| Some(t.number) == segment.tool).map_or(0, |t| t.teeth);
+    let time = segment.duration.filter(|t| *t > 0.0)?;
+    Some(time * turns * f64::from(teeth)).filter(|bites| *bites > 0.0)
+}
+
+/// Stretches of a move on either side over which a removal rate is a mean: how many lines cross a single one is left to chance.
+const AROUND: usize = 4;
+
+/// Removal rates on the stretches of a move [mm^3 by fraction of the move].
+pub(super) fn rates(moved: &MoveEngagement) -> Vec<f64> {
+    let all = &moved.stretches;
+    let one = |i: usize| {
+        let around = &all[i.saturating_sub(AROUND)..all.len().min(i + AROUND + 1)];
+        let removed: f64 = around.iter().map(|s| s.removed).sum();
+        removed / (around[around.len() - 1].to - around[0].from)
+    };
+    (0..all.len()).map(one).collect()
+}
+
+/// The course along the program of a setup, in order of time; `begins`: for each line of all programs the time at which it begins [s];
+/// `first_line`: where those of the setup begin.
+pub(crate) fn course(outcome: &Outcome, setup: usize, begins: &[f64], first_line: u32) -> Vec<Course> {
+    let done = &outcome.setups[setup];
+    let Some(all) = &outcome.simulation.engagement else { return Vec::new() };
+    let mut spent: BTreeMap<u32, f64> = BTreeMap::new();
+    let mut course = Vec::new();
+    for ((segment, moved), time) in
+        done.trace.segments.iter().zip(&all.moves[setup]).zip(done.segment_times())
+    {
+        let line = done.lines.get(segment.item as usize).copied().flatten();
+        let (Some(line), false) = (line, segment.alternative) else { continue };
+        let before = spent.entry(line).or_insert(0.0);
+        let begin = begins.get((line + first_line) as usize).copied().unwrap_or(0.0) + *before;
+        *before += time;
+        let (SegmentPace::Feed(_), Some(programmed)) =
+            (segment.motion, segment.duration.filter(|t| *t > 0.0))
+        else {
+            continue;
+        };
+        let bites = bites(done, segment, &outcome.job.tools);
+        course.extend(moved.stretches.iter().zip(rates(moved)).map(|(s, rate)| Course {
+            time: [s.from, s.to].map(|t| begin + t * time),
+            arc: s.arc.to_degrees(),
+            rate: rate / programmed,
+            chip: bites.map(|bites| s.advance / bites),
+        }));
+    }
+    course.sort_by(|a, b| a.time[0].total_cmp(&b.time[0]));
+    course
+}

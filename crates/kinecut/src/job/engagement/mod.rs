@@ -1,0 +1,83 @@
+//! Engagement of the tools along the programs of a job: a second pass over the stock, with lines farther apart.
+
+mod blocks;
+mod course;
+
+use super::check::Job;
+use super::closer::Story;
+use super::raw::{drill, raw_stock, take_out};
+use crate::base::{Progress, Result};
+use crate::stock::TriDexel;
+use crate::stock::cut::{MoveEngagement, adjust_volumes, engagements};
+
+pub use blocks::engagement_json;
+pub(crate) use blocks::{Block, blocks};
+pub(crate) use course::{Course, course};
+
+/// Moves below which engagement is measured unasked.
+const FEW: usize = 20_000;
+/// Lattice cells of the stock of this pass, about.
+const CELLS: f64 = 5e5;
+
+/// Engagement of the tools along the programs of a job.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Engagement {
+    /// Distance of the lines of this pass [mm].
+    pub step: f64,
+    /// For each setup the engagement of each segment of its trace.
+    pub moves: Vec<Vec<MoveEngagement>>,
+    /// Volume that the moves have taken from the stock model [mm^3], loose cores left out.
+    pub taken: f64,
+}
+
+impl Engagement {
+    /// Sum of what the moves remove, each by itself [mm^3].
+    pub fn removed(&self) -> f64 {
+        self.moves.iter().flatten().map(MoveEngagement::removed).sum()
+    }
+}
+
+/// Distance of the lines [mm]: that of the stock model, or more where that would be too many.
+fn step(job: &Job) -> f64 {
+    let size = job.stock.bounds().size();
+    job.step.max((size.x * size.y * size.z / CELLS).cbrt())
+}
+
+/// Measures the engagement of a job's moves, if it is asked for or takes little time; nothing else.
+///
+/// `gone`: volume that is missing from the stock model, loose cores included [mm^3].
+pub(super) fn measure(
+    story: &Story<'_>,
+    gone: impl FnOnce() -> f64,
+    progress: &dyn Progress,
+) -> Result<Option<Engagement>> {
+    let job = story.job;
+    let count: usize = story.moves.iter().map(|list| list.moves().len()).sum();
+    if !job.engagement.unwrap_or(count < FEW) {
+        return Ok(None);
+    }
+    let step = step(job);
+    let mut stock: TriDexel = raw_stock(&job.stock, step)?;
+    drill(&mut stock, job)?;
+    let mut all = Engagement { step, moves: Vec::new(), taken: gone() };
+    let mut core_number = 0;
+    for (i, list) in story.moves.iter().enumerate() {
+        let segments = &story.traces[i].segments;
+        let mut own = Vec::with_capacity(segments.len());
+        let mut pass = |stock: &mut TriDexel, to: usize| -> Result<()> {
+            own.extend(engagements(stock, story.bodies, &list.moves()[own.len()..to], progress)?);
+            Ok(())
+        };
+        for core in story.loose.get(i).map_or(&[][..], Vec::as_slice) {
+            pass(&mut stock, segments.partition_point(|s| s.item < core.item))?;
+            let before = stock.volume();
+            take_out(&mut stock, core, core_number)?;
+            all.taken -= before - stock.volume();
+            core_number += 1;
+        }
+        pass(&mut stock, segments.len())?;
+        all.moves.push(own);
+    }
+    adjust_volumes(all.moves.iter_mut().flatten(), all.taken);
+    Ok(Some(all))
+}

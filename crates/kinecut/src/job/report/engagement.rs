@@ -1,0 +1,99 @@
+//! Section of a report on the engagement of the tools: the greatest of each tool, and its course over the time of the program.
+
+use crate::job::Outcome;
+use crate::job::engagement::{Block, Course, blocks, course};
+use crate::page::{Cell, Chart, Follows, Row, Section, Table, fixed};
+use crate::tool::ToolNumber;
+
+/// The section; `begins`: for each line of all programs the time at which it begins [s]; none where engagement was not measured.
+pub(super) fn section(outcome: &Outcome, begins: &[f64], first_lines: &[u32]) -> Option<Section> {
+    let all = outcome.simulation.engagement.as_ref()?;
+    let by_setup: Vec<Vec<Block>> = (0..outcome.setups.len()).map(|i| blocks(outcome, i)).collect();
+    // Blocks with their line in the report, counted from 0.
+    let blocks: Vec<(u32, &Block)> = by_setup
+        .iter()
+        .zip(first_lines)
+        .flat_map(|(own, first)| own.iter().map(move |block| (first + block.line - 1, block)))
+        .collect();
+    if blocks.iter().all(|(_, block)| block.removed == 0.0) {
+        return None;
+    }
+    let mut section = Section::new("Engagement of the tools");
+    let course: Vec<Course> =
+        first_lines.iter().enumerate().flat_map(|(i, first)| course(outcome, i, begins, *first)).collect();
+    let chart = |title: &str, y: (&str, &str), of: fn(&Course) -> f64| {
+        let points = over_time(&course, begins.last().copied().unwrap_or(0.0), of);
+        Chart::new(title, ("time", "s"), y).series("", points).follows(Follows::Time, 0.0)
+    };
+    section = section.with(chart("Arc of contact", ("arc", "\u{b0}"), |c| c.arc)).with(chart(
+        "Removal rate",
+        ("rate", "cm\u{b3}/min"),
+        |c| c.rate * PER_MINUTE,
+    ));
+    if course.iter().any(|c| c.chip.is_some_and(|chip| chip > 0.0)) {
+        section = section.with(chart("Thickness of the chip", ("greatest", "mm"), |c| c.chip.unwrap_or(0.0)));
+    }
+    let spread = format!(
+        "Arc about the axis, depth along it, width across the feed, thickness of the chip and removal rate: the greatest at feed, at the programmed speed, each over a stretch of {} mm, the rate over nine of them. Measured on lines {} mm apart.",
+        fixed(1.5 * all.step, 3),
+        fixed(all.step, 3)
+    );
+    Some(section.with(table(outcome, &blocks).note(spread)))
+}
+
+/// Cubic centimetres a minute in a cubic millimetre a second.
+const PER_MINUTE: f64 = 0.06;
+
+/// A value over the time of the program [s], in steps; zero in air.
+fn over_time(course: &[Course], end: f64, of: fn(&Course) -> f64) -> Vec<[f64; 2]> {
+    let mut points: Vec<[f64; 2]> = Vec::with_capacity(2 * course.len() + 2);
+    let mut last = 0.0;
+    for stretch in course {
+        let [from, to] = stretch.time;
+        // Whether there is air in less than a stretch is not known.
+        if from - last > to - from || points.is_empty() {
+            points.extend([[last, 0.0], [from, 0.0]]);
+        }
+        points.extend([[from, of(stretch)], [to, of(stretch)]]);
+        last = to;
+    }
+    points.extend([[last, 0.0], [end.max(last), 0.0]]);
+    points
+}
+
+/// The greatest values of each tool, at the block of its greatest arc.
+fn table(outcome: &Outcome, blocks: &[(u32, &Block)]) -> Table {
+    let mut numbers: Vec<ToolNumber> = Vec::new();
+    for number in blocks.iter().filter_map(|(_, b)| b.tool) {
+        if !numbers.contains(&number) {
+            numbers.push(number);
+        }
+    }
+    let rows = numbers.into_iter().map(|number| {
+        let own = || blocks.iter().filter(move |(_, b)| b.tool == Some(number));
+        let most = |of: fn(&Block) -> f64| own().map(|(_, b)| of(b)).fold(0.0, f64::max);
+        let sum = |of: fn(&Block) -> f64| own().map(|(_, b)| of(b)).sum::<f64>();
+        let name = outcome.job.tools.iter().find(|t| t.number == number).map_or("", |t| &t.name);
+        let chip = most(|b| b.chip.unwrap_or(0.0));
+        let chip = if chip > 0.0 { fixed(chip, 3) } else { "not known".to_owned() };
+        let air = 100.0 * sum(|b| b.air) / sum(|b| b.length).max(f64::MIN_POSITIVE);
+        let cells = [
+            format!("{number} {name}").trim_end().to_owned(),
+            fixed(most(|b| b.arc), 0),
+            fixed(most(|b| b.depth), 2),
+            fixed(most(|b| b.width), 2),
+            chip,
+            fixed(most(|b| b.rate.unwrap_or(0.0)) * PER_MINUTE, 1),
+            fixed(sum(|b| b.removed) / 1000.0, 2),
+            fixed(air, 0),
+        ];
+        let row = Row::new(cells.map(Cell::new).to_vec());
+        let greatest = own().max_by(|(_, a), (_, b)| a.arc.total_cmp(&b.arc));
+        match greatest {
+            Some((line, _)) => row.at(*line),
+            None => row,
+        }
+    });
+    let columns = "Tool; Arc [\u{b0}]; Depth [mm]; Width [mm]; Chip [mm]; Rate [cm\u{b3}/min]; Removed [cm\u{b3}]; In air [%]";
+    Table::new("Greatest engagement of each tool", columns).rows(rows)
+}
