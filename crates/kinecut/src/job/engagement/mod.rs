@@ -19,6 +19,9 @@ const FEW: usize = 20_000;
 /// Lattice cells of the stock of this pass, about.
 const CELLS: f64 = 5e5;
 
+/// Lines along the thinnest side of the stock.
+const LEAST_LINES: f64 = 4.0;
+
 /// Engagement of the tools along the programs of a job.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Engagement {
@@ -40,7 +43,7 @@ impl Engagement {
 /// Distance of the lines [mm]: that of the stock model, or more where that would be too many.
 fn step(job: &Job) -> f64 {
     let size = job.stock.bounds().size();
-    job.step.max((size.x * size.y * size.z / CELLS).cbrt())
+    job.step.max((size.x * size.y * size.z / CELLS).cbrt().min(size.min_element() / LEAST_LINES))
 }
 
 /// Measures the engagement of a job's moves, if it is asked for or takes little time; nothing else.
