@@ -181,7 +181,7 @@ fn every_output_is_a_subject_and_a_full_disk_leaves_the_old_run_whole() {
         .unwrap()
         .map(|e| e.unwrap().file_name().into_string().unwrap())
         .collect();
-    assert_eq!(names.len(), 6, "{names:?}");
+    assert_eq!(names.len(), 7, "{names:?}");
     for name in &names {
         let path = folder.join("out").join(name);
         let bytes = fs::read(&path).unwrap();
@@ -207,7 +207,7 @@ fn every_output_is_a_subject_and_a_full_disk_leaves_the_old_run_whole() {
     assert!(full.status.code() == Some(2) && message.contains("KC0003"), "{message}");
     fs::write(folder.join("job.toml"), job(BLOCK)).unwrap();
     assert!(valid());
-    assert_eq!(fs::read_dir(folder.join("out")).unwrap().count(), 6);
+    assert_eq!(fs::read_dir(folder.join("out")).unwrap().count(), 7);
     // Places where nothing can be written.
     fs::write(folder.join("file"), "").unwrap();
     for out in ["file", "file/deeper", "/proc/self/out", "/dev/full"] {

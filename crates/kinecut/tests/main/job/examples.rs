@@ -221,7 +221,9 @@ fn outputs_are_whole_and_a_changed_byte_voids_the_verdict() {
     let results = out.join("results");
     let done = kinecut::run(&job, &results, &Silent).unwrap();
     let names: Vec<&str> = done.outputs.files().map(|(name, _)| name).collect();
-    for name in ["BORE200.mpf", "plan.json", "verdict.json", "part.stl", "part.glb", "report.html"] {
+    for name in
+        ["BORE200.mpf", "plan.json", "engagement.json", "verdict.json", "part.stl", "part.glb", "report.html"]
+    {
         assert!(names.contains(&name), "{name} not in {names:?}");
         assert!(std::fs::metadata(results.join(name)).unwrap().len() > 100, "{name}");
     }
