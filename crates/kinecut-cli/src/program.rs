@@ -66,7 +66,7 @@ struct Stock {
     #[arg(long)]
     certified: bool,
     /// Measure how the tools are engaged in each block; by itself for programs of less than 20 000 moves
-    #[arg(long, overrides_with = "no_engagement")]
+    #[arg(long, conflicts_with = "no_engagement")]
     engagement: bool,
     /// Do not measure it
     #[arg(long)]

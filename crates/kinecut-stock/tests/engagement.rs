@@ -5,7 +5,7 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use glam::{DVec2, DVec3};
 use kinecut_stock::base::Silent;
-use kinecut_stock::geom::{Aabb, Line, Profile};
+use kinecut_stock::geom::{Aabb, Arc, Line, Profile};
 use kinecut_stock::stock::TriDexel;
 use kinecut_stock::stock::cut::{
     CutAxis, CutMove, EngagedStretch, MoveEngagement, ToolBody, adjust_volumes, engagements,
@@ -163,6 +163,57 @@ fn on_random_ways_it_is_that_of_brute_force() {
     // Where contact ends on a side of the cutter, a way of one step is an arc of acos(1 - step / A).
     let most = (1.0 - step / A).acos().to_degrees() + 1.0;
     assert!(compared > 600 && mean < 1.5 && worst < most, "{compared}: mean {mean}, worst {worst}");
+}
+
+#[test]
+fn a_circle_that_grows_is_engaged_as_its_closed_form_says() {
+    let circle = |radius: f64| {
+        let start = DVec3::new(radius, 0.0, -3.0);
+        let arc = Arc::new(start, DVec3::new(0.0, 0.0, -3.0), DVec3::Z, TAU, 0.0).expect("a circle");
+        CutMove::new(arc, CutAxis::PlusZ, 0)
+    };
+    let h = 1.0;
+    for first in [6.0, 10.0, 20.0] {
+        let radius = first + h;
+        let (found, _) = measured(0.3, &[circle(first), circle(radius)]);
+        let grown = middle(&found[1]);
+        let arc = (((radius + A - h).powi(2) - radius * radius - A * A) / (2.0 * radius * A)).acos();
+        assert!((grown.arc - arc).to_degrees().abs() < 3.0, "{first}: {} {arc}", grown.arc);
+        assert!((grown.depth - 3.0).abs() < 1e-3, "{first}: {grown:?}");
+        let volume = 3.0 * PI * ((radius + A).powi(2) - (first + A).powi(2));
+        assert!((found[1].removed() / volume - 1.0).abs() < 0.02, "{first}: {}", found[1].removed());
+    }
+}
+
+#[test]
+fn tools_that_turn_take_what_is_gone_and_nothing_twice() {
+    // A ball that is driven over the block while it tilts by 60 degrees, there and back.
+    let ball = ToolBody::new(Profile::bull_nose(10.0, 5.0, 25.0).unwrap());
+    let way = |from: f64, to: f64| Line {
+        start: DVec3::new(from, from * 0.2, -3.0),
+        end: DVec3::new(to, to * 0.2, -3.0),
+    };
+    let tilted = |angle: f64| DVec3::new(0.0, angle.sin(), angle.cos());
+    let one = |from: f64, to: f64, tilts: [f64; 2]| {
+        let line = way(from, to);
+        let motion = ToolMotion::between(line.into(), tilted(tilts[0]), tilted(tilts[1])).unwrap();
+        CutMove::leaning(motion, line, 0)
+    };
+    let moves = [one(-20.0, 20.0, [-0.5, 0.5]), one(20.0, -20.0, [0.5, -0.5]), one(-20.0, 20.0, [0.5, -0.5])];
+    let mut stock = TriDexel::from_box(BLOCK, 0.3).unwrap();
+    let before = stock.volume();
+    let found = engagements(&mut stock, &[ball], &moves, &Silent).unwrap();
+    let gone = before - stock.volume();
+    let sum: f64 = found.iter().map(MoveEngagement::removed).sum();
+    assert!((sum / gone - 1.0).abs() < 0.03, "{sum} {gone}");
+    // The way back is the same: what is taken there is rounding.
+    assert!(found[1].removed() < 1e-3 * sum, "{}", found[1].removed());
+    for stretch in found.iter().flat_map(|moved| &moved.stretches) {
+        assert!(stretch.depth <= 25.0 + 1e-3 && stretch.width <= 10.0 + 1e-3, "{stretch:?}");
+    }
+    // Where it stands upright it is a slot by a ball.
+    let upright = middle(&found[0]);
+    assert!((upright.arc.to_degrees() - 180.0).abs() < 8.0, "{upright:?}");
 }
 
 #[test]

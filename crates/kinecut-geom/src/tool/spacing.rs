@@ -29,6 +29,27 @@ impl ToothSpacing {
         })
     }
 
+    /// Greatest thickness of the chips of all teeth at a way into the material for each turn of the tool [mm]: a tooth takes what the
+    /// way is since the one before it, and by how much more than that one it reaches out.
+    ///
+    /// ```
+    /// # use kinecut_geom as kinecut;
+    /// use kinecut::tool::ToothSpacing;
+    /// assert_eq!(ToothSpacing::default().thickest_chip(4, 0.4), 0.1);
+    /// // The third tooth comes a third of a turn after the second, and 0.01 mm farther out.
+    /// let angles = [0.0, 120.0, 240.0].map(f64::to_radians).to_vec();
+    /// let uneven = ToothSpacing { angles, runout: vec![0.0, 0.0, 0.01] };
+    /// assert!((uneven.thickest_chip(3, 0.3) - 0.11).abs() < 1e-12);
+    /// ```
+    pub fn thickest_chip(&self, teeth: u32, way: f64) -> f64 {
+        let places: Vec<(f64, f64)> = self.places(teeth).collect();
+        let last = places.last().copied().map(|(angle, out)| (angle - TAU, out));
+        let before = last.into_iter().chain(places.iter().copied());
+        let chip =
+            |((from, before), (to, out)): ((f64, f64), &(f64, f64))| way * (to - from) / TAU + out - before;
+        before.zip(&places).map(chip).fold(0.0, f64::max)
+    }
+
     /// Checks the lists against the number of teeth and the radius of the cutter [mm].
     ///
     /// # Errors

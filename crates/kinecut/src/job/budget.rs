@@ -3,6 +3,7 @@
 use glam::DVec3;
 
 use super::check::Job;
+use super::engagement;
 use super::part_surface::{PartSurface, every};
 use crate::base::{Code, Finding, Result};
 use crate::geom::Aabb;
@@ -35,6 +36,8 @@ pub struct Budget {
     pub surface: u64,
     /// The comparison of the lines with the wanted part.
     pub comparison: u64,
+    /// The lines of the pass that measures engagement, with at most two stretches of material each.
+    pub engagement: u64,
     /// Number of moves.
     pub move_count: u64,
     /// The moves, with what they do.
@@ -53,8 +56,11 @@ impl Budget {
             }
             s.turning.is_some() || last.1
         };
+        let move_count = segments().count() as u64;
+        let lines = || TriDexel::memory(job.stock.bounds(), engagement::step(job));
         Budget {
-            move_count: segments().count() as u64,
+            move_count,
+            engagement: if engagement::is_wanted(job, move_count) { lines() } else { 0 },
             moves: segments().map(|s| if leans(s) { LEANING_MOVE } else { MOVE }).sum(),
             ..Budget::of_stock(job, job.stock.bounds(), job.step)
         }
@@ -82,7 +88,9 @@ impl Budget {
 
     /// All of it [bytes].
     pub fn total(&self) -> u64 {
-        [self.surface, self.comparison, self.moves].into_iter().fold(self.stock, u64::saturating_add)
+        [self.surface, self.comparison, self.engagement, self.moves]
+            .into_iter()
+            .fold(self.stock, u64::saturating_add)
     }
 
     /// The distance of the lines in words, and whether it was chosen.
@@ -123,7 +131,11 @@ impl Budget {
             return Ok(());
         }
         let mb = |bytes: u64| (bytes as f64 / 1e6).ceil();
-        let at = |step: f64| Budget { moves: self.moves, ..Budget::of_stock(job, job.stock.bounds(), step) };
+        let at = |step: f64| {
+            let lines = || TriDexel::memory(job.stock.bounds(), engagement::step(job).max(step));
+            let engagement = if self.engagement > 0 { lines() } else { 0 };
+            Budget { moves: self.moves, engagement, ..Budget::of_stock(job, job.stock.bounds(), step) }
+        };
         let fits = coarsened(job.step, |step| at(step).total() <= job.memory);
         let (help, key) = match fits {
             Some(step) => {
@@ -141,6 +153,7 @@ impl Budget {
             (self.stock, format!("lines of the stock {} mm apart", job.step)),
             (self.surface, "surface".to_owned()),
             (self.comparison, "comparison".to_owned()),
+            (self.engagement, "engagement".to_owned()),
             (self.moves, format!("{} moves", self.move_count)),
         ];
         let parts = parts.into_iter().filter(|(bytes, _)| *bytes > 0);

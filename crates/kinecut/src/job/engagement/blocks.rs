@@ -5,8 +5,8 @@ use serde::Serialize;
 use super::super::json_text;
 use super::super::outcome::Outcome;
 use super::super::setup_outcome::SetupOutcome;
-use super::course::{bites, rates};
-use crate::stock::cut::MoveEngagement;
+use super::course::{Chips, rates};
+use crate::stock::cut::{EngagedStretch, MoveEngagement};
 use crate::tool::{Tool, ToolNumber};
 use crate::trace::{Segment, SegmentPace};
 
@@ -22,7 +22,7 @@ pub(crate) struct Block {
     pub(crate) time: Option<f64>,
     /// Length of the way [mm].
     pub(crate) length: f64,
-    /// Length of the way on which the tool takes no material [mm].
+    /// Length of the way on which the tool takes nothing from any line [mm].
     pub(crate) air: f64,
     /// Volume [mm^3].
     pub(crate) removed: f64,
@@ -35,7 +35,7 @@ pub(crate) struct Block {
     /// Greatest removal rate [mm^3/s], a mean over nine stretches of the way.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) rate: Option<f64>,
-    /// Greatest thickness of a chip [mm]; nothing where spindle or feed is not known.
+    /// Greatest thickness of a chip [mm]; nothing where spindle or feed is not known, and of taps.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) chip: Option<f64>,
 }
@@ -50,10 +50,8 @@ impl Block {
         tools: &[Tool],
     ) -> Block {
         let time = segment.duration.filter(|t| *t > 0.0);
-        let greatest = |of: fn(&crate::stock::cut::EngagedStretch) -> f64| {
-            moved.stretches.iter().map(of).fold(0.0, f64::max)
-        };
-        let bites = bites(done, segment, tools);
+        let greatest = |of: fn(&EngagedStretch) -> f64| moved.stretches.iter().map(of).fold(0.0, f64::max);
+        let chips = Chips::of(done, segment, tools);
         let length = segment.curve.length();
         Block {
             line,
@@ -66,7 +64,7 @@ impl Block {
             depth: greatest(|s| s.depth),
             width: greatest(|s| s.width),
             rate: time.map(|time| rates(moved).into_iter().fold(0.0, f64::max) / time),
-            chip: bites.map(|bites| greatest(|s| s.advance) / bites),
+            chip: chips.map(|chips| chips.thickest(greatest(|s| s.advance))),
         }
     }
 
@@ -114,8 +112,10 @@ struct Json<'a> {
     job: &'a str,
     /// Distance of the lines of the pass [mm].
     step: f64,
-    /// Volume that the program removes, to which the blocks are adjusted, and those at rapid [mm^3].
+    /// Volume that the program removes from the stock model: that of its blocks, and of moves at rapid, is adjusted to it [mm^3].
     removed: f64,
+    /// Sum of those volumes before that [mm^3].
+    removed_as_measured: f64,
     setups: Vec<SetupJson<'a>>,
 }
 
@@ -136,6 +136,7 @@ pub fn engagement_json(outcome: &Outcome) -> Option<String> {
         job: &outcome.job_file,
         step: all.step,
         removed: all.taken,
+        removed_as_measured: all.told,
         setups: setups.collect(),
     }))
 }

@@ -6,7 +6,7 @@ use std::f64::consts::TAU;
 use super::super::outcome::Outcome;
 use super::super::setup_outcome::SetupOutcome;
 use crate::stock::cut::MoveEngagement;
-use crate::tool::Tool;
+use crate::tool::{Cutter, Tool};
 use crate::trace::{Segment, SegmentPace};
 
 /// A stretch of time in which a tool takes material at feed.
@@ -16,18 +16,36 @@ pub(crate) struct Course {
     pub(crate) time: [f64; 2],
     /// Arc of contact [degrees].
     pub(crate) arc: f64,
-    /// Removal rate [mm^3/s].
-    pub(crate) rate: f64,
-    /// Greatest thickness of a chip [mm]; nothing where spindle, teeth or feed are not known.
+    /// Removal rate [mm^3/s]; nothing where the feed is not known.
+    pub(crate) rate: Option<f64>,
+    /// Greatest thickness of a chip [mm]; nothing where spindle or feed is not known, and of taps.
     pub(crate) chip: Option<f64>,
 }
 
-/// Teeth that come by in the time of a segment at the programmed feed.
-pub(super) fn bites(done: &SetupOutcome, segment: &Segment, tools: &[Tool]) -> Option<f64> {
-    let turns = done.program.state(segment.item as usize).spindle.rate() / TAU;
-    let teeth = tools.iter().find(|t| Some(t.number) == segment.tool).map_or(0, |t| t.teeth);
-    let time = segment.duration.filter(|t| *t > 0.0)?;
-    Some(time * turns * f64::from(teeth)).filter(|bites| *bites > 0.0)
+/// The thickest chip of a tool by its way into the material, which is given in mm by fraction of a segment.
+pub(super) struct Chips<'a> {
+    tool: &'a Tool,
+    /// Turns of the spindle in the segment at the programmed feed.
+    turns: f64,
+}
+
+impl Chips<'_> {
+    /// Of a segment; `None` where spindle or feed is not known, and of taps.
+    pub(super) fn of<'a>(done: &SetupOutcome, segment: &Segment, tools: &'a [Tool]) -> Option<Chips<'a>> {
+        let tool = tools.iter().find(|t| Some(t.number) == segment.tool)?;
+        let rate = done.program.state(segment.item as usize).spindle.rate() / TAU;
+        let turns = segment.duration? * rate;
+        (turns > 0.0 && !matches!(tool.cutter, Cutter::Tap(_))).then_some(Chips { tool, turns })
+    }
+
+    /// The thickest [mm].
+    pub(super) fn thickest(&self, advance: f64) -> f64 {
+        if advance > 0.0 {
+            self.tool.spacing.thickest_chip(self.tool.teeth, advance / self.turns)
+        } else {
+            0.0
+        }
+    }
 }
 
 /// Stretches of a move on either side over which a removal rate is a mean: how many lines cross a single one is left to chance.
@@ -59,17 +77,16 @@ pub(crate) fn course(outcome: &Outcome, setup: usize, begins: &[f64], first_line
         let before = spent.entry(line).or_insert(0.0);
         let begin = begins.get((line + first_line) as usize).copied().unwrap_or(0.0) + *before;
         *before += time;
-        let (SegmentPace::Feed(_), Some(programmed)) =
-            (segment.motion, segment.duration.filter(|t| *t > 0.0))
-        else {
+        if !matches!(segment.motion, SegmentPace::Feed(_)) {
             continue;
-        };
-        let bites = bites(done, segment, &outcome.job.tools);
+        }
+        let programmed = segment.duration.filter(|t| *t > 0.0);
+        let chips = Chips::of(done, segment, &outcome.job.tools);
         course.extend(moved.stretches.iter().zip(rates(moved)).map(|(s, rate)| Course {
             time: [s.from, s.to].map(|t| begin + t * time),
             arc: s.arc.to_degrees(),
-            rate: rate / programmed,
-            chip: bites.map(|bites| s.advance / bites),
+            rate: programmed.map(|time| rate / time),
+            chip: chips.as_ref().map(|chips| chips.thickest(s.advance)),
         }));
     }
     course.sort_by(|a, b| a.time[0].total_cmp(&b.time[0]));

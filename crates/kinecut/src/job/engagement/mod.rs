@@ -15,12 +15,11 @@ pub(crate) use blocks::{Block, blocks};
 pub(crate) use course::{Course, course};
 
 /// Moves below which engagement is measured unasked.
-const FEW: usize = 20_000;
+const FEW: u64 = 20_000;
 /// Lattice cells of the stock of this pass, about.
 const CELLS: f64 = 5e5;
-
 /// Lines along the thinnest side of the stock.
-const LEAST_LINES: f64 = 4.0;
+const LEAST_LINES: f64 = 2.0;
 
 /// Engagement of the tools along the programs of a job.
 #[derive(Clone, Debug, PartialEq)]
@@ -29,24 +28,24 @@ pub struct Engagement {
     pub step: f64,
     /// For each setup the engagement of each segment of its trace.
     pub moves: Vec<Vec<MoveEngagement>>,
-    /// Volume that the moves have taken from the stock model [mm^3], loose cores left out.
+    /// Volume that the moves have taken from the stock model, loose cores left out [mm^3]: the volumes of the moves are adjusted to it.
     pub taken: f64,
+    /// Sum of the volumes of the moves as this pass tells them [mm^3].
+    pub told: f64,
 }
 
-impl Engagement {
-    /// Sum of what the moves remove, each by itself [mm^3].
-    pub fn removed(&self) -> f64 {
-        self.moves.iter().flatten().map(MoveEngagement::removed).sum()
-    }
+/// Whether the engagement of this many moves is measured.
+pub(super) fn is_wanted(job: &Job, moves: u64) -> bool {
+    job.engagement.unwrap_or(moves < FEW)
 }
 
-/// Distance of the lines [mm]: that of the stock model, or more where that would be too many.
-fn step(job: &Job) -> f64 {
+/// Distance of the lines of the pass [mm]: that of the stock model, or more where that would be too many.
+pub(super) fn step(job: &Job) -> f64 {
     let size = job.stock.bounds().size();
     job.step.max((size.x * size.y * size.z / CELLS).cbrt().min(size.min_element() / LEAST_LINES))
 }
 
-/// Measures the engagement of a job's moves, if it is asked for or takes little time; nothing else.
+/// Measures the engagement of a job's moves where it is wanted.
 ///
 /// `gone`: volume that is missing from the stock model, loose cores included [mm^3].
 pub(super) fn measure(
@@ -55,14 +54,13 @@ pub(super) fn measure(
     progress: &dyn Progress,
 ) -> Result<Option<Engagement>> {
     let job = story.job;
-    let count: usize = story.moves.iter().map(|list| list.moves().len()).sum();
-    if !job.engagement.unwrap_or(count < FEW) {
+    if !is_wanted(job, story.moves.iter().map(|list| list.moves().len() as u64).sum()) {
         return Ok(None);
     }
     let step = step(job);
     let mut stock: TriDexel = raw_stock(&job.stock, step)?;
     drill(&mut stock, job)?;
-    let mut all = Engagement { step, moves: Vec::new(), taken: gone() };
+    let mut all = Engagement { step, moves: Vec::new(), taken: gone(), told: 0.0 };
     let mut core_number = 0;
     for (i, list) in story.moves.iter().enumerate() {
         let segments = &story.traces[i].segments;
@@ -81,6 +79,7 @@ pub(super) fn measure(
         pass(&mut stock, segments.len())?;
         all.moves.push(own);
     }
+    all.told = all.moves.iter().flatten().map(MoveEngagement::removed).sum();
     adjust_volumes(all.moves.iter_mut().flatten(), all.taken);
     Ok(Some(all))
 }

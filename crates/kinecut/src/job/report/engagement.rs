@@ -1,7 +1,7 @@
 //! Section of a report on the engagement of the tools: the greatest of each tool, and its course over the time of the program.
 
-use crate::job::Outcome;
 use crate::job::engagement::{Block, Course, blocks, course};
+use crate::job::{Engagement, Outcome};
 use crate::page::{Cell, Chart, Follows, Row, Section, Table, fixed};
 use crate::tool::ToolNumber;
 
@@ -28,17 +28,31 @@ pub(super) fn section(outcome: &Outcome, begins: &[f64], first_lines: &[u32]) ->
     section = section.with(chart("Arc of contact", ("arc", "\u{b0}"), |c| c.arc)).with(chart(
         "Removal rate",
         ("rate", "cm\u{b3}/min"),
-        |c| c.rate * PER_MINUTE,
+        |c| c.rate.map_or(f64::NAN, |rate| rate * PER_MINUTE),
     ));
     if course.iter().any(|c| c.chip.is_some_and(|chip| chip > 0.0)) {
-        section = section.with(chart("Thickness of the chip", ("greatest", "mm"), |c| c.chip.unwrap_or(0.0)));
+        section =
+            section.with(chart("Thickness of the chip", ("greatest", "mm"), |c| c.chip.unwrap_or(f64::NAN)));
     }
-    let spread = format!(
-        "Arc about the axis, depth along it, width across the feed, thickness of the chip and removal rate: the greatest at feed, at the programmed speed, each over a stretch of {} mm, the rate over nine of them. Measured on lines {} mm apart.",
-        fixed(1.5 * all.step, 3),
-        fixed(all.step, 3)
-    );
-    Some(section.with(table(outcome, &blocks).note(spread)))
+    Some(section.with(notes(all).into_iter().fold(table(outcome, &blocks), Table::note)))
+}
+
+/// Conditions of the values.
+fn notes(all: &Engagement) -> [String; 3] {
+    let step = fixed(all.step, 3);
+    let share = 100.0 * all.told / all.taken;
+    [
+        format!(
+            "Greatest values at feed: arc about the axis, depth along it, width across the feed and chip each over {} mm of the way, the rate over nine times that; chip and rate at the programmed feed, and the chip with the number of teeth beside it.",
+            fixed(1.5 * all.step, 3)
+        ),
+        format!(
+            "Measured on lines {step} mm apart: contact that lies between them counts as air, and a pass narrower than {step} mm may be deeper by as much."
+        ),
+        format!(
+            "The volumes of the moves, rapid ones too, added up to {share:.1} % of what is gone from the stock, and are adjusted to it."
+        ),
+    ]
 }
 
 /// Cubic centimetres a minute in a cubic millimetre a second.
@@ -72,18 +86,21 @@ fn table(outcome: &Outcome, blocks: &[(u32, &Block)]) -> Table {
     let rows = numbers.into_iter().map(|number| {
         let own = || blocks.iter().filter(move |(_, b)| b.tool == Some(number));
         let most = |of: fn(&Block) -> f64| own().map(|(_, b)| of(b)).fold(0.0, f64::max);
+        let known = |of: fn(&Block) -> Option<f64>| own().filter_map(|(_, b)| of(b)).reduce(f64::max);
         let sum = |of: fn(&Block) -> f64| own().map(|(_, b)| of(b)).sum::<f64>();
-        let name = outcome.job.tools.iter().find(|t| t.number == number).map_or("", |t| &t.name);
-        let chip = most(|b| b.chip.unwrap_or(0.0));
-        let chip = if chip > 0.0 { fixed(chip, 3) } else { "not known".to_owned() };
+        let tool = outcome.job.tools.iter().find(|t| t.number == number);
+        let (name, teeth) = tool.map_or(("", 0), |t| (&t.name[..], t.teeth));
+        let words = |value: Option<String>| value.unwrap_or_else(|| "not known".to_owned());
+        let chip = known(|b| b.chip).map(|chip| format!("{} ({teeth})", fixed(chip, 3)));
+        let rate = known(|b| b.rate).map(|rate| fixed(rate * PER_MINUTE, 1));
         let air = 100.0 * sum(|b| b.air) / sum(|b| b.length).max(f64::MIN_POSITIVE);
         let cells = [
             format!("{number} {name}").trim_end().to_owned(),
             fixed(most(|b| b.arc), 0),
             fixed(most(|b| b.depth), 2),
             fixed(most(|b| b.width), 2),
-            chip,
-            fixed(most(|b| b.rate.unwrap_or(0.0)) * PER_MINUTE, 1),
+            words(chip),
+            words(rate),
             fixed(sum(|b| b.removed) / 1000.0, 2),
             fixed(air, 0),
         ];
@@ -94,6 +111,6 @@ fn table(outcome: &Outcome, blocks: &[(u32, &Block)]) -> Table {
             None => row,
         }
     });
-    let columns = "Tool; Arc [\u{b0}]; Depth [mm]; Width [mm]; Chip [mm]; Rate [cm\u{b3}/min]; Removed [cm\u{b3}]; In air [%]";
+    let columns = "Tool; Arc [\u{b0}]; Depth [mm]; Width [mm]; Chip [mm] (teeth); Rate [cm\u{b3}/min]; Removed [cm\u{b3}]; In air [%]";
     Table::new("Greatest engagement of each tool", columns).rows(rows)
 }

@@ -17,8 +17,11 @@ fn the_lines_need_no_more_than_was_told() {
         assert!(simulation.stock.memory_held() <= budget.stock, "{budget:?}");
         let moves: usize = outcome.setups.iter().map(|s| s.trace.segments.len()).sum();
         assert_eq!(budget.move_count, moves as u64);
-        let parts = budget.stock + budget.surface + budget.comparison + budget.moves;
-        assert!(budget.surface > 0 && budget.comparison > 0 && budget.total() == parts, "{budget:?}");
+        let parts = budget.stock + budget.surface + budget.comparison + budget.engagement + budget.moves;
+        assert!(
+            budget.surface > 0 && budget.engagement > 0 && budget.comparison > 0 && budget.total() == parts,
+            "{budget:?}"
+        );
         let counts = kinecut::stock::DexelGrid::lattice(&simulation.stock).counts.map(u64::from);
         let [x, y, z] = counts;
         assert_eq!(budget.line_count, x * y + y * z + z * x);

@@ -56,3 +56,19 @@ fn it_is_left_out_where_the_job_or_the_command_says_so() {
         !kinecut::job::report::of_job(&done).sections.iter().any(|s| s.title == "Engagement of the tools")
     );
 }
+
+#[test]
+fn unasked_it_is_measured_for_programs_of_less_than_20_000_moves() {
+    let measured = |moves: usize| {
+        let cuts: String = (0..moves).map(|k| format!("X{}.{}\n", 15 + k % 2, k % 10)).collect();
+        let program = format!(
+            "%\nO7\nG17 G21 G40 G49 G80 G90 G94\nT1 M6\nG54 G0 X15. Y20. S3000 M3\nG43 H1 Z20.\nG1 Z5. F200.\n{cuts}G0 Z20.\nM30\n%\n"
+        );
+        let done = run_program(&job("fanuc", PLAIN).replace("step = 0.5", "step = 4.0"), &program).unwrap();
+        (done.setups[0].trace.segments.len(), done.simulation.engagement.is_some())
+    };
+    let (few, is_measured) = measured(19_900);
+    assert!(few < 20_000 && is_measured, "{few}");
+    let (many, is_measured) = measured(20_000);
+    assert!(many >= 20_000 && !is_measured, "{many}");
+}

@@ -1,8 +1,10 @@
 //! Bounds on speed and acceleration of the axes: no difference of their positions is more, on machines with offsets, with control of
 //! the tip, along vectors and without.
 
+use glam::DVec3;
+use kinecut::base::Code;
 use kinecut::program::{Speed, Tcp, ToolAxis};
-use kinecut::trace::JointWay;
+use kinecut::trace::{JointWay, travel_findings};
 
 use super::rotary::{followed, machine, program, rotary, to};
 
@@ -61,4 +63,32 @@ fn no_difference_of_positions_is_more_than_its_bound() {
         }
     }
     assert!(looked > 100_000, "{looked}");
+}
+
+#[test]
+fn directions_out_of_reach_between_two_places_are_found() {
+    // A cannot come nearer to 0 than a hundredth of a radian: the pole is out of reach, and the way of the tool passes it in less than a
+    // 64th of a move, away from the places at which directions are looked at first.
+    let mut machine = machine("641203");
+    for joint in machine.joints.iter_mut().filter(|j| j.letter == 'A') {
+        joint.travel = Some([0.008, 1.4]);
+    }
+    let tilted = |angle: f64| ToolAxis::Vector(DVec3::new(angle.sin(), 0.0, angle.cos()));
+    let (mut program, mut state) = program(true);
+    state.tcp = Tcp::Vector;
+    state.speed = Speed::PerMinute(20.0);
+    // At half of the way and half a place more the tool is upright.
+    let [from, to_angle] = [0.8 * (1.0 + 1.0 / 64.0), -0.8 * (1.0 - 1.0 / 64.0)];
+    to(&mut program, &state, [0.0, 0.0, 50.0], tilted(from));
+    to(&mut program, &state, [40.0, 10.0, 50.0], tilted(to_angle));
+    let trace = followed(&program, &machine);
+    let segment = trace.segments.last().unwrap();
+    let way = JointWay::new(segment).unwrap();
+    assert!(!way.is_lost());
+    assert!(way.at(0.5 + 0.5 / 64.0)[0].is_nan() && way.is_lost());
+    let found = travel_findings(&trace, &program, &machine);
+    assert!(
+        found.iter().any(|f| f.code == Code::TRAVEL_EXCEEDED && f.message.contains("cannot follow")),
+        "{found:?}"
+    );
 }

@@ -4,11 +4,11 @@
 //! comes there, at which angle from the direction of feed and at which height; ends of material on the lines are exact, so that a
 //! pass much thinner than the distance of the lines is measured as what it is.
 //!
-//! **Error.** An angle is told in whole degrees and is that of a stretch of the way of one and a half steps (or a 2048th of a long
-//! move): contact over any part of the stretch counts. Where no line crosses the contact in a stretch, it is missed: of moves shorter
-//! than a step single ones may be. Of the volume of a move the three grids tell each its own; they are weighed, and [`adjust_volumes`] gives what
-//! the sum of all lacks to the material that is gone to those on which they differ most. The depth of a pass that is narrower than
-//! a step is that between lines across it: up to a step too little.
+//! **Error.** Angles are whole degrees; the arc of a stretch of the way, one and a half steps long (of a long move a 2048th), holds all
+//! angles at which there is contact anywhere in it. Contact that no line crosses is missed: a move shorter than a step may seem to be in
+//! air. A pass narrower than a step is as deep as the lines across it tell, up to a step too little. The three grids tell the volume of a
+//! move each by itself; they are weighed, and [`adjust_volumes`] gives what the sum of all lacks to the material that is gone to the moves
+//! on which they differ most.
 
 mod taken;
 mod way;
@@ -21,7 +21,7 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 use self::taken::{ByPart, Taken, TakenLine};
-use self::way::{ToolWay, turned};
+use self::way::{ToolWay, WaySpan};
 use super::leaning::cut_leaning_one_by_one;
 use super::list::CutList;
 use super::run::still_wanted;
@@ -140,7 +140,7 @@ pub fn engagements(
 /// Cuts the moves of a list, and tells of those that take something how their tools are engaged.
 fn of_list(
     stock: &mut TriDexel,
-    list: &std::sync::Arc<CutList>,
+    list: &CutList,
     progress: &dyn Progress,
 ) -> Result<Vec<(usize, MoveEngagement)>> {
     let (lattice, count) = (*stock.lattice(), list.moves.len());
@@ -203,13 +203,12 @@ fn way(list: &CutList, index: usize) -> Result<(ToolWay<'_>, u32)> {
         Stance::Leaning(motion) => Cow::Borrowed(&**motion),
         Stance::Along(axis) => Cow::Owned(ToolMotion::fixed(one.curve.clone(), axis.vector())?),
     };
-    let body = &list.tools[one.body as usize].cutting;
-    let way = one.curve.length() + turned(&motion) * body.top;
-    let parts = (way / (STRETCH * list.step)).ceil().clamp(1.0, MOST_STRETCHES) as u32;
-    Ok((ToolWay::new(one, &motion, body), parts))
+    let way = ToolWay::new(motion, &list.tools[one.body as usize].cutting);
+    let parts = (way.length() / (STRETCH * list.step)).ceil().clamp(1.0, MOST_STRETCHES) as u32;
+    Ok((way, parts))
 }
 
-/// What moves have taken from the lines of a tile.
+/// Material that moves have taken from the lines of a tile.
 fn of_tile(
     grid: &Grid,
     lines: &TileLines,
@@ -232,7 +231,7 @@ fn of_tile(
         region.min[along] = own.iter().map(|s| unfixed(s.ends[0])).fold(f64::INFINITY, f64::min);
         region.max[along] = own.iter().map(|s| unfixed(s.ends[1])).fold(f64::NEG_INFINITY, f64::max);
         let near = way.near(region);
-        let mut nearer = Vec::new();
+        let mut nearer: Vec<&WaySpan> = Vec::new();
         for stretch in own {
             let (row, column) =
                 (stretch.line as usize / TILE_EDGE as usize, stretch.line as usize % TILE_EDGE as usize);
@@ -241,7 +240,8 @@ fn of_tile(
             start[b.index()] = lines.at[1][row];
             let [mut low, mut high] = [start; 2];
             [low[along], high[along]] = stretch.ends.map(unfixed);
-            way.nearer(&near, Aabb { min: low, max: high }, &mut nearer);
+            nearer.clear();
+            nearer.extend(near.iter().filter(|span| span.meets(Aabb { min: low, max: high })));
             let line =
                 TakenLine { index: index as u32, parts: *parts, way, near: &nearer, start, along, step };
             line.note(stretch, &mut all);

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use glam::DVec3;
 
-use super::way::{Coming, ToolWay};
+use super::way::{Coming, ToolWay, WaySpan};
 use crate::stock::tile::TakenStretch;
 use crate::stock::unfixed;
 
@@ -99,7 +99,7 @@ pub(super) struct TakenLine<'a> {
     pub(super) parts: u32,
     pub(super) way: &'a ToolWay<'a>,
     /// The stretches of the way that may reach the line.
-    pub(super) near: &'a [u32],
+    pub(super) near: &'a [&'a WaySpan],
     /// The point of the line at the coordinate 0, and the coordinate along it.
     pub(super) start: DVec3,
     pub(super) along: usize,

@@ -1,21 +1,20 @@
 //! The way of a tool in short stretches, and the moment at which it comes to a point.
 
+use std::borrow::Cow;
+
 use glam::DVec3;
 
-use super::super::CutMove;
 use super::super::body::{ConvexPart, Foot, RevolvedParts, bounds};
-use super::super::leaning::{Pose, PoseSpan};
+use super::super::leaning::{Pose, PoseSpan, spans};
 use crate::geom::Aabb;
 use crate::sweep::ToolMotion;
 
 /// Travel of a tool in a stretch as a part of the least radius of its parts.
 const TRAVEL: f64 = 0.5;
-/// Turn of a tool in a stretch [rad].
-const TURN: f64 = 0.05;
 /// Least travel of a tool in a stretch [mm].
 const LEAST_TRAVEL: f64 = 0.05;
-/// Most stretches of a move.
-const MOST: f64 = 200_000.0;
+/// Places of a move at which its speed is looked at.
+const SPEEDS: u32 = 16;
 /// Most by which a point may lie outside of a tool that holds it: rounding of ends [mm].
 const ROUNDING: f64 = 3e-5;
 /// Looks for the time at which a tool is nearest to a point.
@@ -28,14 +27,17 @@ const SHORT: f64 = 5e-4;
 /// The way of a tool along a move.
 #[derive(Debug)]
 pub(super) struct ToolWay<'a> {
+    motion: Cow<'a, ToolMotion>,
     pub(super) body: &'a RevolvedParts,
-    /// Stretches in order.
-    spans: Vec<WaySpan>,
+    /// Distance of the farthest point of the tool from its tip [mm], at most.
+    reach: f64,
+    /// Travel of the tool in a stretch that is not straight [mm].
+    travel: f64,
 }
 
 /// A stretch of the way.
 #[derive(Clone, Copy, Debug)]
-struct WaySpan {
+pub(super) struct WaySpan {
     span: PoseSpan,
     /// The tool in the middle.
     middle: Pose,
@@ -45,6 +47,13 @@ struct WaySpan {
     stray: f64,
     /// Square of the distance from the axis in the middle beyond which nothing is swept [mm^2].
     far: f64,
+}
+
+impl WaySpan {
+    /// Whether it may reach into a box.
+    pub(super) fn meets(&self, region: Aabb) -> bool {
+        self.swept.meets(region)
+    }
 }
 
 /// A tool as it comes to a point.
@@ -60,40 +69,38 @@ pub(super) struct Coming {
 }
 
 impl<'a> ToolWay<'a> {
-    pub(super) fn new(one: &CutMove, motion: &ToolMotion, body: &'a RevolvedParts) -> ToolWay<'a> {
+    pub(super) fn new(motion: Cow<'a, ToolMotion>, body: &'a RevolvedParts) -> ToolWay<'a> {
         let thinnest = body.parts.iter().map(|part| part.r1).fold(f64::INFINITY, f64::min);
         let travel = (TRAVEL * thinnest).max(LEAST_TRAVEL);
-        let turned = turned(motion);
-        let reach = body.radius + body.top.max(-body.bottom);
-        let way = one.curve.length() + turned * reach;
-        let count = (way / travel).max(turned / TURN).ceil().clamp(1.0, MOST) as u32;
-        let span = |k: u32| {
-            let fractions = [k, k + 1].map(|k| f64::from(k) / f64::from(count));
-            let span = PoseSpan::through(motion, fractions);
-            let stray = span.stray(reach);
-            let middle = span.at(0.0);
-            let swept = bounds(middle.tip, middle.axis, &[body]).grown(stray + ROUNDING);
-            let far = (body.radius + stray + ROUNDING).powi(2);
-            WaySpan { span, middle, swept, stray, far }
+        ToolWay { motion, body, reach: body.radius + body.top.max(-body.bottom), travel }
+    }
+
+    /// Length of the way of the point that goes farthest [mm], about.
+    pub(super) fn length(&self) -> f64 {
+        let speed = |k: u32| self.motion.speed((f64::from(k) + 0.5) / f64::from(SPEEDS), self.reach);
+        (0..SPEEDS).map(speed).sum::<f64>() / f64::from(SPEEDS)
+    }
+
+    /// The stretches in order that may reach into a box.
+    pub(super) fn near(&self, region: Aabb) -> Vec<WaySpan> {
+        let swept = |pose: (DVec3, DVec3)| bounds(pose.0, pose.1, &[self.body]);
+        let is_far = |ends: [crate::geom::Rigid; 2], off: f64| {
+            let [from, to] = ends.map(|pose| swept((pose.translation, pose.rotation.z_axis)));
+            !from.union(to).grown(off + ROUNDING).meets(region)
         };
-        ToolWay { body, spans: (0..count).map(span).collect() }
-    }
-
-    /// The stretches that may reach into a box.
-    pub(super) fn near(&self, region: Aabb) -> Vec<u32> {
-        (0..).zip(&self.spans).filter(|(_, own)| own.swept.meets(region)).map(|(k, _)| k).collect()
-    }
-
-    /// The stretches of some that may reach into a box.
-    pub(super) fn nearer(&self, near: &[u32], region: Aabb, kept: &mut Vec<u32>) {
-        kept.clear();
-        kept.extend(near.iter().filter(|k| self.spans[**k as usize].swept.meets(region)));
+        let (spans, _) = spans(&self.motion, self.reach, self.travel, is_far);
+        let one = |span: PoseSpan| {
+            let (stray, middle) = (span.stray(self.reach), span.at(0.0));
+            let swept = swept((middle.tip, middle.axis)).grown(stray + ROUNDING);
+            WaySpan { span, middle, swept, stray, far: (self.body.radius + stray + ROUNDING).powi(2) }
+        };
+        spans.into_iter().map(one).filter(|own| own.meets(region)).collect()
     }
 
     /// The tool as it first comes to a point in some stretches, or as it comes nearest to it.
-    pub(super) fn coming(&self, near: &[u32], point: DVec3) -> Option<Coming> {
+    pub(super) fn coming(&self, near: &[&WaySpan], point: DVec3) -> Option<Coming> {
         let mut nearest: Option<(f64, Coming)> = None;
-        for WaySpan { span, middle, stray, far, .. } in near.iter().map(|k| &self.spans[*k as usize]) {
+        for WaySpan { span, middle, stray, far, .. } in near {
             let from_tip = point - middle.tip;
             if from_tip.length_squared() - from_tip.dot(middle.axis).powi(2) > *far {
                 continue;
@@ -205,12 +212,6 @@ fn begins(off: impl Fn(f64) -> (f64, usize), by: f64, (t, least, part): (f64, f6
         }
     }
     (held.0, part)
-}
-
-/// Angle through which the axis of a tool turns along a motion [rad].
-pub(super) fn turned(motion: &ToolMotion) -> f64 {
-    let axis = |k: u32| motion.pose(f64::from(k) / 8.0).rotation.z_axis;
-    (0..8).map(|k| axis(k).angle_between(axis(k + 1))).sum()
 }
 
 /// By how far a point at a distance from the axis and a height is outside of a part [mm]: no more than it is.

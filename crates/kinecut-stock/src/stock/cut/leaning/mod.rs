@@ -24,4 +24,4 @@ mod tiles;
 pub(in crate::stock) use at_once::OwedAcross;
 pub(in crate::stock) use rest::{may_meet_at_rest, meets_at_rest};
 pub(super) use run::{cut_leaning, cut_leaning_one_by_one};
-pub(super) use span::{Pose, PoseSpan};
+pub(super) use span::{Pose, PoseSpan, spans};

@@ -50,7 +50,7 @@ pub(in super::super) struct Pose {
 /// Spans of a motion for a tool that reaches `reach` from its tip and may travel `travel` in one that is not straight [mm]; and the largest error of
 /// a point of the tool [mm]. A stretch is left out where `is_far` says so of its ends, given what the way between them may be
 /// off the straight one [mm].
-pub(super) fn spans(
+pub(in super::super) fn spans(
     motion: &ToolMotion,
     reach: f64,
     travel: f64,
@@ -83,7 +83,7 @@ pub(super) fn spans(
 }
 
 impl PoseSpan {
-    pub(in super::super) fn through(motion: &ToolMotion, fractions: [f64; 2]) -> PoseSpan {
+    fn through(motion: &ToolMotion, fractions: [f64; 2]) -> PoseSpan {
         let [from, to] = fractions;
         let poses = [0.0, 1.0 / 3.0, 2.0 / 3.0, 1.0].map(|f| motion.pose(from + (to - from) * f));
         PoseSpan {
