@@ -41,8 +41,10 @@ mod hollow;
 mod in_order;
 mod leaning;
 mod list;
+mod noted;
 mod piece;
 mod plan;
+mod playback;
 mod run;
 mod stance;
 mod strip;
@@ -53,6 +55,7 @@ mod task;
 mod tile_axial;
 mod tile_hollow;
 mod upright;
+mod way;
 
 #[cfg(test)]
 mod tests;
@@ -67,6 +70,7 @@ pub use engaged::{EngagedStretch, MoveEngagement, adjust_volumes, engagements};
 pub use face::SweptFace;
 pub(in crate::stock) use leaning::{OwedAcross, may_meet_at_rest, meets_at_rest};
 pub use list::CutList;
+pub use playback::{Clock, Playback, PlayedFace, PlayedSurface, REMAINS};
 pub use run::{cut, cut_list};
 pub use stance::Stance;
 

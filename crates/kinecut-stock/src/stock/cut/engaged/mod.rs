@@ -11,29 +11,23 @@
 //! on which they differ most.
 
 mod taken;
-mod way;
 
-use std::borrow::Cow;
 use std::f64::consts::PI;
 use std::ops::Range;
 
-use glam::DVec3;
 use rayon::prelude::*;
 
 use self::taken::{ByPart, Taken, TakenLine};
-use self::way::{ToolWay, WaySpan};
-use super::leaning::cut_leaning_one_by_one;
 use super::list::CutList;
-use super::run::still_wanted;
+use super::noted::{bounds_of, cut_noted, move_of};
 use super::task::TileLines;
-use super::upright::cut_one_by_one;
-use super::{CutMove, CutOptions, Stance, ToolBody};
+use super::way::{ToolWay, WaySpan};
+use super::{CutMove, CutOptions, ToolBody};
 use crate::base::{Progress, Result};
 use crate::geom::Aabb;
-use crate::stock::tile::{TILE_EDGE, TakenStretch};
+use crate::stock::tile::TakenStretch;
 use crate::stock::tri_dexel::Grid;
-use crate::stock::{CutId, DexelGrid, TriDexel, unfixed};
-use crate::sweep::ToolMotion;
+use crate::stock::{DexelGrid, TriDexel};
 
 /// Moves that are made ready at once.
 const AT_ONCE: usize = 2048;
@@ -144,24 +138,10 @@ fn of_list(
     progress: &dyn Progress,
 ) -> Result<Vec<(usize, MoveEngagement)>> {
     let (lattice, count) = (*stock.lattice(), list.moves.len());
-    for tile in stock.grids.iter_mut().flat_map(|grid| &mut grid.tiles) {
-        tile.note_taken();
-    }
-    for stretch in list.stretches(0..count) {
-        match list.moves[stretch.start].stance.axis() {
-            Some(axis) => cut_one_by_one(stock, axis, list, stretch, progress),
-            None => cut_leaning_one_by_one(stock, list, stretch, progress),
-        }
-    }
-    let taken: Vec<Vec<Vec<TakenStretch>>> = stock
-        .grids
-        .iter_mut()
-        .map(|grid| grid.tiles.par_iter_mut().map(|tile| tile.take_noted()).collect())
-        .collect();
-    still_wanted(progress)?;
+    let taken = cut_noted(stock, list, progress)?;
     let mut is_used = vec![false; count];
     for stretch in taken.iter().flatten().flatten() {
-        is_used[number(stretch.cut)] = true;
+        is_used[move_of(stretch.cut)] = true;
     }
     let ways = (0..count).into_par_iter().map(|i| is_used[i].then(|| way(list, i)).transpose());
     let ways: Vec<Option<(ToolWay<'_>, u32)>> = ways.collect::<Result<_>>()?;
@@ -191,19 +171,9 @@ fn of_list(
 /// A stretch of a move, by both their indices, and what it takes.
 type OfPart = ((u32, u32), Taken);
 
-/// Index of the move of a cut.
-fn number(cut: CutId) -> usize {
-    cut as usize - 1
-}
-
 /// The way of a move, and the number of its stretches.
 fn way(list: &CutList, index: usize) -> Result<(ToolWay<'_>, u32)> {
-    let one = &list.moves[index];
-    let motion = match &one.stance {
-        Stance::Leaning(motion) => Cow::Borrowed(&**motion),
-        Stance::Along(axis) => Cow::Owned(ToolMotion::fixed(one.curve.clone(), axis.vector())?),
-    };
-    let way = ToolWay::new(motion, &list.tools[one.body as usize].cutting);
+    let way = ToolWay::of_move(list, index)?;
     let parts = (way.length() / (STRETCH * list.step)).ceil().clamp(1.0, MOST_STRETCHES) as u32;
     Ok((way, parts))
 }
@@ -217,31 +187,19 @@ fn of_tile(
     ways: &[Option<(ToolWay<'_>, u32)>],
 ) -> ByPart {
     let mut all = ByPart::new();
-    let along = grid.axis.index();
-    let (a, b) = grid.axis.others();
     // Moves come to a tile one after the other.
     for own in taken.chunk_by(|a, b| a.cut == b.cut) {
-        let index = number(own[0].cut);
+        let index = move_of(own[0].cut);
         let Some((way, parts)) = &ways[index] else { continue };
-        let mut region = Aabb::EMPTY;
-        for (k, axis) in [a, b].into_iter().enumerate() {
-            let at = &lines.at[k][..lines.size[k]];
-            (region.min[axis.index()], region.max[axis.index()]) = (at[0], at[at.len() - 1]);
-        }
-        region.min[along] = own.iter().map(|s| unfixed(s.ends[0])).fold(f64::INFINITY, f64::min);
-        region.max[along] = own.iter().map(|s| unfixed(s.ends[1])).fold(f64::NEG_INFINITY, f64::max);
-        let near = way.near(region);
+        let near = way.near(bounds_of(grid, lines, own));
         let mut nearer: Vec<&WaySpan> = Vec::new();
         for stretch in own {
-            let (row, column) =
-                (stretch.line as usize / TILE_EDGE as usize, stretch.line as usize % TILE_EDGE as usize);
-            let mut start = DVec3::ZERO;
-            start[a.index()] = lines.at[0][column];
-            start[b.index()] = lines.at[1][row];
-            let [mut low, mut high] = [start; 2];
-            [low[along], high[along]] = stretch.ends.map(unfixed);
+            let [low, high] = stretch.points(grid.axis, lines);
             nearer.clear();
             nearer.extend(near.iter().filter(|span| span.meets(Aabb { min: low, max: high })));
+            let along = grid.axis.index();
+            let mut start = low;
+            start[along] = 0.0;
             let line =
                 TakenLine { index: index as u32, parts: *parts, way, near: &nearer, start, along, step };
             line.note(stretch, &mut all);

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use glam::DVec3;
 
-use super::way::{Coming, ToolWay, WaySpan};
+use super::super::way::{Coming, ToolWay, WaySpan};
 use crate::stock::tile::TakenStretch;
 use crate::stock::unfixed;
 

@@ -4,8 +4,11 @@ use std::borrow::Cow;
 
 use glam::DVec3;
 
-use super::super::body::{ConvexPart, Foot, RevolvedParts, bounds};
-use super::super::leaning::{Pose, PoseSpan, spans};
+use super::Stance;
+use super::body::{ConvexPart, Foot, RevolvedParts, bounds};
+use super::leaning::{Pose, PoseSpan, spans};
+use super::list::CutList;
+use crate::base::Result;
 use crate::geom::Aabb;
 use crate::sweep::ToolMotion;
 
@@ -69,7 +72,17 @@ pub(super) struct Coming {
 }
 
 impl<'a> ToolWay<'a> {
-    pub(super) fn new(motion: Cow<'a, ToolMotion>, body: &'a RevolvedParts) -> ToolWay<'a> {
+    /// The way of a move.
+    pub(super) fn of_move(list: &'a CutList, index: usize) -> Result<ToolWay<'a>> {
+        let one = &list.moves[index];
+        let motion = match &one.stance {
+            Stance::Leaning(motion) => Cow::Borrowed(&**motion),
+            Stance::Along(axis) => Cow::Owned(ToolMotion::fixed(one.curve.clone(), axis.vector())?),
+        };
+        Ok(ToolWay::new(motion, &list.tools[one.body as usize].cutting))
+    }
+
+    fn new(motion: Cow<'a, ToolMotion>, body: &'a RevolvedParts) -> ToolWay<'a> {
         let thinnest = body.parts.iter().map(|part| part.r1).fold(f64::INFINITY, f64::min);
         let travel = (TRAVEL * thinnest).max(LEAST_TRAVEL);
         ToolWay { motion, body, reach: body.radius + body.top.max(-body.bottom), travel }
