@@ -33,6 +33,9 @@ struct Results {
     /// Leave report.html out; with --mesh none no surface of the part is made, which takes less time
     #[arg(long)]
     no_report: bool,
+    /// Leave the material that goes as the program runs out of the 3-D view of report.html, which takes less time
+    #[arg(long)]
+    no_playback: bool,
     /// Section of the cut part by a plane, such as z=-5, of the material just below it; can be given several times
     #[arg(long, value_name = "AXIS=MM", value_parser = plane)]
     section: Vec<SectionPlane>,
@@ -148,7 +151,7 @@ impl Results {
                 .map(|[a, b, c, u, v, w]| [[*a, *b, *c].into(), [*u, *v, *w].into()])
                 .collect(),
         };
-        ResultFiles { meshes, report: !self.no_report, inspect }
+        ResultFiles { meshes, report: !self.no_report, playback: !self.no_playback, inspect }
     }
 
     fn to(&self) -> To<'_> {

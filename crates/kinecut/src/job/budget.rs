@@ -3,12 +3,12 @@
 use glam::DVec3;
 
 use super::check::Job;
-use super::engagement;
 use super::part_surface::{PartSurface, every};
+use super::{engagement, playback};
 use crate::base::{Code, Finding, Result};
 use crate::geom::Aabb;
 use crate::stock::TriDexel;
-use crate::stock::cut::CutAxis;
+use crate::stock::cut::{CutAxis, Playback};
 use crate::stock::surface::SurfaceOptions;
 use crate::trace::{Segment, Trace};
 
@@ -38,10 +38,23 @@ pub struct Budget {
     pub comparison: u64,
     /// The lines of the pass that measures engagement, with at most two stretches of material each.
     pub engagement: u64,
+    /// The stock over time: its lines, with at most two stretches of material each, and its surface.
+    pub playback: u64,
     /// Number of moves.
     pub move_count: u64,
     /// The moves, with what they do.
     pub moves: u64,
+}
+
+/// Memory of the pass that measures engagement, at a step that is no finer than the given one [mm].
+fn of_engagement(job: &Job, step: f64) -> u64 {
+    TriDexel::memory(job.stock.bounds(), engagement::step(job).max(step))
+}
+
+/// Memory of the stock over time, at a step that is no finer than the given one [mm].
+fn of_playback(job: &Job, step: f64) -> u64 {
+    let (bounds, step) = (job.stock.bounds(), playback::step(job).max(step));
+    TriDexel::memory(bounds, step).saturating_add(Playback::memory(bounds, step))
 }
 
 impl Budget {
@@ -57,10 +70,10 @@ impl Budget {
             s.turning.is_some() || last.1
         };
         let move_count = segments().count() as u64;
-        let lines = || TriDexel::memory(job.stock.bounds(), engagement::step(job));
         Budget {
             move_count,
-            engagement: if engagement::is_wanted(job, move_count) { lines() } else { 0 },
+            engagement: if engagement::is_wanted(job, move_count) { of_engagement(job, 0.0) } else { 0 },
+            playback: if job.playback { of_playback(job, 0.0) } else { 0 },
             moves: segments().map(|s| if leans(s) { LEANING_MOVE } else { MOVE }).sum(),
             ..Budget::of_stock(job, job.stock.bounds(), job.step)
         }
@@ -88,7 +101,7 @@ impl Budget {
 
     /// All of it [bytes].
     pub fn total(&self) -> u64 {
-        [self.surface, self.comparison, self.engagement, self.moves]
+        [self.surface, self.comparison, self.engagement, self.playback, self.moves]
             .into_iter()
             .fold(self.stock, u64::saturating_add)
     }
@@ -131,10 +144,11 @@ impl Budget {
             return Ok(());
         }
         let mb = |bytes: u64| (bytes as f64 / 1e6).ceil();
-        let at = |step: f64| {
-            let lines = || TriDexel::memory(job.stock.bounds(), engagement::step(job).max(step));
-            let engagement = if self.engagement > 0 { lines() } else { 0 };
-            Budget { moves: self.moves, engagement, ..Budget::of_stock(job, job.stock.bounds(), step) }
+        let at = |step: f64| Budget {
+            moves: self.moves,
+            engagement: if self.engagement > 0 { of_engagement(job, step) } else { 0 },
+            playback: if self.playback > 0 { of_playback(job, step) } else { 0 },
+            ..Budget::of_stock(job, job.stock.bounds(), step)
         };
         let fits = coarsened(job.step, |step| at(step).total() <= job.memory);
         let (help, key) = match fits {
@@ -154,6 +168,7 @@ impl Budget {
             (self.surface, "surface".to_owned()),
             (self.comparison, "comparison".to_owned()),
             (self.engagement, "engagement".to_owned()),
+            (self.playback, "playback".to_owned()),
             (self.moves, format!("{} moves", self.move_count)),
         ];
         let parts = parts.into_iter().filter(|(bytes, _)| *bytes > 0);

@@ -16,6 +16,7 @@ use super::engagement::Engagement;
 use super::look::{Look, Looks, looks};
 use super::missed::Missed;
 use super::part_surface::PartSurface;
+use super::playback::{self, PlayedStock};
 use super::raw::{drill, off_axis, raw_stock, take_out};
 use crate::base::{Code, Finding, Progress, Result, Severity};
 use crate::contact::Meeting;
@@ -63,6 +64,8 @@ pub struct Simulation {
     pub certificate: Option<Certificate>,
     /// Engagement of the tools, where it was measured.
     pub engagement: Option<Engagement>,
+    /// The stock over time, where it is wanted for the report.
+    pub playback: Option<PlayedStock>,
 }
 
 /// Cuts the stock of a job along the trace of each setup's program; `loose` are the cores that are taken out in each,
@@ -114,6 +117,7 @@ pub fn simulate(
         machine: Vec::new(),
         certificate: None,
         engagement: None,
+        playback: None,
     };
     let mut measured: Vec<Option<PointEngagement>> = probes.iter().map(|_| None).collect();
     // Cuts are numbered: drilled holes, cores taken out, then the segments.
@@ -174,6 +178,7 @@ pub fn simulate(
     look_closer(&story, &mut simulation.effects, progress)?;
     let gone = || simulation.raw_volume - simulation.stock.volume();
     simulation.engagement = engagement::measure(&story, gone, progress)?;
+    simulation.playback = playback::play(&story, progress)?;
     if job.certified {
         let runs = simulation.first_cut.iter().zip(&all);
         let runs: Vec<_> =

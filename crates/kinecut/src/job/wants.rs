@@ -20,6 +20,8 @@ pub struct StockWants {
     pub certified: bool,
     /// Whether the engagement of the tools is measured; default: as the job says.
     pub engagement: Option<bool>,
+    /// Whether the stock over time is wanted, for the report; default no.
+    pub playback: bool,
     /// Surface of the cut part that is wanted.
     pub surface: PartSurface,
     /// The wanted part; default: that of the job.
@@ -74,6 +76,7 @@ impl StockWants {
         };
         job.certified |= self.certified;
         job.engagement = self.engagement.or(job.engagement);
+        job.playback = self.playback;
         job.part_surface = self.surface;
         self.design.as_ref().map(|design| design.apply(job)).transpose()
     }

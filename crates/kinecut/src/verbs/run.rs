@@ -47,6 +47,8 @@ pub struct ResultFiles {
     pub meshes: Vec<MeshForm>,
     /// `report.html`; default yes.
     pub report: bool,
+    /// In the 3-D view of the report material goes as the program runs; default yes.
+    pub playback: bool,
     /// Sections, points and distances of the part: `inspection.json`, a picture for each section, a section of the report.
     pub inspect: InspectWants,
 }
@@ -56,6 +58,7 @@ impl Default for ResultFiles {
         ResultFiles {
             meshes: vec![MeshForm::Stl, MeshForm::Glb],
             report: true,
+            playback: true,
             inspect: InspectWants::default(),
         }
     }
@@ -70,7 +73,7 @@ impl ResultFiles {
             PartSurface::Full => PartSurface::None,
             given => given,
         };
-        StockWants { surface, ..wants.clone() }
+        StockWants { surface, playback: self.report && self.playback, ..wants.clone() }
     }
 }
 

@@ -13,7 +13,8 @@ export interface Head {
     edges: number[];
     compared: boolean;
   };
-  path: { pieces: number; points: number; step: number; axes: number; axis_step: number };
+  playback: null | { step: number; ticks: number; vertices: number; faces: number; unit: number };
+  path: { pieces: number; points: number; step: number; axes: number; axis_step: number; done_step: number };
   tools: { number: number; outline: [number, number][]; flutes: number }[];
   roles: string[];
   lines: number;
@@ -133,6 +134,44 @@ export function part(head: NonNullable<Head["part"]>): PartData {
     }
   }
   return { positions, indices, deviation };
+}
+
+/** The stock over time: squares, each there from one tick to another. */
+export interface PlayedData {
+  positions: Float32Array;
+  /** Four corners of each face. */
+  corners: Uint32Array;
+  /** From the end of this tick of each face, up to that of the other. */
+  lives: Uint16Array;
+}
+
+/** The tick of what remains. */
+const REMAINS = 65535;
+
+export function played(head: NonNullable<Head["playback"]>): PlayedData {
+  const stream = new Stream("kc-playback");
+  const positions = new Float32Array(3 * head.vertices);
+  for (let k = 0; k < 3; k++) {
+    const column = stream.column(head.vertices);
+    for (let i = 0; i < head.vertices; i++) positions[3 * i + k] = column[i] * head.unit;
+  }
+  const lives = new Uint16Array(2 * head.faces);
+  const [from, life] = [stream.column(head.faces), stream.column(head.faces)];
+  for (let f = 0; f < head.faces; f++) {
+    lives[2 * f] = from[f];
+    lives[2 * f + 1] = life[f] === 0 ? REMAINS : from[f] + life[f];
+  }
+  // Corners count back from the next one that no face has had yet.
+  const columns = [0, 1, 2, 3].map(() => stream.column(head.faces));
+  const corners = new Uint32Array(4 * head.faces);
+  for (let f = 0, next = 0; f < head.faces; f++) {
+    for (let k = 0; k < 4; k++) {
+      const back = columns[k][f];
+      corners[4 * f + k] = next - back;
+      if (back === 0) next++;
+    }
+  }
+  return { positions, corners, lives };
 }
 
 /** Numbers of the program lines, which are in steps. */

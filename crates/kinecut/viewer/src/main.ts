@@ -5,6 +5,7 @@ import { startPictures } from "./pictures";
 import { Player } from "./player";
 import { ProgramList } from "./program";
 import { View } from "./scene";
+import { startStrip } from "./strip";
 import { changed as themeChanged, startTheme } from "./theme";
 import { Cursor, Track } from "./track";
 
@@ -32,10 +33,10 @@ function startBar(view: View): void {
     button.addEventListener("click", () => view.look(button.dataset.view ?? "iso"));
   }
   for (const box of document.querySelectorAll<HTMLInputElement>("[data-show]")) {
-    const set = () => view.show(box.dataset.show ?? "", box.checked);
-    box.addEventListener("change", set);
+    const set = (chosen: boolean) => view.show(box.dataset.show ?? "", box.checked, chosen);
+    box.addEventListener("change", () => set(true));
     // A browser may remember the state of a box from the last visit.
-    set();
+    set(false);
   }
   const [axis, place, at] = [element<HTMLSelectElement>("kc-clip-axis"), element<HTMLInputElement>("kc-clip"), element("kc-clip-at")];
   if (!axis || !place || !at) return;
@@ -122,6 +123,7 @@ async function start(): Promise<void> {
   startPictures(track, cursor);
   startLinks(view, track, cursor);
   if (element("kc-time")) startKeys(new Player(track, cursor));
+  startStrip(track);
   if (view) {
     startBar(view);
     startPrint(view, themeChanged);

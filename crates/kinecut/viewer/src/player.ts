@@ -1,4 +1,5 @@
 // Playing and stepping through the path in machine time.
+import { json } from "./decode";
 import type { Cursor, Track } from "./track";
 import { duration, millimetres } from "./words";
 
@@ -10,6 +11,9 @@ export class Player {
   private readonly clock = document.getElementById("kc-clock") as HTMLOutputElement;
   private readonly button = document.getElementById("kc-play") as HTMLButtonElement;
   private readonly speed = document.getElementById("kc-speed") as HTMLSelectElement;
+  private readonly stops = document.getElementById("kc-stops") as HTMLSelectElement;
+  /** Lines with findings that are more than notes. */
+  private readonly found = new Set<number>();
   private frame = 0;
   private time = 0;
 
@@ -19,6 +23,9 @@ export class Player {
     on("kc-next", () => this.step(1));
     on("kc-play", () => this.toggle());
     if (!track.timed) this.speed.disabled = true;
+    for (const [line, severity] of json<[number, string][]>("kc-marks")) {
+      if (severity !== "note") this.found.add(line);
+    }
     const to = Number(this.slider.max);
     this.slider.addEventListener("input", () => {
       this.stop();
@@ -59,6 +66,18 @@ export class Player {
     this.button.setAttribute("aria-label", "Play");
   }
 
+  /** The first piece after one and up to another at which the reader wants to stop; -1 for none. */
+  private nextStop(from: number, to: number): number {
+    const { line, tool } = this.track;
+    const kind = this.stops.value;
+    if (kind === "") return -1;
+    for (let p = Math.max(from, 0) + 1; p <= to; p++) {
+      if (kind === "tools" ? tool[p] === tool[p - 1] : line[p] === line[p - 1]) continue;
+      if (kind !== "findings" || this.found.has(line[p])) return p;
+    }
+    return -1;
+  }
+
   private play(): void {
     const { track } = this;
     if (track.pieces === 0) return;
@@ -70,9 +89,11 @@ export class Player {
       const rate = Number(this.speed.value) || track.totalTime / FIT;
       const time = this.time + ((now - last) / 1000) * rate;
       last = now;
-      this.cursor.go(track.at(time, track.timeEnd), "play");
-      this.time = Math.min(time, track.totalTime);
-      if (time >= track.totalTime) this.stop();
+      const place = track.at(time, track.timeEnd);
+      const stop = this.nextStop(this.cursor.place.piece, place.piece);
+      this.cursor.go(stop < 0 ? place : track.ofPiece(stop, 0), "play");
+      this.time = stop < 0 ? Math.min(time, track.totalTime) : stop > 0 ? track.timeEnd[stop - 1] : 0;
+      if (stop >= 0 || time >= track.totalTime) this.stop();
       else this.frame = requestAnimationFrame(tick);
     };
     this.frame = requestAnimationFrame(tick);

@@ -9,12 +9,15 @@ import { type Head, type PartData, part as readPart } from "./decode";
 import { PathLines } from "./lines";
 import { bandTexture, geometry } from "./mesh";
 import { Overlay } from "./overlay";
+import { Stock } from "./stock";
 import { colour, onTheme } from "./theme";
 import type { Cursor, Place, Track } from "./track";
 import { micrometres, millimetres } from "./words";
 
 /** Up to this number of triangles the deviation is read under the moving pointer, above it on a click. */
 const HOVER = 120_000;
+/** Sources of the cursor that move it on. */
+const MOVING = ["play", "slider", "step"];
 /** Directions from the part to the eye. */
 const VIEWS: Record<string, [number, number, number]> = {
   iso: [0.9, -1.2, 1.05],
@@ -45,7 +48,11 @@ export class View {
   /** Axis of the section plane: 0, 1, 2; -1 for none. */
   private axis = -1;
   private waiting = false;
-  private shown = { past: false, tool: true };
+  private shown = { past: false, tool: true, part: true };
+  /** The stock over time; made when it is first shown. */
+  private stock: Stock | null = null;
+  /** Whether the stock is shown as it is at the cursor instead of the finished part, and whether the reader said so. */
+  private now = { on: false, chosen: false };
 
   constructor(private readonly canvas: HTMLCanvasElement, private readonly head: Head, private readonly track: Track, private readonly cursor: Cursor) {
     this.renderer = new WebGLRenderer({ canvas, antialias: true, alpha: true });
@@ -85,7 +92,7 @@ export class View {
     this.resize();
     this.look("iso");
     this.pointer();
-    cursor.listen((place) => this.follow(place));
+    cursor.listen((place, source) => this.follow(place, source));
   }
 
   /** When the part is out of tolerance, its worst triangle shall look at the eye. */
@@ -135,6 +142,7 @@ export class View {
     this.inside.color = colour("cut");
     this.steel.color = colour("steel");
     this.lines?.recolour();
+    this.stock?.recolour();
     this.draw();
   }
 
@@ -203,14 +211,21 @@ export class View {
     this.clip.constant = -side * at;
   }
 
-  /** Switches something on or off. */
-  show(what: string, on: boolean): void {
-    if (what === "part") this.part.visible = on;
+  /** Switches something on or off; `chosen`: by the reader. */
+  show(what: string, on: boolean, chosen: boolean): void {
+    if (what === "now") {
+      this.now = { on, chosen: this.now.chosen || chosen };
+      this.showMoment();
+    }
+    if (what === "part") {
+      this.shown.part = on;
+      this.showMoment();
+    }
     if (what === "path" && this.lines) this.lines.group.visible = on;
     if (what === "rapids") this.lines?.showRapids(on);
     if (what === "past" || what === "tool") {
       this.shown[what] = on;
-      this.follow(this.cursor.place);
+      this.follow(this.cursor.place, "switch");
     }
     this.draw();
   }
@@ -220,6 +235,7 @@ export class View {
     const k = "XYZ".indexOf(axis);
     const on = axis !== "" && k >= 0;
     for (const m of [this.surface, this.inside]) m.clippingPlanes = on ? [this.clip] : null;
+    this.stock?.section(on ? [this.clip] : null);
     this.renderer.localClippingEnabled = on;
     // The inside is only seen through a section; drawing it costs as much as the outside.
     if (this.part.children[1]) this.part.children[1].visible = on;
@@ -235,8 +251,35 @@ export class View {
     return at;
   }
 
-  private follow(place: Place): void {
+  /** The part as it is finished, or the stock as it is at the cursor. */
+  private showMoment(): void {
+    const { playback } = this.head;
+    const { place } = this.cursor;
+    const tick = playback && place.piece >= 0 ? Math.floor(this.track.done(place) * playback.ticks + 0.5) : Infinity;
+    const now = this.now.on && playback !== null && tick < playback.ticks;
+    if (now && this.stock === null) {
+      this.stock = new Stock(playback);
+      this.stock.section(this.axis >= 0 ? [this.clip] : null);
+      this.scene.add(this.stock.group);
+    }
+    if (this.stock) {
+      this.stock.tick = tick;
+      this.stock.group.visible = now && this.shown.part;
+    }
+    this.part.visible = !now && this.shown.part;
+    this.canvas.parentElement?.classList.toggle("now", now);
+    this.draw();
+  }
+
+  private follow(place: Place, source: string): void {
     const { track, lines } = this;
+    // Who plays or steps wants to see material go.
+    if (MOVING.includes(source) && !this.now.chosen && this.head.playback) {
+      this.now.on = true;
+      const box = document.querySelector<HTMLInputElement>('[data-show="now"]');
+      if (box) box.checked = true;
+    }
+    this.showMoment();
     this.overlay.point = null;
     if (place.piece < 0) {
       lines?.mark(0, 0);

@@ -25,6 +25,10 @@ export class Track {
   /** Time [s] and length [mm] at the end of each piece. */
   readonly timeEnd: Float64Array;
   readonly lengthEnd: Float64Array;
+  /** Part of the way of all cutting moves that is done at the end of each piece, from 0 to 1. */
+  readonly doneEnd: Float64Array;
+  /** Greatest thickness of a chip in each piece [mm]; NaN where it is not known. */
+  readonly chip: Float32Array;
   /** Time [s] and length [mm] of each program line, as the program gives them. */
   readonly lineTime: Float64Array;
   readonly lineLength: Float64Array;
@@ -48,6 +52,8 @@ export class Track {
     const columns = [0, 1, 2].map(() => stream.column(head.path.points));
     this.axes = new Float32Array(3 * head.path.axes);
     for (let k = 0; k < 3; k++) stream.column(head.path.axes).forEach((v, i) => (this.axes[3 * i + k] = v * head.path.axis_step));
+    this.doneEnd = stream.column(n).map((v) => v * head.path.done_step);
+    this.chip = Float32Array.from(stream.column(n), (v) => (v === 0 ? NaN : (v - 1) / 1000));
     // A piece that goes on from the end of the one before has that point too.
     for (let p = 0; p < n; p++) this.first[p + 1] = this.first[p] + (counts[p] >> 1) + (counts[p] & 1);
     this.points = new Float32Array(3 * this.first[n]);
@@ -164,6 +170,12 @@ export class Track {
     const start = lo > 0 ? ends[lo - 1] : 0;
     const span = ends[lo] - start;
     return this.ofPiece(lo, span > 0 ? Math.min(1, Math.max(0, (value - start) / span)) : 0);
+  }
+
+  /** Part of the way of all cutting moves that is done at a place on the path. */
+  done({ piece, part }: Place): number {
+    const start = piece > 0 ? this.doneEnd[piece - 1] : 0;
+    return start + (this.doneEnd[piece] - start) * part;
   }
 
   /** Time [s] or length [mm] at a place; NaN off the path. */

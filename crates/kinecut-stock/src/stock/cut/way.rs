@@ -24,8 +24,6 @@ const ROUNDING: f64 = 3e-5;
 const LOOKS: u32 = 12;
 /// Looks for the time at which it comes there.
 const MOST_LOOKS: u32 = 24;
-/// Part of a stretch in which the tool comes to a point as it does at one moment.
-const SHORT: f64 = 5e-4;
 
 /// The way of a tool along a move.
 #[derive(Debug)]
@@ -53,6 +51,11 @@ pub(super) struct WaySpan {
 }
 
 impl WaySpan {
+    /// Whether it may reach a point.
+    pub(super) fn may_hold(&self, point: DVec3) -> bool {
+        self.swept.min.cmple(point).all() && point.cmple(self.swept.max).all()
+    }
+
     /// Whether it may reach into a box.
     pub(super) fn meets(&self, region: Aabb) -> bool {
         self.swept.meets(region)
@@ -110,8 +113,14 @@ impl<'a> ToolWay<'a> {
         spans.into_iter().map(one).filter(|own| own.meets(region)).collect()
     }
 
-    /// The tool as it first comes to a point in some stretches, or as it comes nearest to it.
-    pub(super) fn coming(&self, near: &[&WaySpan], point: DVec3) -> Option<Coming> {
+    /// The tool as it first comes to a point in some stretches, or as it comes nearest to it; `short`: part of a stretch up to which the
+    /// moment is looked for.
+    pub(super) fn coming<'s>(
+        &self,
+        near: impl Iterator<Item = &'s WaySpan>,
+        point: DVec3,
+        short: f64,
+    ) -> Option<Coming> {
         let mut nearest: Option<(f64, Coming)> = None;
         for WaySpan { span, middle, stray, far, .. } in near {
             let from_tip = point - middle.tip;
@@ -141,7 +150,7 @@ impl<'a> ToolWay<'a> {
                 nearest = Some((least, coming(t, part)));
             }
             if least <= ROUNDING {
-                let (t, part) = begins(off, start.0, (t, least, part));
+                let (t, part) = begins(off, start.0, (t, least, part), short);
                 return Some(coming(t, part));
             }
         }
@@ -197,11 +206,16 @@ fn held(
 
 /// The moment at which a tool comes to a point that is outside by `by` at the start of the stretch and inside at a later moment, by false
 /// position (the Illinois rule); with the part.
-fn begins(off: impl Fn(f64) -> (f64, usize), by: f64, (t, least, part): (f64, f64, usize)) -> (f64, usize) {
+fn begins(
+    off: impl Fn(f64) -> (f64, usize),
+    by: f64,
+    (t, least, part): (f64, f64, usize),
+    short: f64,
+) -> (f64, usize) {
     let (mut out, mut held, mut part) = ((-0.5, by - ROUNDING), (t, least - ROUNDING), part);
     let mut last = 0;
     for look in 0..MOST_LOOKS {
-        if held.0 - out.0 < SHORT {
+        if held.0 - out.0 < short {
             break;
         }
         // A little beyond the expected place, so that both ends come near. The later moment may be one at which the tool leaves the point.

@@ -67,6 +67,8 @@ pub struct Job {
     pub certified: bool,
     /// Whether the engagement of the tools is measured; if nothing says so, for programs that take little time.
     pub engagement: Option<bool>,
+    /// Whether the stock over time is wanted.
+    pub playback: bool,
     /// Surface of the cut part that is made.
     pub part_surface: PartSurface,
     /// Clampings, in order.
@@ -187,6 +189,7 @@ pub fn check(file: &JobFile, name: &str, loader: &dyn Loader) -> Result<Job> {
         surface: step::surface("simulate.mesh_tolerance", file.simulate.mesh_tolerance, step)?,
         certified: file.simulate.certified,
         engagement: file.simulate.engagement,
+        playback: false,
         part_surface: PartSurface::Full,
         setups,
         compare: false,

@@ -6,12 +6,13 @@ mod course;
 use super::check::Job;
 use super::closer::Story;
 use super::raw::{drill, raw_stock, take_out};
+use super::replay::{Part, parts};
 use crate::base::{Progress, Result};
 use crate::stock::TriDexel;
 use crate::stock::cut::{MoveEngagement, adjust_volumes, engagements};
 
 pub use blocks::engagement_json;
-pub(crate) use blocks::{Block, blocks};
+pub(crate) use blocks::{Block, blocks, thickest_chip};
 pub(crate) use course::{Course, course};
 
 /// Moves below which engagement is measured unasked.
@@ -61,23 +62,18 @@ pub(super) fn measure(
     let mut stock: TriDexel = raw_stock(&job.stock, step)?;
     drill(&mut stock, job)?;
     let mut all = Engagement { step, moves: Vec::new(), taken: gone(), told: 0.0 };
-    let mut core_number = 0;
-    for (i, list) in story.moves.iter().enumerate() {
-        let segments = &story.traces[i].segments;
-        let mut own = Vec::with_capacity(segments.len());
-        let mut pass = |stock: &mut TriDexel, to: usize| -> Result<()> {
-            own.extend(engagements(stock, story.bodies, &list.moves()[own.len()..to], progress)?);
-            Ok(())
-        };
-        for core in story.loose.get(i).map_or(&[][..], Vec::as_slice) {
-            pass(&mut stock, segments.partition_point(|s| s.item < core.item))?;
-            let before = stock.volume();
-            take_out(&mut stock, core, core_number)?;
-            all.taken -= before - stock.volume();
-            core_number += 1;
+    all.moves = story.moves.iter().map(|list| Vec::with_capacity(list.moves().len())).collect();
+    for part in parts(story) {
+        match part {
+            Part::Moves(setup, moves) => {
+                all.moves[setup].extend(engagements(&mut stock, story.bodies, moves, progress)?);
+            }
+            Part::Core(core, number) => {
+                let before = stock.volume();
+                take_out(&mut stock, core, number)?;
+                all.taken -= before - stock.volume();
+            }
         }
-        pass(&mut stock, segments.len())?;
-        all.moves.push(own);
     }
     all.told = all.moves.iter().flatten().map(MoveEngagement::removed).sum();
     adjust_volumes(all.moves.iter_mut().flatten(), all.taken);

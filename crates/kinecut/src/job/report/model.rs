@@ -9,6 +9,7 @@ use crate::base::Finding;
 use crate::geom::Mesh;
 use crate::job::{Judgement, ToEnsure, Unchecked};
 use crate::page::{Fact, Section, serde_gap};
+use crate::stock::cut::PlayedSurface;
 
 /// The whole report. Lines of the program are counted from 0 here and shown from 1.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -28,6 +29,9 @@ pub struct Report {
     /// Distance of the lines that it is drawn from [mm], where these are not all lines of the stock model.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub drawn_step: Option<f64>,
+    /// The surface of the stock over time; [`PathPiece::done`] is its time.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub playback: Option<PlayedSurface>,
     /// The path of the tool in order.
     pub path: Vec<PathPiece>,
     /// The program text that was proven.
@@ -51,6 +55,7 @@ impl Report {
             time: None,
             part: None,
             drawn_step: None,
+            playback: None,
             path: Vec::new(),
             program: None,
             tools: Vec::new(),

@@ -4,8 +4,10 @@ use super::model::{PartView, ProgramPart, ProgramView, Report, ReportVerdict, To
 use super::{PathPiece, PathRole, before_run, engagement, fixtures, machine};
 use crate::base::at_most;
 use crate::geom::ProfileElement;
+use crate::job::engagement::thickest_chip;
 use crate::job::feeds::lowered_words;
 use crate::job::held_feed::HeldFeed;
+use crate::job::simulate::Simulation;
 use crate::job::time_terms::terms;
 use crate::job::{Outcome, PartSurface, SetupOutcome};
 use crate::operations::OperationPlan;
@@ -42,7 +44,7 @@ fn with(outcome: &Outcome, page: bool) -> Report {
     controls.dedup();
     let mut view = ProgramView { control: controls.join(", "), ..ProgramView::default() };
     let mut first_lines = Vec::with_capacity(outcome.setups.len());
-    for setup in &outcome.setups {
+    for (number, setup) in outcome.setups.iter().enumerate() {
         let offset = view.lines.len() as u32;
         first_lines.push(offset);
         if outcome.setups.len() > 1 {
@@ -54,8 +56,11 @@ fn with(outcome: &Outcome, page: bool) -> Report {
         view.length.resize(view.lines.len(), 0.0);
         times(setup, offset, &mut view);
         if page {
-            path(outcome, setup, offset, &mut report.path);
+            path(outcome, number, offset, &mut report.path);
         }
+    }
+    if page {
+        report.playback = outcome.simulation.playback.as_ref().map(|played| played.surface.clone());
     }
     let begins = sums(&view.time);
     view.file = outcome.setups.iter().map(|s| s.file.as_str()).collect::<Vec<_>>().join(", ");
@@ -234,23 +239,27 @@ fn outline(tool: &Tool) -> Vec<[f32; 2]> {
 
 /// The segments of a setup's program with the line of the report, counted from `offset`, that each belongs to, and the time
 /// of each [s].
-fn on_lines(setup: &SetupOutcome, offset: u32) -> impl Iterator<Item = (u32, &Segment, f64)> {
-    let all = setup.trace.segments.iter().zip(setup.segment_times());
-    all.filter(|(s, _)| !s.alternative).filter_map(move |(segment, time)| {
+fn on_lines(setup: &SetupOutcome, offset: u32) -> impl Iterator<Item = (u32, usize, &Segment, f64)> {
+    let all = setup.trace.segments.iter().zip(setup.segment_times()).enumerate();
+    all.filter(|(_, (s, _))| !s.alternative).filter_map(move |(index, (segment, time))| {
         let line = setup.lines.get(segment.item as usize).copied().flatten()?;
-        Some((line + offset, segment, time))
+        Some((line + offset, index, segment, time))
     })
 }
 
 fn times(setup: &SetupOutcome, offset: u32, view: &mut ProgramView) {
-    for (block, segment, time) in on_lines(setup, offset) {
+    for (block, _, segment, time) in on_lines(setup, offset) {
         view.time[block as usize] += time as f32;
         view.length[block as usize] += segment.curve.length() as f32;
     }
 }
 
-fn path(outcome: &Outcome, setup: &SetupOutcome, offset: u32, path: &mut Vec<PathPiece>) {
-    for (block, segment, _) in on_lines(setup, offset) {
+fn path(outcome: &Outcome, number: usize, offset: u32, path: &mut Vec<PathPiece>) {
+    let setup = &outcome.setups[number];
+    let Simulation { playback, engagement, .. } = &outcome.simulation;
+    let clock = playback.as_ref().map(|played| (&played.clock, played.first_move[number]));
+    let engaged = engagement.as_ref().map(|engagement| &engagement.moves[number]);
+    for (block, index, segment, _) in on_lines(setup, offset) {
         let planned = setup.planned_item(segment.item).map(|i| setup.planned.program.origin(i as usize).role);
         let role = match (segment.motion, planned.unwrap_or_default()) {
             (SegmentPace::Rapid, _) => PathRole::Rapid,
@@ -266,6 +275,10 @@ fn path(outcome: &Outcome, setup: &SetupOutcome, offset: u32, path: &mut Vec<Pat
         piece.tool =
             outcome.job.tools.iter().position(|t| Some(t.number) == segment.tool).unwrap_or(0) as u32;
         piece.axis = segment.axis.as_vec3().to_array();
+        piece.done = clock.map_or(0.0, |(clock, first)| clock.done(first + index, 1.0) as f32);
+        piece.chip = engaged
+            .and_then(|moves| thickest_chip(setup, segment, &moves[index], &outcome.job.tools))
+            .map(|mm| mm as f32);
         path.push(piece);
     }
 }

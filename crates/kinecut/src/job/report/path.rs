@@ -67,12 +67,18 @@ pub struct PathPiece {
     pub axis: [f32; 3],
     /// The polyline, part coordinates [mm].
     pub points: Vec<[f32; 3]>,
+    /// Part of the way of all moves that may take material that is done at its end, from 0 to 1.
+    #[serde(default)]
+    pub done: f32,
+    /// Greatest thickness of a chip on it [mm], where it is known.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub chip: Option<f32>,
 }
 
 impl PathPiece {
     /// A piece cut by the first tool with its axis along Z.
     pub fn new(block: u32, role: PathRole, points: Vec<[f32; 3]>) -> PathPiece {
-        PathPiece { block, role, tool: 0, axis: [0.0, 0.0, 1.0], points }
+        PathPiece { block, role, tool: 0, axis: [0.0, 0.0, 1.0], points, done: 0.0, chip: None }
     }
 }
 

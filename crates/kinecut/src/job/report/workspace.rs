@@ -42,6 +42,7 @@ fn view(report: &Report, scene: &Scene) -> Markup {
                 }
                 span.group role="group" aria-label="Shown" {
                     @if report.part.is_some() { (switch("part", "Part", true)) }
+                    @if report.playback.is_some() { (switch("now", "Stock now", false)) }
                     @if !report.path.is_empty() {
                         (switch("path", "Path", true))
                         (switch("rapids", "Rapids", true))
@@ -74,6 +75,9 @@ fn view(report: &Report, scene: &Scene) -> Markup {
                 }
                 div #kc-readout.readout.script aria-live="off" {}
                 @if let Some(part) = &report.part { (legend(part, scene)) }
+                @if let Some(played) = &report.playback {
+                    p.moment.quiet.script { "Stock at this moment, of points " (trimmed(played.step, 2)) " mm apart" }
+                }
             }
             @if let Some(step) = report.drawn_step {
                 p.bar.quiet { "Part drawn from lines " (trimmed(step, 3)) " mm apart: what is thinner may not show. Numbers are of all lines." }
@@ -93,11 +97,22 @@ fn player() -> Markup {
             button #kc-back type="button" title="One block back (arrow left)" aria-label="One block back" { "◂" }
             button #kc-play type="button" title="Play (space)" aria-label="Play" { "▶" }
             button #kc-next type="button" title="One block on (arrow right)" aria-label="One block on" { "▸" }
-            input #kc-time type="range" min="0" max="10000" value="0" step="1" aria-label="Place in the program";
+            div.slide {
+                input #kc-time type="range" min="0" max="10000" value="0" step="1" aria-label="Place in the program";
+                canvas #kc-load role="img" hidden {}
+            }
             label { span.quiet { "speed " }
                 select #kc-speed {
                     option value="0" selected { "fit" }
                     @for n in [1, 10, 60, 600] { option value=(n) { (n) "×" } }
+                }
+            }
+            label { span.quiet { "stop at " }
+                select #kc-stops {
+                    option value="" selected { "the end" }
+                    @for (value, word) in [("findings", "findings"), ("tools", "tool changes"), ("lines", "every line")] {
+                        option value=(value) { (word) }
+                    }
                 }
             }
             output #kc-clock {}

@@ -14,6 +14,8 @@ const IN_FACE: f64 = 1e-4;
 const MOST_ANGLE: f64 = 6.0;
 /// Part of a step below which a line is not halved again.
 const LEAST: f64 = 1.0 / 64.0;
+/// Part of a stretch of the way in which the tool comes to a point as it does at one moment.
+const SHORT: f64 = 5e-4;
 /// Part of the velocity of a tool across its axis below which it goes along it.
 const ALONG: f64 = 1e-3;
 
@@ -184,7 +186,7 @@ impl TakenLine<'_> {
     fn contact(&self, s: f64) -> Option<Contact> {
         let mut point = self.start;
         point[self.along] = s;
-        let Coming { pose, at, span, part } = self.way.coming(self.near, point)?;
+        let Coming { pose, at, span, part } = self.way.coming(self.near.iter().copied(), point, SHORT)?;
         let part = &self.way.body.parts[part];
         let from_tip = point - pose.tip;
         let height = from_tip.dot(pose.axis);

@@ -27,12 +27,14 @@ use crate::base::{Progress, Result};
 use crate::geom::Aabb;
 use crate::stock::tile::TakenStretch;
 use crate::stock::tri_dexel::Grid;
-use crate::stock::{DexelGrid, Lattice, TriDexel, fixed, unfixed};
+use crate::stock::{Axis, DexelGrid, Lattice, TriDexel, fixed, unfixed};
 
 /// Moves that are made ready at once.
 const AT_ONCE: usize = 2048;
 /// Thickness below which a piece of a line goes with the one beside it, as a part of a step.
 const THIN: f64 = 0.125;
+/// Part of a stretch of the way up to which a moment is looked for: stretches are about as long as ticks.
+const SHORT: f64 = 0.25;
 
 /// A stock whose material goes over time.
 ///
@@ -135,7 +137,7 @@ impl Playback {
             Ok(())
         })?;
         let tick = self.clock.tick(self.next, 0.0);
-        let when = |_: &TakenStretch| When { first: tick, last: tick, way: None };
+        let when = |_: &TakenStretch| When { first: tick, last: tick, way: None, is_upright: true };
         self.note_all(stock, &taken, &when);
         Ok(())
     }
@@ -160,7 +162,8 @@ impl Playback {
         let when = |stretch: &TakenStretch| {
             let i = move_of(stretch.cut);
             let [first, last] = range(i);
-            When { first, last, way: ways[i].as_ref().map(|way| (way, next + i)) }
+            let is_upright = list.moves[i].stance.axis().is_some_and(|axis| axis.vector().z != 0.0);
+            When { first, last, way: ways[i].as_ref().map(|way| (way, next + i)), is_upright }
         };
         self.note_all(stock, taken, &when);
         Ok(())
@@ -203,6 +206,8 @@ struct When<'a> {
     first: u16,
     last: u16,
     way: Option<(&'a ToolWay<'a>, usize)>,
+    /// The tool stands along Z.
+    is_upright: bool,
 }
 
 /// What was taken from the lines of a tile.
@@ -226,18 +231,15 @@ impl TileNotes {
         for own in taken.chunk_by(|a, b| a.cut == b.cut) {
             let when = when(&own[0]);
             let near = when.way.map_or(Vec::new(), |(way, _)| way.near(bounds_of(grid, lines, own)));
-            let mut nearer: Vec<&WaySpan> = Vec::new();
             for stretch in own {
-                let [low, high] = stretch.points(grid.axis, lines);
-                nearer.clear();
-                nearer.extend(near.iter().filter(|span| span.meets(Aabb { min: low, max: high })));
+                let [low, _] = stretch.points(grid.axis, lines);
                 let [row, column] = stretch.place().map(|n| n as u32);
                 let line = StretchTicks {
                     playback,
                     grid,
                     line: [first[0] + column, first[1] + row],
                     when: &when,
-                    near: &nearer,
+                    near: &near,
                     low,
                 };
                 line.note(stretch, &mut notes);
@@ -255,7 +257,7 @@ struct StretchTicks<'a> {
     line: [u32; 2],
     when: &'a When<'a>,
     /// Stretches of the way that may reach it.
-    near: &'a [&'a WaySpan],
+    near: &'a [WaySpan],
     /// Its lower end.
     low: glam::DVec3,
 }
@@ -272,9 +274,15 @@ impl StretchTicks<'_> {
             k += 1;
         }
         let mut piece = Piece { ends: stretch.ends, line: stretch.line, tick: 0 };
+        // A tool that stands along the line comes to a lower point no earlier than to a higher one: in one tick at both ends, in one at all.
+        let alike = (axis == Axis::Z && self.when.is_upright).then(|| {
+            let first = self.asked(at(k).min(stretch.ends[1]));
+            let last = self.asked(stretch.ends[1] - 1);
+            (first == last).then_some(first)
+        });
         while k < count && at(k) < stretch.ends[1] {
             let node = self.node(k);
-            let tick = self.tick_of(node, at(k));
+            let tick = alike.flatten().unwrap_or_else(|| self.tick_of(node, at(k)));
             if axis.index() == 2 {
                 notes.nodes.push((node as u32, tick));
             }
@@ -312,7 +320,7 @@ impl StretchTicks<'_> {
         let Some((way, number)) = self.when.way else { return self.when.first };
         let mut point = self.low;
         point[self.grid.axis.index()] = unfixed(at);
-        let coming = way.coming(self.near, point);
+        let coming = way.coming(self.near.iter().filter(|span| span.may_hold(point)), point, SHORT);
         coming.map_or(self.when.first, |coming| self.playback.clock.tick(number, coming.at))
     }
 }

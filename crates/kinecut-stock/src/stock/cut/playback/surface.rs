@@ -1,6 +1,9 @@
 //! The surface over time: squares between points of the lattice that go in different ticks.
 
+use std::collections::HashMap;
+
 use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
 
 use super::pieces::{Piece, TileLinePieces, TilePieces};
 use super::{Playback, THIN};
@@ -18,7 +21,7 @@ const TICK_BITS: u32 = 16;
 
 /// A square of surface, there from the end of the tick `from` to that of the tick `to`; from 0: of the raw stock; to [`REMAINS`]: of
 /// the finished part.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct PlayedFace {
     /// Corners, seen from outside against the clock.
     pub corners: [u32; 4],
@@ -29,13 +32,13 @@ pub struct PlayedFace {
 }
 
 /// The surface of a stock over time.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct PlayedSurface {
     /// Distance of the points of its lattice [mm].
     pub step: f64,
     /// Number of ticks: see [`Clock`](super::Clock).
     pub ticks: u16,
-    /// Corners of faces [mm].
+    /// Corners of faces [mm], in the order in which the faces first need them.
     pub vertices: Vec<[f32; 3]>,
     /// Faces by the ticks in which they come.
     pub faces: Vec<PlayedFace>,
@@ -46,9 +49,9 @@ pub(super) fn surface(playback: Playback, stock: &TriDexel, most: usize) -> Play
     loop {
         let faces = ticks.faces();
         if faces.len() <= most || ticks.count() == 1 {
-            return ticks.surface(faces);
+            return ticks.surface(&faces);
         }
-        ticks.shared *= 2;
+        ticks.lengthen();
     }
 }
 
@@ -65,7 +68,7 @@ struct Ticks {
     grids: [(Grid, Vec<TileLinePieces>); 3],
     /// Number of ticks of the clock.
     all: u16,
-    /// Ticks of the clock that are one here.
+    /// Ticks of the clock that are one here, and in `nodes`.
     shared: u16,
 }
 
@@ -123,8 +126,12 @@ impl Ticks {
         if tick == REMAINS { REMAINS } else { tick.div_ceil(self.shared) }
     }
 
-    fn node(&self, node: usize) -> u16 {
-        self.tick(self.nodes[node])
+    /// Makes two ticks one.
+    fn lengthen(&mut self) {
+        self.shared *= 2;
+        for tick in self.nodes.iter_mut().filter(|tick| **tick != REMAINS) {
+            *tick = tick.div_ceil(2);
+        }
     }
 
     /// All faces, in the order in which they come.
@@ -134,21 +141,34 @@ impl Ticks {
             for node in i * self.strides[0]..(i + 1) * self.strides[0] {
                 for axis in Axis::ALL {
                     let next = node + self.strides[axis.index()];
-                    if self.nodes.get(next).is_some_and(|tick| self.tick(*tick) != self.node(node)) {
+                    if self.nodes.get(next).is_some_and(|tick| *tick != self.nodes[node]) {
                         self.faces_between(axis, node, &mut faces);
                     }
                 }
             }
             faces
         };
-        let mut faces: Vec<CellFace> = (0..self.counts[0]).into_par_iter().flat_map_iter(slab).collect();
-        faces.par_sort_by_key(|(_, [from, to])| (*from, *to));
+        let slabs: Vec<Vec<CellFace>> = (0..self.counts[0]).into_par_iter().map(slab).collect();
+        // Sorted by counting.
+        let mut starts = vec![0; usize::from(self.count()) + 2];
+        for (_, [from, _]) in slabs.iter().flatten() {
+            starts[usize::from(*from) + 1] += 1;
+        }
+        for from in 1..starts.len() {
+            starts[from] += starts[from - 1];
+        }
+        let mut faces = vec![([0; 4], [0; 2]); starts[starts.len() - 1]];
+        for face in slabs.into_iter().flatten() {
+            let start = &mut starts[usize::from(face.1[0])];
+            faces[*start] = face;
+            *start += 1;
+        }
         faces
     }
 
     /// The faces between a point and the next along an axis: one for each state of its surroundings that is not brief.
     fn faces_between(&self, axis: Axis, node: usize, faces: &mut Vec<CellFace>) {
-        let [low, high] = [self.node(node), self.node(node + self.strides[axis.index()])];
+        let [low, high] = [self.nodes[node], self.nodes[node + self.strides[axis.index()]]];
         let (from, to) = (low.min(high), low.max(high));
         let (b, c) = axis.others();
         let [b, c] = [b, c].map(|axis| self.strides[axis.index()]);
@@ -170,7 +190,7 @@ impl Ticks {
     /// The ticks of the corners of a cell, which is named by its least one.
     fn corners(&self, cell: usize) -> impl Iterator<Item = u16> + '_ {
         let [x, y, z] = self.strides;
-        [0, x, y, z, x + y, y + z, x + z, x + y + z].into_iter().map(move |by| self.node(cell + by))
+        [0, x, y, z, x + y, y + z, x + z, x + y + z].into_iter().map(move |by| self.nodes[cell + by])
     }
 
     /// The corner of faces that a cell has in a tick: the cell, and the last tick before its next change.
@@ -179,20 +199,25 @@ impl Ticks {
         (cell as u64) << TICK_BITS | u64::from(next - 1)
     }
 
-    fn surface(&self, faces: Vec<CellFace>) -> PlayedSurface {
-        let mut keys: Vec<u64> = faces.iter().flat_map(|(corners, _)| *corners).collect();
-        keys.par_sort_unstable();
-        keys.dedup();
-        let number = |key: &u64| keys.binary_search(key).unwrap_or_default() as u32;
+    fn surface(&self, faces: &[CellFace]) -> PlayedSurface {
+        // Corners by their first use.
+        let mut numbers: HashMap<u64, u32> = HashMap::with_capacity(faces.len() + faces.len() / 4);
+        let mut keys = Vec::with_capacity(numbers.capacity());
+        let mut number = |key: u64| {
+            *numbers.entry(key).or_insert_with(|| {
+                keys.push(key);
+                keys.len() as u32 - 1
+            })
+        };
         let one = |(corners, [from, to]): &CellFace| PlayedFace {
-            corners: [0, 1, 2, 3].map(|k| number(&corners[k])),
+            corners: corners.map(&mut number),
             from: *from,
             to: *to,
         };
         PlayedSurface {
             step: self.lattice.step,
             ticks: self.count(),
-            faces: faces.par_iter().map(one).collect(),
+            faces: faces.iter().map(one).collect(),
             vertices: keys.par_iter().map(|key| self.vertex(*key)).collect(),
         }
     }
@@ -206,7 +231,7 @@ impl Ticks {
             let (b, c) = axis.others();
             let [along, b, c] = [axis, b, c].map(|axis| self.strides[axis.index()]);
             for node in [cell, cell + b, cell + c, cell + b + c] {
-                let [low, high] = [node, node + along].map(|node| self.node(node) > now);
+                let [low, high] = [node, node + along].map(|node| self.nodes[node] > now);
                 if low != high {
                     let mut point = self.place(node);
                     point[axis.index()] = self.crossing(axis, node, now, low);

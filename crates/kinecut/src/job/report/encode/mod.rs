@@ -8,6 +8,7 @@ mod listing;
 mod numbers;
 mod part;
 mod path;
+mod playback;
 
 use rayon::prelude::*;
 use serde::Serialize;
@@ -16,6 +17,7 @@ use super::{PartView, PathRole, ProgramView, Report, thin};
 use numbers::{Numbers, packed, steps};
 use part::PartHead;
 use path::PathHead;
+use playback::PlaybackHead;
 
 /// Most triangles shown; more would make a browser without a graphics card slow.
 const TRIANGLES: usize = 300_000;
@@ -44,6 +46,7 @@ pub(super) struct Scene {
 #[derive(Serialize)]
 struct Head<'a> {
     part: Option<PartHead>,
+    playback: Option<PlaybackHead>,
     path: PathHead,
     tools: Vec<ToolHead>,
     roles: [&'static str; PathRole::ALL.len()],
@@ -70,6 +73,7 @@ pub(super) fn scene(report: &Report) -> Scene {
     let ((thinned, part, mut streams), (path, others)) =
         rayon::join(|| shown_part(report), || path_and_program(report));
     streams.extend(others);
+    let playback = report.playback.as_ref().map(|played| playback::stream(played, &mut streams));
     let program = report.program.as_ref();
     let listed = program.filter(|p| packs_text(p)).map(ProgramView::programs).unwrap_or_default();
     let listing = listed.into_iter().map(|(file, from, to)| (crate::page::visible(file), from, to)).collect();
@@ -81,6 +85,7 @@ pub(super) fn scene(report: &Report) -> Scene {
     let lines = program.map_or(0, |p| p.lines.len());
     let head = Head {
         part,
+        playback,
         path,
         tools,
         roles: PathRole::ALL.map(PathRole::word),

@@ -11,6 +11,8 @@ use crate::page::simplify;
 const PATH_ERROR: f64 = 1.0 / 40_000.0;
 /// Axes are rounded to this share of their length: 1.5 µm at 200 mm.
 const AXIS_STEPS: f64 = (1u32 << 17) as f64;
+/// The way is rounded to this part of it.
+const DONE: f64 = 1.0 / (1u32 << 20) as f64;
 
 #[derive(Serialize)]
 pub(super) struct PathHead {
@@ -19,6 +21,7 @@ pub(super) struct PathHead {
     step: f64,
     axes: usize,
     axis_step: f64,
+    done_step: f64,
 }
 
 /// Columns of the pieces and of their points.
@@ -32,6 +35,10 @@ struct Columns {
     count: Vec<i64>,
     points: [Vec<i64>; 3],
     axes: [Vec<i64>; 3],
+    /// Part of the way that is done at the end of each piece, in steps of [`DONE`].
+    done: Vec<i64>,
+    /// One more than the greatest thickness of a chip [µm]; 0 where it is not known.
+    chip: Vec<i64>,
 }
 
 pub(super) fn stream(path: &[PathPiece], streams: &mut Streams) -> PathHead {
@@ -40,7 +47,9 @@ pub(super) fn stream(path: &[PathPiece], streams: &mut Streams) -> PathHead {
     let columns = columns(path, extent * PATH_ERROR, step);
     let mut stream = Numbers::default();
     let pieces = [&columns.line, &columns.role, &columns.tool, &columns.axis, &columns.count];
-    pieces.into_iter().chain(&columns.points).chain(&columns.axes).for_each(|column| stream.column(column));
+    let all =
+        pieces.into_iter().chain(&columns.points).chain(&columns.axes).chain([&columns.done, &columns.chip]);
+    all.for_each(|column| stream.column(column));
     streams.push(("kc-path", stream.0));
     PathHead {
         pieces: columns.line.len(),
@@ -48,6 +57,7 @@ pub(super) fn stream(path: &[PathPiece], streams: &mut Streams) -> PathHead {
         step,
         axes: columns.axes[0].len(),
         axis_step: 1.0 / AXIS_STEPS,
+        done_step: DONE,
     }
 }
 
@@ -72,6 +82,8 @@ fn columns(path: &[PathPiece], error: f64, step: f64) -> Columns {
             }
         }
         columns.axis.push(columns.axes[0].len() as i64 - 1);
+        columns.done.push(steps(f64::from(piece.done), DONE));
+        columns.chip.push(piece.chip.map_or(0, |mm| 1 + steps(f64::from(mm), 1e-3)));
         let kept = simplify::kept(&points, error);
         let at = |i: usize| points[i].map(|v| steps(v, step));
         let joined = last == Some(at(kept[0]));
@@ -118,8 +130,8 @@ mod tests {
         report.path = vec![
             PathPiece::new(9, PathRole::Rapid, straight),
             PathPiece::new(1, PathRole::Link, Vec::new()),
-            tilted(3, 0.0),
-            tilted(7, 5.0),
+            PathPiece { done: 0.5, chip: Some(0.0), ..tilted(3, 0.0) },
+            PathPiece { done: 1.0, chip: Some(0.04), ..tilted(7, 5.0) },
         ];
         let scene = super::super::scene(&report);
         let head: serde_json::Value = serde_json::from_str(&scene.head).unwrap();
@@ -149,6 +161,8 @@ mod tests {
                 assert!((n as f64 * axis_step - want).abs() <= axis_step);
             }
         }
+        assert_eq!(read.column(3), [0, 1 << 19, 1 << 20]);
+        assert_eq!(read.column(3), [0, 1, 41]);
         assert!(read.is_done());
     }
 }
