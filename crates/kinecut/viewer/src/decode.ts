@@ -14,6 +14,7 @@ export interface Head {
     compared: boolean;
   };
   playback: null | { step: number; ticks: number; vertices: number; faces: number; unit: number };
+  fixtures: { name: string; lines: [number, number]; vertices: number; triangles: number }[];
   path: { pieces: number; points: number; step: number; axes: number; axis_step: number; done_step: number };
   tools: { number: number; outline: [number, number][]; flutes: number }[];
   roles: string[];
@@ -172,6 +173,30 @@ export function played(head: NonNullable<Head["playback"]>): PlayedData {
     }
   }
   return { positions, corners, lives };
+}
+
+/** A clamp or fixture: corners [mm] and triangles. */
+export interface BodyData {
+  positions: Float32Array;
+  indices: Uint32Array;
+}
+
+/** Clamps and fixtures in the order of the head. */
+export function fixtures(head: Head["fixtures"]): BodyData[] {
+  const stream = new Stream("kc-fixtures");
+  if (stream.done) return [];
+  const sum = (of: (f: Head["fixtures"][number]) => number) => head.reduce((n, f) => n + of(f), 0);
+  const read = (count: number) => [0, 1, 2].map(() => stream.column(count));
+  const places = read(sum((f) => f.vertices));
+  const corners = read(sum((f) => f.triangles));
+  let [vertex, triangle] = [0, 0];
+  return head.map((f) => {
+    const positions = new Float32Array(3 * f.vertices).map((_, i) => places[i % 3][vertex + Math.floor(i / 3)] / 1000);
+    const indices = new Uint32Array(3 * f.triangles).map((_, i) => corners[i % 3][triangle + Math.floor(i / 3)]);
+    vertex += f.vertices;
+    triangle += f.triangles;
+    return { positions, indices };
+  });
 }
 
 /** Numbers of the program lines, which are in steps. */

@@ -6,6 +6,7 @@ import {
 } from "three";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
 import { type Head, type PartData, part as readPart } from "./decode";
+import { Fixtures } from "./fixtures";
 import { PathLines } from "./lines";
 import { bandTexture, geometry } from "./mesh";
 import { Overlay } from "./overlay";
@@ -36,6 +37,7 @@ export class View {
   private readonly tool = new Group();
   private readonly lines: PathLines | null;
   private readonly overlay: Overlay;
+  private readonly fixtures: Fixtures;
   private readonly clip = new Plane(new Vector3(0, 0, -1), 0);
   private readonly bounds = new Box3();
   private readonly data: PartData | null = null;
@@ -73,13 +75,14 @@ export class View {
       if (outline.length < 2) return null;
       return new LatheGeometry(outline.map(([r, h]) => new Vector2(r, h)), 40).rotateX(Math.PI / 2);
     });
+    this.fixtures = new Fixtures(head.fixtures);
     this.tool.visible = false;
     this.tool.renderOrder = 4;
     const light = new DirectionalLight(0xffffff, 2.1);
     light.position.set(-0.5, 0.8, 1);
     this.camera.add(light, light.target);
     light.target.position.set(0, 0, -1);
-    this.scene.add(new AmbientLight(0xffffff, 1.25), this.camera, this.part, this.tool);
+    this.scene.add(new AmbientLight(0xffffff, 1.25), this.camera, this.part, this.fixtures.group, this.tool);
 
     this.camera.up.set(0, 0, 1);
     this.controls = new OrbitControls(this.camera, canvas);
@@ -143,6 +146,7 @@ export class View {
     this.steel.color = colour("steel");
     this.lines?.recolour();
     this.stock?.recolour();
+    this.fixtures.recolour();
     this.draw();
   }
 
@@ -222,6 +226,7 @@ export class View {
       this.showMoment();
     }
     if (what === "path" && this.lines) this.lines.group.visible = on;
+    if (what === "fixtures") this.fixtures.group.visible = on;
     if (what === "rapids") this.lines?.showRapids(on);
     if (what === "past" || what === "tool") {
       this.shown[what] = on;
@@ -281,6 +286,7 @@ export class View {
     }
     this.showMoment();
     this.overlay.point = null;
+    this.fixtures.at(place.line);
     if (place.piece < 0) {
       lines?.mark(0, 0);
       lines?.upTo(Infinity);

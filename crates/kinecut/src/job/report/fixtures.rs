@@ -2,11 +2,13 @@
 
 use glam::{DVec2, DVec3};
 
+use super::FixtureView;
 use crate::contact::Meeting;
 use crate::geom::{Rigid, Solid, convex_hull};
 use crate::job::contacts::LOOK;
 use crate::job::{Outcome, SetupOutcome};
 use crate::operations::setting::corners;
+use crate::page::draw::Facets;
 use crate::page::{Cell, Colour, Ink, Plan, PlanLine, Row, Section, Table, Width};
 use crate::program::{Fixture, Setup};
 
@@ -34,6 +36,30 @@ pub(super) fn section(outcome: &Outcome, first_lines: &[u32]) -> Option<Section>
         section = section.with(shown.plan(&of, outcome)).with(shown.table(&of));
     }
     (!section.blocks.is_empty()).then_some(section)
+}
+
+/// The bodies for the 3-D view; the programs have so many `lines` together.
+pub(super) fn views(outcome: &Outcome, first_lines: &[u32], lines: u32) -> Vec<FixtureView> {
+    let ends = first_lines.iter().copied().skip(1).chain([lines]);
+    let mut views = Vec::new();
+    for (setup, lines) in outcome.job.setups.iter().zip(first_lines.iter().copied().zip(ends)) {
+        let setup = &setup.clamping.setup;
+        let to_part = setup.part_on_table.inverse();
+        views.extend(setup.fixtures.iter().map(|fixture| {
+            let facets = Facets::of(&fixture.solid, &to_part.after(&fixture.place));
+            let fan = |face: &Vec<u32>| {
+                let pairs = face.windows(2).skip(1);
+                pairs.map(|pair| [face[0], pair[0], pair[1]]).collect::<Vec<_>>()
+            };
+            FixtureView {
+                name: fixture.name.clone(),
+                lines: lines.into(),
+                vertices: facets.corners.iter().map(|c| c.as_vec3().to_array()).collect(),
+                triangles: facets.faces.iter().flat_map(fan).collect(),
+            }
+        }));
+    }
+    views
 }
 
 /// A setup with fixtures.

@@ -29,7 +29,7 @@ mod thin;
 mod workspace;
 
 pub use deviation::{BAND_EDGES, Band, bands, extremes};
-pub use model::{PartView, ProgramPart, ProgramView, Report, ReportVerdict, ToolView};
+pub use model::{FixtureView, PartView, ProgramPart, ProgramView, Report, ReportVerdict, ToolView};
 pub use of_job::{of_job, of_job_in_words};
 pub use page::html;
 pub use path::{PathPiece, PathRole};

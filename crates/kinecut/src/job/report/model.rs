@@ -32,6 +32,9 @@ pub struct Report {
     /// The surface of the stock over time; [`PathPiece::done`] is its time.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub playback: Option<PlayedSurface>,
+    /// Clamps and fixtures.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub fixtures: Vec<FixtureView>,
     /// The path of the tool in order.
     pub path: Vec<PathPiece>,
     /// The program text that was proven.
@@ -56,6 +59,7 @@ impl Report {
             part: None,
             drawn_step: None,
             playback: None,
+            fixtures: Vec::new(),
             path: Vec::new(),
             program: None,
             tools: Vec::new(),
@@ -135,6 +139,19 @@ impl PartView {
         let tolerance = tolerance as f32;
         PartView { vertices, triangles, deviation, tolerance, relative: false }
     }
+}
+
+/// A body of a clamp or fixture, in part coordinates.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct FixtureView {
+    /// Its name.
+    pub name: String,
+    /// Lines of the programs in which it is there: from the first to before the last.
+    pub lines: [u32; 2],
+    /// Vertices [mm].
+    pub vertices: Vec<[f32; 3]>,
+    /// Triangles, counter-clockwise seen from outside.
+    pub triangles: Vec<[u32; 3]>,
 }
 
 /// The program text.

@@ -60,6 +60,7 @@ fn with(outcome: &Outcome, page: bool) -> Report {
         }
     }
     if page {
+        report.fixtures = fixtures::views(outcome, &first_lines, view.lines.len() as u32);
         report.playback = outcome.simulation.playback.as_ref().map(|played| played.surface.clone());
     }
     let begins = sums(&view.time);

@@ -48,6 +48,7 @@ fn view(report: &Report, scene: &Scene) -> Markup {
                         (switch("rapids", "Rapids", true))
                         (switch("past", "Only up to here", false))
                         (switch("tool", "Tool", true))
+                        @if !report.fixtures.is_empty() { (switch("fixtures", "Fixtures", true)) }
                     }
                 }
                 span.group {

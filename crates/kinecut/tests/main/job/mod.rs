@@ -12,6 +12,7 @@ mod inspect;
 mod kept;
 mod machine_bodies;
 mod picture;
+mod playback;
 mod prove_motion;
 mod prove_rules;
 mod shape;

@@ -4,6 +4,7 @@
 //! Numbers are counted in steps and written as columns of differences, see [`numbers`]; each stream is deflated and written
 //! in base64. The reader is `viewer/src/decode.ts`.
 
+mod fixtures;
 mod listing;
 mod numbers;
 mod part;
@@ -14,6 +15,7 @@ use rayon::prelude::*;
 use serde::Serialize;
 
 use super::{PartView, PathRole, ProgramView, Report, thin};
+use fixtures::FixtureHead;
 use numbers::{Numbers, packed, steps};
 use part::PartHead;
 use path::PathHead;
@@ -47,6 +49,7 @@ pub(super) struct Scene {
 struct Head<'a> {
     part: Option<PartHead>,
     playback: Option<PlaybackHead>,
+    fixtures: Vec<FixtureHead<'a>>,
     path: PathHead,
     tools: Vec<ToolHead>,
     roles: [&'static str; PathRole::ALL.len()],
@@ -73,6 +76,7 @@ pub(super) fn scene(report: &Report) -> Scene {
     let ((thinned, part, mut streams), (path, others)) =
         rayon::join(|| shown_part(report), || path_and_program(report));
     streams.extend(others);
+    let fixtures = fixtures::stream(&report.fixtures, &mut streams);
     let playback = report.playback.as_ref().map(|played| playback::stream(played, &mut streams));
     let program = report.program.as_ref();
     let listed = program.filter(|p| packs_text(p)).map(ProgramView::programs).unwrap_or_default();
@@ -86,6 +90,7 @@ pub(super) fn scene(report: &Report) -> Scene {
     let head = Head {
         part,
         playback,
+        fixtures,
         path,
         tools,
         roles: PathRole::ALL.map(PathRole::word),

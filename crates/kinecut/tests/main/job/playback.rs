@@ -1,0 +1,81 @@
+//! The stock over time in a job: its last moment is the part of the verdict, its first one the raw stock.
+
+use glam::DVec3;
+use kinecut::base::{MemoryLoader, Silent};
+use kinecut::geom::{Mesh, MeshDistance};
+use kinecut::job::{Outcome, RunWants, StockWants, report, run_with};
+use kinecut::stock::cut::PlayedSurface;
+
+use super::external::{FANUC, PLAIN, job};
+
+fn outcome(text: &str, playback: bool) -> Outcome {
+    let wants = RunWants { compare: false, stock: StockWants { playback, ..StockWants::default() } };
+    let loader = MemoryLoader::default().with("P.nc", FANUC);
+    run_with("job.toml", text, &wants, &loader, &Silent).unwrap()
+}
+
+/// The surface at the end of a tick.
+fn at(surface: &PlayedSurface, tick: u16) -> Mesh {
+    let there = surface.faces.iter().filter(|face| face.from <= tick && tick < face.to);
+    let halves = |[a, b, c, d]: [u32; 4]| [[a, b, c], [a, c, d]];
+    let triangles: Vec<[u32; 3]> = there.flat_map(|face| halves(face.corners)).collect();
+    // Corners of other moments would count as part of the body.
+    let mut number = vec![u32::MAX; surface.vertices.len()];
+    let mut mesh = Mesh::default();
+    for triangle in triangles {
+        mesh.triangles.push(triangle.map(|corner| {
+            let own = &mut number[corner as usize];
+            if *own == u32::MAX {
+                *own = mesh.vertices.len() as u32;
+                mesh.vertices.push(DVec3::from(surface.vertices[corner as usize].map(f64::from)));
+            }
+            *own
+        }));
+    }
+    mesh
+}
+
+/// Greatest distance of the corners and middles of one body's triangles from another.
+fn off(one: &Mesh, other: &Mesh) -> f64 {
+    let distance = MeshDistance::new(other).unwrap();
+    let middles =
+        one.triangles.iter().map(|t| t.map(|i| one.vertices[i as usize]).iter().sum::<DVec3>() / 3.0);
+    let all = one.vertices.iter().copied().chain(middles);
+    all.map(|p| distance.nearest(p).unwrap().distance).fold(0.0, f64::max)
+}
+
+#[test]
+fn the_last_moment_is_the_part_of_the_verdict_and_the_first_the_raw_stock() {
+    let done = outcome(&job("fanuc", PLAIN), true);
+    let played = done.simulation.playback.as_ref().unwrap();
+    let surface = &played.surface;
+    let last = at(surface, surface.ticks);
+    let volume = |mesh: &Mesh| mesh.volume();
+    assert!(last.triangles.len() > 2000);
+    let (there, back) = (off(&last, &done.part), off(&done.part, &last));
+    assert!(there <= surface.step && back <= surface.step, "{there} {back} {}", surface.step);
+    let lost = done.simulation.raw_volume - done.removed.value;
+    assert!((volume(&last) / lost - 1.0).abs() < 0.01, "{} {lost}", volume(&last));
+    let first = at(surface, 0);
+    assert!((volume(&first) / done.simulation.raw_volume - 1.0).abs() < 0.01);
+    // In between material only goes.
+    let volumes: Vec<f64> = (0..=8).map(|k| volume(&at(surface, surface.ticks / 8 * k))).collect();
+    assert!(volumes.windows(2).all(|pair| pair[1] <= pair[0] + 1.0), "{volumes:?}");
+}
+
+#[test]
+fn the_report_has_it_with_the_time_of_each_piece_where_it_is_wanted() {
+    let report = report::of_job(&outcome(&job("fanuc", PLAIN), true));
+    let done: Vec<f32> = report.path.iter().map(|piece| piece.done).collect();
+    assert!(done.windows(2).all(|pair| pair[0] <= pair[1]), "{done:?}");
+    assert!(done[0] < 0.1 && done[done.len() - 1] == 1.0, "{done:?}");
+    // The slot.
+    let chips: Vec<f32> = report.path.iter().filter_map(|piece| piece.chip).collect();
+    assert!(chips.iter().any(|chip| (chip - 400.0 / 3000.0 / 2.0).abs() < 1e-4), "{chips:?}");
+    let page = report::html(&report);
+    assert!(
+        page.contains("kc-playback") && page.contains("Stock now") && page.contains("Stock at this moment")
+    );
+    let without = report::html(&report::of_job(&outcome(&job("fanuc", PLAIN), false)));
+    assert!(without.contains("\"playback\":null") && !without.contains("Stock now"));
+}
