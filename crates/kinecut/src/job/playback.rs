@@ -14,8 +14,14 @@ const CELLS: f64 = 1e6;
 const LEAST_LINES: f64 = 4.0;
 /// Length of a tick in steps of the lattice.
 const TICK: f64 = 1.5;
-/// Most faces; a page of them has at most some 9 MB for it.
-const MOST_FACES: usize = 500_000;
+/// Most faces over time: of those some tenth is there at a moment, and a page has some 5 MB of them.
+const MOST_FACES: usize = 1_000_000;
+/// Most ticks that may become one to keep to that; beyond it the points are taken farther apart.
+const MOST_SHARED: u16 = 4;
+/// Step of a further pass as a multiple of that before.
+const COARSER: f64 = 1.4;
+/// Passes after which ticks become as long as they have to.
+const MOST_PASSES: usize = 3;
 
 /// The stock over time.
 #[derive(Clone, Debug, PartialEq)]
@@ -40,16 +46,34 @@ pub(super) fn play(story: &Story<'_>, progress: &dyn Progress) -> Result<Option<
     if !job.playback {
         return Ok(None);
     }
-    let step = step(job);
-    let mut stock: TriDexel = raw_stock(&job.stock, step)?;
-    drill(&mut stock, job)?;
     let mut ways = Vec::new();
     let mut first_move = Vec::new();
     for list in story.moves {
         first_move.push(ways.len());
         ways.extend((0..list.moves().len()).map(|i| list.way(i)).collect::<Result<Vec<f64>>>()?);
     }
-    let mut playback = Playback::new(&stock, Clock::new(ways, TICK * step));
+    let mut step = step(job);
+    for _ in 0..MOST_PASSES {
+        let (surface, clock) = pass(story, &ways, step, progress)?;
+        if clock.ticks().div_ceil(surface.ticks) <= MOST_SHARED {
+            return Ok(Some(PlayedStock { surface, clock, first_move }));
+        }
+        step *= COARSER;
+    }
+    let (surface, clock) = pass(story, &ways, step, progress)?;
+    Ok(Some(PlayedStock { surface, clock, first_move }))
+}
+
+/// The surface over time with points at a distance [mm].
+fn pass(
+    story: &Story<'_>,
+    ways: &[f64],
+    step: f64,
+    progress: &dyn Progress,
+) -> Result<(PlayedSurface, Clock)> {
+    let mut stock: TriDexel = raw_stock(&story.job.stock, step)?;
+    drill(&mut stock, story.job)?;
+    let mut playback = Playback::new(&stock, Clock::new(ways.iter().copied(), TICK * step));
     for part in parts(story) {
         match part {
             Part::Moves(_, moves) => playback.cut(&mut stock, story.bodies, moves, progress)?,
@@ -59,5 +83,5 @@ pub(super) fn play(story: &Story<'_>, progress: &dyn Progress) -> Result<Option<
         }
     }
     let clock = playback.clock().clone();
-    Ok(Some(PlayedStock { surface: playback.surface(&stock, MOST_FACES), clock, first_move }))
+    Ok((playback.surface(&stock, MOST_FACES), clock))
 }

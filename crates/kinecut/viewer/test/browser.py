@@ -1,0 +1,150 @@
+"""The report in a browser: python3 browser.py FOLDER, with the report.html of a run in it and, in FOLDER/small, that of a
+coarse one. Needs playwright and axe-playwright-python, and Debian's Chromium."""
+
+import shutil
+import sys
+from pathlib import Path
+
+from axe_playwright_python.sync_playwright import Axe
+from playwright.sync_api import Page, sync_playwright
+
+# Least frames a second of a page with few triangles, drawn by the processor.
+LEAST_RATE = 10
+# Most triangles of that page.
+FEW = 50_000
+# Part of the picture that may differ between the last moment of the stock and the part: edges a step of the display apart.
+MAY_DIFFER = 0.02
+
+SCRUB = """place => {
+  const slider = document.getElementById("kc-time");
+  slider.value = String(place * Number(slider.max));
+  slider.dispatchEvent(new Event("input", { bubbles: true }));
+}"""
+
+# The picture as the page gives it to paper, as bits: what is not background.
+PICTURE = """async () => {
+  dispatchEvent(new Event("beforeprint"));
+  const image = new Image();
+  image.src = document.getElementById("kc-still").src;
+  await image.decode();
+  dispatchEvent(new Event("afterprint"));
+  const canvas = document.createElement("canvas");
+  Object.assign(canvas, { width: image.width, height: image.height });
+  const pen = canvas.getContext("2d");
+  pen.drawImage(image, 0, 0);
+  const { data } = pen.getImageData(0, 0, image.width, image.height);
+  return Array.from({ length: data.length / 4 }, (_, i) => (data[4 * i + 3] > 0 ? "1" : "0")).join("");
+}"""
+
+
+def switch(page: Page, name: str, on: bool) -> None:
+    page.locator(f'[data-show="{name}"]').set_checked(on)
+
+
+def settled(page: Page) -> None:
+    page.evaluate("() => new Promise(done => requestAnimationFrame(() => requestAnimationFrame(done)))")
+
+
+def opened(page: Page, file: Path) -> None:
+    page.goto(file.resolve().as_uri())
+    page.locator("#kc-line").wait_for()
+    page.locator("html.scripted").wait_for()
+    settled(page)
+
+
+def is_now(page: Page) -> bool:
+    return page.locator(".stage.now").count() == 1
+
+
+def differing(a: str, b: str) -> float:
+    assert len(a) == len(b)
+    return sum(x != y for x, y in zip(a, b)) / max(a.count("1"), 1)
+
+
+def looks(page: Page, file: Path) -> None:
+    opened(page, file)
+    violations = Axe().run(page).response["violations"]
+    assert not violations, [(v["id"], [n["html"] for n in v["nodes"]][:3]) for v in violations]
+
+    # Scrubbing shows the stock as it is then; at the end it is the part.
+    for place in (0.2, 0.7, 0.4):
+        page.evaluate(SCRUB, place)
+        settled(page)
+        assert is_now(page), place
+    page.evaluate(SCRUB, 1.0)
+    settled(page)
+    assert not is_now(page), "at the end the part is finished"
+
+    # The last moment is the part; nothing of the raw stock is missing at the first one.
+    for name in ("path", "rapids", "tool", "fixtures"):
+        switch(page, name, False)
+    part = page.evaluate(PICTURE)
+    page.evaluate(SCRUB, 0.9999)
+    settled(page)
+    assert is_now(page)
+    last = page.evaluate(PICTURE)
+    page.evaluate(SCRUB, 0.0)
+    settled(page)
+    first = page.evaluate(PICTURE)
+    assert part.count("1") > 10_000
+    assert differing(last, part) < MAY_DIFFER, differing(last, part)
+    assert first.count("1") > (1 - MAY_DIFFER) * part.count("1")
+
+    # Step by line.
+    page.locator("#kc-list").focus()
+    said = []
+    for _ in range(6):
+        page.keyboard.press("ArrowRight")
+        settled(page)
+        said.append(page.locator("#kc-line").inner_text())
+    assert len(set(said)) == 6, said
+
+    # Play stops at the next tool change.
+    page.locator("#kc-stops").select_option("tools")
+    page.locator("#kc-speed").select_option("60")
+    page.evaluate(SCRUB, 0.0)
+    before = page.locator("#kc-line").inner_text()
+    page.locator("#kc-play").click()
+    page.locator('#kc-play[aria-label="Play"]').wait_for()
+    assert page.locator("#kc-line").inner_text() != before
+
+
+def plays(page: Page, file: Path) -> float:
+    """Frames a second while a page with few triangles plays."""
+    opened(page, file)
+    faces = page.evaluate("() => JSON.parse(document.getElementById('kc-head').textContent).playback.faces")
+    assert 0 < 2 * faces <= FEW, faces
+    page.locator("#kc-play").click()
+    return page.evaluate(
+        """() => new Promise(done => {
+          const frames = new Set();
+          const slider = document.getElementById("kc-time");
+          const start = performance.now();
+          const look = now => {
+            frames.add(slider.value);
+            if (now - start > 3000) done(frames.size / 3);
+            else requestAnimationFrame(look);
+          };
+          requestAnimationFrame(look);
+        })"""
+    )
+
+
+def main() -> None:
+    folder = Path(sys.argv[1])
+    with sync_playwright() as playwright:
+        browser = playwright.chromium.launch(executable_path=shutil.which("chromium"), args=["--no-sandbox"])
+        page = browser.new_page(viewport={"width": 1400, "height": 950})
+        said: list[str] = []
+        # That pictures are read is of the test, not of the page.
+        page.on("console", lambda message: "ReadPixels" in message.text or said.append(message.text))
+        page.on("pageerror", lambda error: said.append(str(error)))
+        looks(page, folder / "report.html")
+        rate = plays(page, folder / "small" / "report.html")
+        assert rate >= LEAST_RATE, f"{rate:.1f} frames a second"
+        assert not said, said
+        browser.close()
+    print(f"the report in a browser: as it should be, {rate:.0f} frames a second")
+
+
+main()
