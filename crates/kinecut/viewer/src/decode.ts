@@ -1,5 +1,11 @@
 // Reads what the page carries: a JSON head and packed streams of integers (src/job/report/encode of the crate).
 
+export interface BodyHead {
+  name: string;
+  vertices: number;
+  triangles: number;
+}
+
 /** Head of the data; the names are those the crate writes. */
 export interface Head {
   part: null | {
@@ -14,8 +20,17 @@ export interface Head {
     compared: boolean;
   };
   playback: null | { step: number; ticks: number; vertices: number; faces: number; unit: number };
-  fixtures: { name: string; lines: [number, number]; vertices: number; triangles: number }[];
-  path: { pieces: number; points: number; step: number; axes: number; axis_step: number; done_step: number };
+  fixtures: (BodyHead & { lines: [number, number] })[];
+  machine: null | {
+    /** From the work to the tool; the first `bed` carry the work. */
+    joints: { rotary: boolean; direction: [number, number, number]; point: [number, number, number] }[];
+    bed: number;
+    /** Part coordinates at home: columns of the rotation, then the translation [mm]. */
+    setups: { lines: [number, number]; part: number[] }[];
+    /** Each with the joint that moves its link; null: the bed. */
+    bodies: (BodyHead & { link: number | null })[];
+  };
+  path: { pieces: number; points: number; step: number; axes: number; axis_step: number; done_step: number; runs: number; run_step: number; joint_step: number };
   tools: { number: number; outline: [number, number][]; flutes: number }[];
   roles: string[];
   lines: number;
@@ -175,17 +190,17 @@ export function played(head: NonNullable<Head["playback"]>): PlayedData {
   return { positions, corners, lives };
 }
 
-/** A clamp or fixture: corners [mm] and triangles. */
+/** A body: corners [mm] and triangles. */
 export interface BodyData {
   positions: Float32Array;
   indices: Uint32Array;
 }
 
-/** Clamps and fixtures in the order of the head. */
-export function fixtures(head: Head["fixtures"]): BodyData[] {
-  const stream = new Stream("kc-fixtures");
+/** The bodies of a stream in the order of the head. */
+export function bodies(id: string, head: BodyHead[]): BodyData[] {
+  const stream = new Stream(id);
   if (stream.done) return [];
-  const sum = (of: (f: Head["fixtures"][number]) => number) => head.reduce((n, f) => n + of(f), 0);
+  const sum = (of: (f: BodyHead) => number) => head.reduce((n, f) => n + of(f), 0);
   const read = (count: number) => [0, 1, 2].map(() => stream.column(count));
   const places = read(sum((f) => f.vertices));
   const corners = read(sum((f) => f.triangles));

@@ -3,6 +3,7 @@ import { BufferAttribute, BufferGeometry, type Camera, Group, LineBasicMaterial,
 import { LineMaterial } from "three/examples/jsm/lines/LineMaterial.js";
 import { LineSegments2 } from "three/examples/jsm/lines/LineSegments2.js";
 import { LineSegmentsGeometry } from "three/examples/jsm/lines/LineSegmentsGeometry.js";
+import { type Quantity, engagedLines } from "./engaged";
 import { colour } from "./theme";
 import type { Track } from "./track";
 
@@ -24,12 +25,17 @@ export class PathLines {
   readonly group = new Group();
   private readonly roles: Role[] = [];
   private readonly highlight: LineSegments2;
+  /** The path in colours of engagement; made when it is first wanted. */
+  private engaged: Role | null = null;
+  private by: Quantity | "" = "";
+  private last = Infinity;
+  private readonly wide: boolean;
 
   constructor(private readonly track: Track, size: number) {
     const { first, points } = track;
     let segments = 0;
     for (let p = 0; p < track.pieces; p++) segments += first[p + 1] - first[p] - 1;
-    const wide = segments <= WIDE;
+    const wide = (this.wide = segments <= WIDE);
     track.head.roles.forEach((name, role) => {
       const xyz: number[] = [];
       const piece: number[] = [];
@@ -72,6 +78,39 @@ export class PathLines {
   recolour(): void {
     for (const role of this.roles) for (const o of role.objects) o.material.color = colour(role.name);
     this.highlight.material.color = colour("accent");
+    if (this.by) this.colourBy(this.by);
+  }
+
+  /** Colours the path by a quantity of engagement, or by what each move is for. */
+  colourBy(quantity: Quantity | ""): void {
+    this.by = quantity;
+    for (const o of this.engaged?.objects ?? []) {
+      this.group.remove(o);
+      o.geometry.dispose();
+      o.material.dispose();
+    }
+    this.engaged = quantity ? this.inColours(quantity) : null;
+    for (const role of this.roles) if (role.name !== "rapid") for (const o of role.objects) o.visible = !this.engaged;
+    this.upTo(this.last);
+  }
+
+  private inColours(quantity: Quantity): Role {
+    const { xyz, rgb, piece } = engagedLines(this.track, quantity);
+    const objects = [true, false].map((front) => {
+      const look = { depthTest: front, transparent: !front, opacity: front ? 1 : 0.22, depthWrite: front, vertexColors: true };
+      let line: Role["objects"][number];
+      if (this.wide) {
+        line = new LineSegments2(new LineSegmentsGeometry().setPositions(xyz).setColors(rgb), new LineMaterial({ ...look, linewidth: WIDTH.finish }));
+      } else {
+        const geometry = new BufferGeometry().setAttribute("position", new BufferAttribute(Float32Array.from(xyz), 3));
+        line = new LineSegments(geometry.setAttribute("color", new BufferAttribute(Float32Array.from(rgb), 3)), new LineBasicMaterial(look));
+      }
+      line.renderOrder = front ? 3 : 2;
+      line.frustumCulled = false;
+      this.group.add(line);
+      return line;
+    });
+    return { name: "engaged", objects, piece: Uint32Array.from(piece) };
   }
 
   showRapids(on: boolean): void {
@@ -80,7 +119,8 @@ export class PathLines {
 
   /** Shows the path up to and with a piece; all of it with infinity. */
   upTo(last: number): void {
-    for (const role of this.roles) {
+    this.last = last;
+    for (const role of this.engaged ? [...this.roles, this.engaged] : this.roles) {
       let [lo, hi] = [0, role.piece.length];
       while (lo < hi) {
         const mid = (lo + hi) >> 1;
@@ -110,7 +150,7 @@ export class PathLines {
   /** The piece nearest to a place on the screen [px], and how far along it; null when none is near. */
   pick(x: number, y: number, camera: Camera, width: number, height: number): { piece: number; part: number } | null {
     const { first, points, role } = this.track;
-    const hidden = this.roles.filter((r) => !r.objects[0].visible).map((r) => this.track.head.roles.indexOf(r.name));
+    const hidden = this.roles.filter((r) => !r.objects[0].visible && (!this.engaged || r.name === "rapid")).map((r) => this.track.head.roles.indexOf(r.name));
     const v = new Vector3();
     let best = NEAR * NEAR;
     let found: { piece: number; part: number } | null = null;

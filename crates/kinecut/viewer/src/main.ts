@@ -38,6 +38,14 @@ function startBar(view: View): void {
     // A browser may remember the state of a box from the last visit.
     set(false);
   }
+  const by = element<HTMLSelectElement>("kc-colour");
+  const scale = element("kc-scale");
+  by?.addEventListener("change", () => {
+    const most = view.colourPath(by.value as "" | "arc" | "chip");
+    if (!scale) return;
+    scale.hidden = by.value === "";
+    scale.querySelector("span:last-child")?.replaceChildren(by.value === "arc" ? `${most.toFixed(0)}° and more` : `${most.toFixed(3)} mm`);
+  });
   const [axis, place, at] = [element<HTMLSelectElement>("kc-clip-axis"), element<HTMLInputElement>("kc-clip"), element("kc-clip-at")];
   if (!axis || !place || !at) return;
   const cut = () => {

@@ -6,7 +6,8 @@ import {
 } from "three";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
 import { type Head, type PartData, part as readPart } from "./decode";
-import { Fixtures } from "./fixtures";
+import { type Quantity, greatest } from "./engaged";
+import { Fixtures, Machine } from "./bodies";
 import { PathLines } from "./lines";
 import { bandTexture, geometry } from "./mesh";
 import { Overlay } from "./overlay";
@@ -38,6 +39,7 @@ export class View {
   private readonly lines: PathLines | null;
   private readonly overlay: Overlay;
   private readonly fixtures: Fixtures;
+  private readonly machine: Machine | null;
   private readonly clip = new Plane(new Vector3(0, 0, -1), 0);
   private readonly bounds = new Box3();
   private readonly data: PartData | null = null;
@@ -76,6 +78,8 @@ export class View {
       return new LatheGeometry(outline.map(([r, h]) => new Vector2(r, h)), 40).rotateX(Math.PI / 2);
     });
     this.fixtures = new Fixtures(head.fixtures);
+    this.machine = head.machine ? new Machine(head.machine, track) : null;
+    if (this.machine) this.scene.add(this.machine.group);
     this.tool.visible = false;
     this.tool.renderOrder = 4;
     const light = new DirectionalLight(0xffffff, 2.1);
@@ -147,6 +151,7 @@ export class View {
     this.lines?.recolour();
     this.stock?.recolour();
     this.fixtures.recolour();
+    this.machine?.recolour();
     this.draw();
   }
 
@@ -182,8 +187,10 @@ export class View {
   look(name: string): void {
     const direction = new Vector3(...(VIEWS[name] ?? VIEWS.iso)).normalize();
     if (name === "iso") direction.multiply(this.facing);
-    const centre = this.bounds.getCenter(new Vector3());
-    const radius = this.bounds.getSize(new Vector3()).length() / 2 || 1;
+    const bounds = this.bounds.clone();
+    if (this.machine?.group.visible) bounds.expandByObject(this.machine.group);
+    const centre = bounds.getCenter(new Vector3());
+    const radius = bounds.getSize(new Vector3()).length() / 2 || 1;
     this.camera.position.copy(centre).addScaledVector(direction, 20 * radius);
     this.camera.near = 0;
     this.camera.far = 40 * radius;
@@ -192,7 +199,7 @@ export class View {
     const toCamera = this.camera.matrixWorld.clone().invert();
     let [x, y] = [0, 0];
     for (let i = 0; i < 8; i++) {
-      const { min, max } = this.bounds;
+      const { min, max } = bounds;
       const v = new Vector3(i & 1 ? max.x : min.x, i & 2 ? max.y : min.y, i & 4 ? max.z : min.z).applyMatrix4(toCamera);
       x = Math.max(x, Math.abs(v.x));
       y = Math.max(y, Math.abs(v.y));
@@ -227,12 +234,23 @@ export class View {
     }
     if (what === "path" && this.lines) this.lines.group.visible = on;
     if (what === "fixtures") this.fixtures.group.visible = on;
+    if (what === "machine" && this.machine && this.machine.group.visible !== on) {
+      this.machine.group.visible = on;
+      this.look("iso");
+    }
     if (what === "rapids") this.lines?.showRapids(on);
     if (what === "past" || what === "tool") {
       this.shown[what] = on;
       this.follow(this.cursor.place, "switch");
     }
     this.draw();
+  }
+
+  /** Colours the path; tells the end of the scale, 0 where it has none. */
+  colourPath(quantity: Quantity | ""): number {
+    this.lines?.colourBy(quantity);
+    this.draw();
+    return quantity === "" ? 0 : greatest(this.track, quantity);
   }
 
   /** Cuts the part open across an axis; `share` from 0 to 1 through it. Returns the place [mm], null when off. */
@@ -287,6 +305,7 @@ export class View {
     this.showMoment();
     this.overlay.point = null;
     this.fixtures.at(place.line);
+    this.machine?.at(place);
     if (place.piece < 0) {
       lines?.mark(0, 0);
       lines?.upTo(Infinity);

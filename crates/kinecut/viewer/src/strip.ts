@@ -17,10 +17,16 @@ export function startStrip(track: Track): void {
     Object.assign(canvas, { width, height });
     const columns = new Float32Array(width);
     for (let p = 0; p < track.pieces; p++) {
-      if (!(track.chip[p] > 0)) continue;
       const from = p > 0 ? track.timeEnd[p - 1] : 0;
-      const [a, b] = [from, track.timeEnd[p]].map((t) => Math.min(width - 1, Math.floor((t / track.totalTime) * width)));
-      for (let x = a; x <= b; x++) columns[x] = Math.max(columns[x], track.chip[p]);
+      const column = (share: number) => {
+        const time = from + (track.timeEnd[p] - from) * share;
+        return Math.min(width - 1, Math.floor((time / track.totalTime) * width));
+      };
+      for (let run = track.firstEngaged[p], before = 0; run < track.firstEngaged[p + 1]; before = track.engagedEnd[run++]) {
+        const chip = track.chip[run];
+        if (!(chip > 0)) continue;
+        for (let x = column(before); x <= column(track.engagedEnd[run]); x++) columns[x] = Math.max(columns[x], chip);
+      }
     }
     const pen = canvas.getContext("2d") as CanvasRenderingContext2D;
     pen.fillStyle = `#${colour("accent").getHexString()}`;

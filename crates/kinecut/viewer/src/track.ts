@@ -27,13 +27,19 @@ export class Track {
   readonly lengthEnd: Float64Array;
   /** Part of the way of all cutting moves that is done at the end of each piece, from 0 to 1. */
   readonly doneEnd: Float64Array;
-  /** Greatest thickness of a chip in each piece [mm]; NaN where it is not known. */
+  /** Runs of engagement: first of each piece, one more entry at the end; fraction of the piece at the end of each, arc of contact
+   * [degrees], greatest thickness of a chip [mm], NaN where it is not known. */
+  readonly firstEngaged: Uint32Array;
+  readonly engagedEnd: Float32Array;
+  readonly arc: Float32Array;
   readonly chip: Float32Array;
   /** Time [s] and length [mm] of each program line, as the program gives them. */
   readonly lineTime: Float64Array;
   readonly lineLength: Float64Array;
   /** Whether times are known; if not, the time line counts millimetres. */
   readonly timed: boolean;
+  /** Position of each joint at each point [mm or rad]. */
+  private readonly jointColumns: Float32Array[];
   private readonly firstPiece: Int32Array;
 
   constructor(readonly head: Head) {
@@ -53,18 +59,27 @@ export class Track {
     this.axes = new Float32Array(3 * head.path.axes);
     for (let k = 0; k < 3; k++) stream.column(head.path.axes).forEach((v, i) => (this.axes[3 * i + k] = v * head.path.axis_step));
     this.doneEnd = stream.column(n).map((v) => v * head.path.done_step);
-    this.chip = Float32Array.from(stream.column(n), (v) => (v === 0 ? NaN : (v - 1) / 1000));
+    this.firstEngaged = new Uint32Array(n + 1);
+    stream.column(n).forEach((count, p) => (this.firstEngaged[p + 1] = this.firstEngaged[p] + count));
+    const runs = head.path.runs;
+    this.engagedEnd = Float32Array.from(stream.column(runs), (v) => v * head.path.run_step);
+    this.arc = Float32Array.from(stream.column(runs));
+    this.chip = Float32Array.from(stream.column(runs), (v) => (v === 0 ? NaN : (v - 1) / 1000));
+    const positions = (head.machine?.joints ?? []).map(() => stream.column(head.path.points));
     // A piece that goes on from the end of the one before has that point too.
     for (let p = 0; p < n; p++) this.first[p + 1] = this.first[p] + (counts[p] >> 1) + (counts[p] & 1);
     this.points = new Float32Array(3 * this.first[n]);
+    this.jointColumns = positions.map(() => new Float32Array(this.first[n]));
     let [from, to] = [0, 0];
     for (let p = 0; p < n; p++) {
       if (counts[p] & 1) {
         this.points.copyWithin(3 * to, 3 * to - 3, 3 * to);
+        for (const q of this.jointColumns) q[to] = q[to - 1];
         to++;
       }
       for (let i = counts[p] >> 1; i > 0; i--, from++, to++) {
         for (let k = 0; k < 3; k++) this.points[3 * to + k] = columns[k][from] * head.path.step;
+        this.jointColumns.forEach((q, k) => (q[to] = positions[k][from] * head.path.joint_step));
       }
     }
 
@@ -185,19 +200,31 @@ export class Track {
     return start + (ends[place.piece] - start) * place.part;
   }
 
-  /** The tool tip at a place; null off the path. */
-  tip(place: Place): [number, number, number] | null {
-    const { piece, part } = place;
-    if (piece < 0) return null;
+  /** The point before a place and that after it, and the share of the way between them; null off the path. */
+  private between({ piece, part }: Place): { i: number; j: number; t: number } | null {
+    if (piece < 0 || piece >= this.pieces) return null;
     let left = this.pieceLength(piece) * part;
     const [a, b] = [this.first[piece], this.first[piece + 1] - 1];
     let i = a;
     while (i < b && this.gap(i + 1) < left) left -= this.gap(++i);
+    // On the spot the share is that of the piece.
+    const t = i < b ? (this.gap(i + 1) > 0 ? left / this.gap(i + 1) : part) : 0;
+    return { i, j: Math.min(i + 1, b), t };
+  }
+
+  /** The tool tip at a place; null off the path. */
+  tip(place: Place): [number, number, number] | null {
+    const at = this.between(place);
+    if (!at) return null;
     const p = this.points;
-    const t = i < b && this.gap(i + 1) > 0 ? left / this.gap(i + 1) : 0;
-    const j = Math.min(i + 1, b);
-    const mix = (k: number) => p[3 * i + k] + (p[3 * j + k] - p[3 * i + k]) * t;
+    const mix = (k: number) => p[3 * at.i + k] + (p[3 * at.j + k] - p[3 * at.i + k]) * at.t;
     return [mix(0), mix(1), mix(2)];
+  }
+
+  /** Positions of the joints of the machine at a place [mm or rad]; null off the path. */
+  joints(place: Place): number[] | null {
+    const at = this.between(place);
+    return at && this.jointColumns.map((q) => q[at.i] + (q[at.j] - q[at.i]) * at.t);
   }
 }
 

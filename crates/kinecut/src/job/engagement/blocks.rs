@@ -40,17 +40,6 @@ pub(crate) struct Block {
     pub(crate) chip: Option<f64>,
 }
 
-/// Greatest thickness of a chip on a segment [mm], where it is known.
-pub(crate) fn thickest_chip(
-    done: &SetupOutcome,
-    segment: &Segment,
-    moved: &MoveEngagement,
-    tools: &[Tool],
-) -> Option<f64> {
-    let advance = moved.stretches.iter().map(|s| s.advance).fold(0.0, f64::max);
-    Some(Chips::of(done, segment, tools)?.thickest(advance))
-}
-
 impl Block {
     /// A segment at feed by itself, in the block of a line.
     fn of(
@@ -62,6 +51,7 @@ impl Block {
     ) -> Block {
         let time = segment.duration.filter(|t| *t > 0.0);
         let greatest = |of: fn(&EngagedStretch) -> f64| moved.stretches.iter().map(of).fold(0.0, f64::max);
+        let chips = Chips::of(done, segment, tools);
         let length = segment.curve.length();
         Block {
             line,
@@ -74,7 +64,7 @@ impl Block {
             depth: greatest(|s| s.depth),
             width: greatest(|s| s.width),
             rate: time.map(|time| rates(moved).into_iter().fold(0.0, f64::max) / time),
-            chip: thickest_chip(done, segment, moved, tools),
+            chip: chips.map(|chips| chips.thickest(greatest(|s| s.advance))),
         }
     }
 

@@ -23,7 +23,7 @@ pub(crate) struct Course {
 }
 
 /// The thickest chip of a tool by its way into the material, which is given in mm by fraction of a segment.
-pub(super) struct Chips<'a> {
+pub(crate) struct Chips<'a> {
     tool: &'a Tool,
     /// Turns of the spindle in the segment at the programmed feed.
     turns: f64,
@@ -31,7 +31,7 @@ pub(super) struct Chips<'a> {
 
 impl Chips<'_> {
     /// Of a segment; `None` where spindle or feed is not known, and of taps.
-    pub(super) fn of<'a>(done: &SetupOutcome, segment: &Segment, tools: &'a [Tool]) -> Option<Chips<'a>> {
+    pub(crate) fn of<'a>(done: &SetupOutcome, segment: &Segment, tools: &'a [Tool]) -> Option<Chips<'a>> {
         let tool = tools.iter().find(|t| Some(t.number) == segment.tool)?;
         let rate = done.program.state(segment.item as usize).spindle.rate() / TAU;
         let turns = segment.duration? * rate;
@@ -39,7 +39,7 @@ impl Chips<'_> {
     }
 
     /// The thickest [mm].
-    pub(super) fn thickest(&self, advance: f64) -> f64 {
+    pub(crate) fn thickest(&self, advance: f64) -> f64 {
         if advance > 0.0 {
             self.tool.spacing.thickest_chip(self.tool.teeth, advance / self.turns)
         } else {

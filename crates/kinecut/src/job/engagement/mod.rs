@@ -12,8 +12,8 @@ use crate::stock::TriDexel;
 use crate::stock::cut::{MoveEngagement, adjust_volumes, engagements};
 
 pub use blocks::engagement_json;
-pub(crate) use blocks::{Block, blocks, thickest_chip};
-pub(crate) use course::{Course, course};
+pub(crate) use blocks::{Block, blocks};
+pub(crate) use course::{Chips, Course, course};
 
 /// Moves below which engagement is measured unasked.
 const FEW: u64 = 20_000;

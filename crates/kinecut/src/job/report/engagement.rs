@@ -1,9 +1,12 @@
 //! Section of a report on the engagement of the tools: the greatest of each tool, and its course over the time of the program.
 
-use crate::job::engagement::{Block, Course, blocks, course};
-use crate::job::{Engagement, Outcome};
+use super::EngagedRun;
+use crate::job::engagement::{Block, Chips, Course, blocks, course};
+use crate::job::{Engagement, Outcome, SetupOutcome};
 use crate::page::{Cell, Chart, Follows, Row, Section, Table, fixed};
-use crate::tool::ToolNumber;
+use crate::stock::cut::MoveEngagement;
+use crate::tool::{Tool, ToolNumber};
+use crate::trace::Segment;
 
 /// The section; `begins`: for each line of all programs the time at which it begins [s]; none where engagement was not measured.
 pub(super) fn section(outcome: &Outcome, begins: &[f64], first_lines: &[u32]) -> Option<Section> {
@@ -53,6 +56,42 @@ fn notes(all: &Engagement) -> [String; 3] {
             "The volumes of the moves, rapid ones too, added up to {share:.1} % of what is gone from the stock, and are adjusted to it."
         ),
     ]
+}
+
+/// The course along a segment for the 3-D view; runs that are nearly alike are one.
+pub(super) fn runs(
+    setup: &SetupOutcome,
+    segment: &Segment,
+    moved: &MoveEngagement,
+    tools: &[Tool],
+) -> Vec<EngagedRun> {
+    let chips = Chips::of(setup, segment, tools);
+    let chip = |advance: f64| chips.as_ref().map(|chips| chips.thickest(advance) as f32);
+    let mut runs: Vec<EngagedRun> = Vec::new();
+    let mut add = |run: EngagedRun| match runs.last_mut() {
+        Some(last) if are_alike(last, &run) => last.to = run.to,
+        _ => runs.push(run),
+    };
+    let mut done = 0.0;
+    for stretch in &moved.stretches {
+        if stretch.from > done + 1e-9 {
+            add(EngagedRun { to: stretch.from as f32, arc: 0.0, chip: chip(0.0) });
+        }
+        let arc = stretch.arc.to_degrees() as f32;
+        add(EngagedRun { to: stretch.to as f32, arc, chip: chip(stretch.advance) });
+        done = stretch.to;
+    }
+    if done > 0.0 && done < 1.0 - 1e-9 {
+        add(EngagedRun { to: 1.0, arc: 0.0, chip: chip(0.0) });
+    }
+    runs
+}
+
+/// Whether two runs have one colour in the 3-D view, nearly: within three degrees and a thirtieth of the thickness of the chip.
+fn are_alike(a: &EngagedRun, b: &EngagedRun) -> bool {
+    let chips = [a, b].map(|run| run.chip.unwrap_or(-1.0));
+    let chip = (chips[0] - chips[1]).abs() <= chips[0].max(chips[1]) / 30.0;
+    (a.arc - b.arc).abs() <= 3.0 && (a.arc == 0.0) == (b.arc == 0.0) && chip
 }
 
 /// Cubic centimetres a minute in a cubic millimetre a second.

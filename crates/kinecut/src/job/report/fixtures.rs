@@ -2,7 +2,7 @@
 
 use glam::{DVec2, DVec3};
 
-use super::FixtureView;
+use super::{BodyView, FixtureView};
 use crate::contact::Meeting;
 use crate::geom::{Rigid, Solid, convex_hull};
 use crate::job::contacts::LOOK;
@@ -47,16 +47,7 @@ pub(super) fn views(outcome: &Outcome, first_lines: &[u32], lines: u32) -> Vec<F
         let to_part = setup.part_on_table.inverse();
         views.extend(setup.fixtures.iter().map(|fixture| {
             let facets = Facets::of(&fixture.solid, &to_part.after(&fixture.place));
-            let fan = |face: &Vec<u32>| {
-                let pairs = face.windows(2).skip(1);
-                pairs.map(|pair| [face[0], pair[0], pair[1]]).collect::<Vec<_>>()
-            };
-            FixtureView {
-                name: fixture.name.clone(),
-                lines: lines.into(),
-                vertices: facets.corners.iter().map(|c| c.as_vec3().to_array()).collect(),
-                triangles: facets.faces.iter().flat_map(fan).collect(),
-            }
+            FixtureView { lines: lines.into(), body: BodyView::new(&fixture.name, &facets) }
         }));
     }
     views

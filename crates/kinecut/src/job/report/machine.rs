@@ -2,20 +2,22 @@
 
 use std::fmt::Write;
 
-use glam::DVec3;
+use glam::{DVec3, Vec3};
 
+use super::{BodyView, JointView, MachineSetup, MachineView, PathPiece};
 use crate::contact::{MachineMeeting, Party};
 use crate::geom::{Rigid, Solid};
-use crate::job::check::Job;
+use crate::job::check::{Job, JobSetup};
 use crate::job::contacts::LOOK;
 use crate::job::contacts::machine::{BodyKind, MachineContacts};
 use crate::job::machine::write::link_name;
 use crate::job::{Outcome, SetupOutcome};
-use crate::machine::{JointValues, Machine};
+use crate::machine::{Body, Joint, JointValues, Link, Machine};
 use crate::page::draw::{Cover, FacePiece, Facets, View, put_faces};
 use crate::page::{Cell, Colour, Ink, Picture, Row, Section, Table, Tint, Width};
 use crate::program::Setup;
 use crate::tool::Tool;
+use crate::trace::Segment;
 
 /// Most pictures of contacts of a setup.
 const MOST_DRAWN: usize = 3;
@@ -49,6 +51,76 @@ pub(super) fn section(outcome: &Outcome, first_lines: &[u32], page: bool) -> Opt
         section = section.with(shown.table(&of));
     }
     (!section.blocks.is_empty()).then_some(section)
+}
+
+/// The machine for the 3-D view; none where it has no bodies, or where the positions of its axes are not known along the whole `path`. The
+/// programs have so many `lines` together.
+pub(super) fn view(
+    outcome: &Outcome,
+    path: &[PathPiece],
+    first_lines: &[u32],
+    lines: u32,
+) -> Option<MachineView> {
+    let machine = outcome.job.machine.as_ref().filter(|machine| !machine.bodies.is_empty())?;
+    let count = machine.joints.len();
+    let compared = outcome.simulation.machine.iter().flatten().any(|c| c.not_compared.is_none());
+    let known = |piece: &PathPiece| {
+        piece.joints.len() == count * piece.points.len() && piece.joints.iter().all(|q| q.is_finite())
+    };
+    if !compared || !path.iter().all(known) {
+        return None;
+    }
+    let joint = |joint: &Joint| JointView {
+        rotary: joint.motion.is_rotation(),
+        direction: (joint.direction * joint.sense).to_array(),
+        point: joint.point.to_array(),
+    };
+    let body = |body: &Body| {
+        let link = match body.link {
+            Link::Bed => None,
+            Link::Axis(joint) => Some(joint),
+        };
+        (link, BodyView::new(&body.name, &Facets::of(&body.solid, &body.place)))
+    };
+    let ends = first_lines.iter().copied().skip(1).chain([lines]);
+    let setups = outcome.job.setups.iter().zip(first_lines.iter().copied().zip(ends));
+    let setup = |(setup, lines): (&JobSetup, (u32, u32))| {
+        let part = machine.work.after(&setup.clamping.setup.part_on_table);
+        let mut columns = [0.0; 12];
+        columns[..9].copy_from_slice(&part.rotation.to_cols_array());
+        columns[9..].copy_from_slice(&part.translation.to_array());
+        MachineSetup { lines: lines.into(), part: columns }
+    };
+    Some(MachineView {
+        joints: machine.joints.iter().map(joint).collect(),
+        bed: machine.code.bed(),
+        setups: setups.map(setup).collect(),
+        bodies: machine.bodies.iter().map(body).collect(),
+    })
+}
+
+/// Positions of the joints of a machine at points of a segment [mm or rad]; nothing where they are not known.
+pub(super) fn joints(machine: &Machine, segment: &Segment, points: &[[f32; 3]]) -> Vec<f32> {
+    let gap = |pair: &[[f32; 3]]| f64::from(Vec3::from(pair[0]).distance(Vec3::from(pair[1])));
+    let length: f64 = points.windows(2).map(gap).sum();
+    let mut done = 0.0;
+    let mut all = Vec::with_capacity(points.len() * machine.joints.len());
+    for (i, _) in points.iter().enumerate() {
+        done += if i > 0 { gap(&points[i - 1..=i]) } else { 0.0 };
+        // Of a move on the spot the last point is its end.
+        let t = if length > 0.0 {
+            done / length
+        } else if i > 0 {
+            1.0
+        } else {
+            0.0
+        };
+        let Some(axes) = segment.joints(t.min(1.0)) else { return Vec::new() };
+        all.extend(
+            machine.joints.iter().map(|joint| "XYZABC".find(joint.letter).map_or(0.0, |k| axes[k] as f32)),
+        );
+    }
+    all
 }
 
 /// A setup on a machine with bodies.

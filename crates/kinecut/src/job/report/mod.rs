@@ -29,8 +29,11 @@ mod thin;
 mod workspace;
 
 pub use deviation::{BAND_EDGES, Band, bands, extremes};
-pub use model::{FixtureView, PartView, ProgramPart, ProgramView, Report, ReportVerdict, ToolView};
+pub use model::{
+    BodyView, FixtureView, JointView, MachineSetup, MachineView, PartView, ProgramPart, ProgramView, Report,
+    ReportVerdict, ToolView,
+};
 pub use of_job::{of_job, of_job_in_words};
 pub use page::html;
-pub use path::{PathPiece, PathRole};
+pub use path::{EngagedRun, PathPiece, PathRole};
 pub use text::sections;

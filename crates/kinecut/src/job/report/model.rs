@@ -8,6 +8,7 @@ use super::PathPiece;
 use crate::base::Finding;
 use crate::geom::Mesh;
 use crate::job::{Judgement, ToEnsure, Unchecked};
+use crate::page::draw::Facets;
 use crate::page::{Fact, Section, serde_gap};
 use crate::stock::cut::PlayedSurface;
 
@@ -35,6 +36,9 @@ pub struct Report {
     /// Clamps and fixtures.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub fixtures: Vec<FixtureView>,
+    /// The machine, where it has bodies and the positions of its axes are known all along the path.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub machine: Option<MachineView>,
     /// The path of the tool in order.
     pub path: Vec<PathPiece>,
     /// The program text that was proven.
@@ -60,6 +64,7 @@ impl Report {
             drawn_step: None,
             playback: None,
             fixtures: Vec::new(),
+            machine: None,
             path: Vec::new(),
             program: None,
             tools: Vec::new(),
@@ -141,17 +146,72 @@ impl PartView {
     }
 }
 
-/// A body of a clamp or fixture, in part coordinates.
+/// A body as a mesh.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct FixtureView {
+pub struct BodyView {
     /// Its name.
     pub name: String,
-    /// Lines of the programs in which it is there: from the first to before the last.
-    pub lines: [u32; 2],
     /// Vertices [mm].
     pub vertices: Vec<[f32; 3]>,
     /// Triangles, counter-clockwise seen from outside.
     pub triangles: Vec<[u32; 3]>,
+}
+
+impl BodyView {
+    /// The view of faces.
+    pub(super) fn new(name: &str, facets: &Facets) -> BodyView {
+        let fan = |face: &Vec<u32>| {
+            let pairs = face.windows(2).skip(1);
+            pairs.map(|pair| [face[0], pair[0], pair[1]]).collect::<Vec<_>>()
+        };
+        BodyView {
+            name: name.to_owned(),
+            vertices: facets.corners.iter().map(|c| c.as_vec3().to_array()).collect(),
+            triangles: facets.faces.iter().flat_map(fan).collect(),
+        }
+    }
+}
+
+/// A body of a clamp or fixture.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct FixtureView {
+    /// Lines of the programs in which it is there: from the first to before the last.
+    pub lines: [u32; 2],
+    /// The body, in part coordinates.
+    pub body: BodyView,
+}
+
+/// A machine with bodies: their places follow from [`PathPiece::joints`].
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct MachineView {
+    /// Joints from the work to the tool.
+    pub joints: Vec<JointView>,
+    /// Number of joints before the bed: those carry the work.
+    pub bed: usize,
+    /// Place of the part in each setup.
+    pub setups: Vec<MachineSetup>,
+    /// Bodies at home in the frame of the machine, each with the joint that moves its link; of the bed none.
+    pub bodies: Vec<(Option<usize>, BodyView)>,
+}
+
+/// A joint of a machine.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct JointView {
+    /// It turns about an axis; else it moves along a direction.
+    pub rotary: bool,
+    /// Direction for values that grow, unit.
+    pub direction: [f64; 3],
+    /// A point of the axis [mm].
+    pub point: [f64; 3],
+}
+
+/// Place of the part on a machine.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct MachineSetup {
+    /// Lines of the programs: from the first to before the last.
+    pub lines: [u32; 2],
+    /// Part coordinates in the frame of the machine at home: columns of the rotation, then the translation [mm].
+    pub part: [f64; 12],
 }
 
 /// The program text.

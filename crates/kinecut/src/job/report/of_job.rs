@@ -4,7 +4,6 @@ use super::model::{PartView, ProgramPart, ProgramView, Report, ReportVerdict, To
 use super::{PathPiece, PathRole, before_run, engagement, fixtures, machine};
 use crate::base::at_most;
 use crate::geom::ProfileElement;
-use crate::job::engagement::thickest_chip;
 use crate::job::feeds::lowered_words;
 use crate::job::held_feed::HeldFeed;
 use crate::job::simulate::Simulation;
@@ -61,6 +60,7 @@ fn with(outcome: &Outcome, page: bool) -> Report {
     }
     if page {
         report.fixtures = fixtures::views(outcome, &first_lines, view.lines.len() as u32);
+        report.machine = machine::view(outcome, &report.path, &first_lines, view.lines.len() as u32);
         report.playback = outcome.simulation.playback.as_ref().map(|played| played.surface.clone());
     }
     let begins = sums(&view.time);
@@ -277,9 +277,11 @@ fn path(outcome: &Outcome, number: usize, offset: u32, path: &mut Vec<PathPiece>
             outcome.job.tools.iter().position(|t| Some(t.number) == segment.tool).unwrap_or(0) as u32;
         piece.axis = segment.axis.as_vec3().to_array();
         piece.done = clock.map_or(0.0, |(clock, first)| clock.done(first + index, 1.0) as f32);
-        piece.chip = engaged
-            .and_then(|moves| thickest_chip(setup, segment, &moves[index], &outcome.job.tools))
-            .map(|mm| mm as f32);
+        piece.engaged = engaged
+            .map_or(Vec::new(), |moves| engagement::runs(setup, segment, &moves[index], &outcome.job.tools));
+        if let Some(machine) = outcome.job.machine.as_ref().filter(|machine| !machine.bodies.is_empty()) {
+            piece.joints = machine::joints(machine, segment, &piece.points);
+        }
         path.push(piece);
     }
 }

@@ -54,6 +54,18 @@ impl PathRole {
     }
 }
 
+/// A stretch of a piece of path with the engagement of its tool.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct EngagedRun {
+    /// Fraction of the piece at its end.
+    pub to: f32,
+    /// Arc of contact [degrees]; 0 in air.
+    pub arc: f32,
+    /// Greatest thickness of a chip [mm], where it is known.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub chip: Option<f32>,
+}
+
 /// A stretch of tool tip path that one program line makes.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct PathPiece {
@@ -70,15 +82,28 @@ pub struct PathPiece {
     /// Part of the way of all moves that may take material that is done at its end, from 0 to 1.
     #[serde(default)]
     pub done: f32,
-    /// Greatest thickness of a chip on it [mm], where it is known.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub chip: Option<f32>,
+    /// Positions of the joints of the machine at each point [mm or rad], those of a point one after the other; empty where they are not
+    /// known.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub joints: Vec<f32>,
+    /// Engagement of the tool on it, from its beginning to its end; empty where it was not measured, or is air.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub engaged: Vec<EngagedRun>,
 }
 
 impl PathPiece {
     /// A piece cut by the first tool with its axis along Z.
     pub fn new(block: u32, role: PathRole, points: Vec<[f32; 3]>) -> PathPiece {
-        PathPiece { block, role, tool: 0, axis: [0.0, 0.0, 1.0], points, done: 0.0, chip: None }
+        PathPiece {
+            block,
+            role,
+            tool: 0,
+            axis: [0.0, 0.0, 1.0],
+            points,
+            done: 0.0,
+            joints: Vec::new(),
+            engaged: Vec::new(),
+        }
     }
 }
 

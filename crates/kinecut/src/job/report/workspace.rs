@@ -49,6 +49,16 @@ fn view(report: &Report, scene: &Scene) -> Markup {
                         (switch("past", "Only up to here", false))
                         (switch("tool", "Tool", true))
                         @if !report.fixtures.is_empty() { (switch("fixtures", "Fixtures", true)) }
+                        @if report.machine.is_some() { (switch("machine", "Machine", false)) }
+                    }
+                }
+                @if report.path.iter().any(|piece| !piece.engaged.is_empty()) {
+                    label { "Path by "
+                        select #kc-colour {
+                            @for (value, word) in [("", "move"), ("arc", "arc of contact"), ("chip", "chip")] {
+                                option value=(value) { (word) }
+                            }
+                        }
                     }
                 }
                 span.group {
@@ -75,6 +85,7 @@ fn view(report: &Report, scene: &Scene) -> Markup {
                     }
                 }
                 div #kc-readout.readout.script aria-live="off" {}
+                div #kc-scale hidden { span { "0" } i aria-hidden="true" {} span {} }
                 @if let Some(part) = &report.part { (legend(part, scene)) }
                 @if let Some(played) = &report.playback {
                     p.moment.quiet.script { "Stock at this moment, of points " (trimmed(played.step, 2)) " mm apart" }

@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 
 /// Names of the colours, with those for light and for dark.
-const COLOURS: [(&str, &str, &str); 65] = [
+const COLOURS: [(&str, &str, &str); 66] = [
     ("page", "#f3f4f6", "#101316"),
     ("panel", "#ffffff", "#181c20"),
     ("sunk", "#eaecef", "#22272d"),
@@ -34,6 +34,7 @@ const COLOURS: [(&str, &str, &str); 65] = [
     ("part", "#d9d5cc", "#a9a59c"),
     ("cut", "#8d97a3", "#5c6773"),
     ("steel", "#5f7081", "#a9bac9"),
+    ("machine", "#8a929b", "#9aa3ad"),
     ("fixture", "#707a85", "#8a939d"),
     ("raw", "#ccc6ba", "#a8a296"),
     ("milled", "#99a7b6", "#8795a4"),
@@ -86,6 +87,9 @@ fn variables(dark: bool) -> String {
     for (name, light, night) in &COLOURS {
         // Writing to a String cannot fail.
         let _ = write!(out, ";--{name}:{}", if dark { night } else { light });
+    }
+    for (i, step) in SCALE.iter().enumerate() {
+        let _ = write!(out, ";--scale{i}:{step}");
     }
     out
 }

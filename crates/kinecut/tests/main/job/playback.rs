@@ -1,8 +1,9 @@
 //! The stock over time in a job: its last moment is the part of the verdict, its first one the raw stock.
 
-use glam::DVec3;
-use kinecut::base::{MemoryLoader, Silent};
+use glam::{DAffine3, DQuat, DVec3};
+use kinecut::base::{DiskLoader, MemoryLoader, Silent};
 use kinecut::geom::{Mesh, MeshDistance};
+use kinecut::job::report::JointView;
 use kinecut::job::{Outcome, RunWants, StockWants, report, run_with};
 use kinecut::stock::cut::PlayedSurface;
 
@@ -70,7 +71,9 @@ fn the_report_has_it_with_the_time_of_each_piece_where_it_is_wanted() {
     assert!(done.windows(2).all(|pair| pair[0] <= pair[1]), "{done:?}");
     assert!(done[0] < 0.1 && done[done.len() - 1] == 1.0, "{done:?}");
     // The slot.
-    let chips: Vec<f32> = report.path.iter().filter_map(|piece| piece.chip).collect();
+    let runs = report.path.iter().flat_map(|piece| &piece.engaged);
+    let chips: Vec<f32> =
+        runs.filter(|run| (run.arc - 180.0).abs() < 2.0).filter_map(|run| run.chip).collect();
     assert!(chips.iter().any(|chip| (chip - 400.0 / 3000.0 / 2.0).abs() < 1e-4), "{chips:?}");
     let page = report::html(&report);
     assert!(
@@ -78,4 +81,45 @@ fn the_report_has_it_with_the_time_of_each_piece_where_it_is_wanted() {
     );
     let without = report::html(&report::of_job(&outcome(&job("fanuc", PLAIN), false)));
     assert!(without.contains("\"playback\":null") && !without.contains("Stock now"));
+}
+
+/// The data of the machine in the 3-D view, followed by arithmetic of this test: its spindle carries the tool tip along the path.
+#[test]
+fn the_machine_of_the_view_carries_the_tip_along_the_path() {
+    let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../examples/18_head_and_table");
+    let text = std::fs::read_to_string(folder.join("job.toml")).unwrap();
+    let done = run_with("job.toml", &text, &RunWants::default(), &DiskLoader::new(&folder), &Silent).unwrap();
+    let report = report::of_job(&done);
+    let view = report.machine.as_ref().unwrap();
+    let machine = done.job.machine.as_ref().unwrap();
+    assert_eq!((view.bed, view.bodies.len()), (machine.code.bed(), machine.bodies.len()));
+    let motion = |joint: &JointView, q: f64| {
+        let (direction, point) = (DVec3::from(joint.direction), DVec3::from(joint.point));
+        if !joint.rotary {
+            return DAffine3::from_translation(direction * q);
+        }
+        let there = DAffine3::from_translation(point);
+        there * DAffine3::from_quat(DQuat::from_axis_angle(direction, q)) * there.inverse()
+    };
+    let (mut compared, mut turned) = (0, 0);
+    for piece in &report.path {
+        let setup = view.setups.iter().find(|s| (s.lines[0]..s.lines[1]).contains(&piece.block)).unwrap();
+        let part = DAffine3::from_cols_array(&setup.part);
+        let length = done.job.tools[piece.tool as usize].gauge_length.unwrap();
+        let count = view.joints.len();
+        for (point, q) in piece.points.iter().zip(piece.joints.chunks(count)) {
+            let along = |range: std::ops::Range<usize>| {
+                range.fold(DAffine3::IDENTITY, |before, j| before * motion(&view.joints[j], f64::from(q[j])))
+            };
+            let spindle =
+                DAffine3::from_mat3_translation(machine.spindle.rotation, machine.spindle.translation);
+            let tip = along(view.bed..count) * spindle * DAffine3::from_translation(DVec3::Z * -length);
+            let of_part = part.inverse() * along(0..view.bed) * tip;
+            let off = of_part.translation.distance(DVec3::from(point.map(f64::from)));
+            assert!(off < 2e-3, "{off} {point:?} {q:?}");
+            compared += 1;
+            turned += usize::from(q.iter().zip(&view.joints).any(|(q, j)| j.rotary && q.abs() > 0.1));
+        }
+    }
+    assert!(compared > 50 && turned > 20, "{compared} {turned}");
 }

@@ -4,7 +4,7 @@
 //! Numbers are counted in steps and written as columns of differences, see [`numbers`]; each stream is deflated and written
 //! in base64. The reader is `viewer/src/decode.ts`.
 
-mod fixtures;
+mod bodies;
 mod listing;
 mod numbers;
 mod part;
@@ -15,7 +15,7 @@ use rayon::prelude::*;
 use serde::Serialize;
 
 use super::{PartView, PathRole, ProgramView, Report, thin};
-use fixtures::FixtureHead;
+use bodies::{FixtureHead, MachineHead};
 use numbers::{Numbers, packed, steps};
 use part::PartHead;
 use path::PathHead;
@@ -50,6 +50,7 @@ struct Head<'a> {
     part: Option<PartHead>,
     playback: Option<PlaybackHead>,
     fixtures: Vec<FixtureHead<'a>>,
+    machine: Option<MachineHead<'a>>,
     path: PathHead,
     tools: Vec<ToolHead>,
     roles: [&'static str; PathRole::ALL.len()],
@@ -76,7 +77,8 @@ pub(super) fn scene(report: &Report) -> Scene {
     let ((thinned, part, mut streams), (path, others)) =
         rayon::join(|| shown_part(report), || path_and_program(report));
     streams.extend(others);
-    let fixtures = fixtures::stream(&report.fixtures, &mut streams);
+    let fixtures = bodies::fixtures(&report.fixtures, &mut streams);
+    let machine = report.machine.as_ref().map(|machine| bodies::machine(machine, &mut streams));
     let playback = report.playback.as_ref().map(|played| playback::stream(played, &mut streams));
     let program = report.program.as_ref();
     let listed = program.filter(|p| packs_text(p)).map(ProgramView::programs).unwrap_or_default();
@@ -91,6 +93,7 @@ pub(super) fn scene(report: &Report) -> Scene {
         part,
         playback,
         fixtures,
+        machine,
         path,
         tools,
         roles: PathRole::ALL.map(PathRole::word),
@@ -114,7 +117,10 @@ fn shown_part(report: &Report) -> (Option<f64>, Option<PartHead>, Streams) {
 fn path_and_program(report: &Report) -> (PathHead, Streams) {
     let path = || {
         let mut streams = Streams::default();
-        (path::stream(&report.path, &mut streams), streams)
+        (
+            path::stream(&report.path, report.machine.as_ref().map_or(0, |m| m.joints.len()), &mut streams),
+            streams,
+        )
     };
     let program = || {
         let mut streams = Streams::default();
