@@ -59,7 +59,7 @@ impl PathRole {
 pub struct EngagedRun {
     /// Fraction of the piece at its end.
     pub to: f32,
-    /// Arc of contact [degrees]; 0 in air.
+    /// Arc of contact [deg]; 0 in air.
     pub arc: f32,
     /// Greatest thickness of a chip [mm], where it is known.
     #[serde(default, skip_serializing_if = "Option::is_none")]
