@@ -1,5 +1,7 @@
 //! The stock over time, for the 3-D view of the report: a pass of its own, with lines farther apart.
 
+use glam::DVec3;
+
 use super::check::Job;
 use super::closer::Story;
 use super::raw::{drill, raw_stock, take_out};
@@ -10,8 +12,8 @@ use crate::stock::cut::{Clock, Playback, PlayedSurface};
 
 /// Lattice cells of the stock of this pass, about.
 const CELLS: f64 = 1e6;
-/// Lines along the thinnest side of the stock.
-const LEAST_LINES: f64 = 4.0;
+/// Faces of the raw stock at most: of a large sheet they alone would be more than a page can have.
+const RAW_FACES: f64 = 3e5;
 /// Length of a tick in steps of the lattice.
 const TICK: f64 = 1.5;
 /// Most faces over time: of those some tenth is there at a moment, and a page has some 5 MB of them.
@@ -36,8 +38,13 @@ pub struct PlayedStock {
 
 /// Distance of the lines of the pass [mm]: that of the stock model, or more where that would be too many.
 pub(super) fn step(job: &Job) -> f64 {
-    let size = job.stock.bounds().size();
-    job.step.max((size.x * size.y * size.z / CELLS).cbrt().min(size.min_element() / LEAST_LINES))
+    job.step.max(step_for(job.stock.bounds().size()))
+}
+
+fn step_for(size: DVec3) -> f64 {
+    let usual = (size.x * size.y * size.z / CELLS).cbrt();
+    let area = 2.0 * (size.x * size.y + size.y * size.z + size.z * size.x);
+    usual.max((area / RAW_FACES).sqrt())
 }
 
 /// The stock of a job over time, where it is wanted.
@@ -84,4 +91,17 @@ fn pass(
     }
     let clock = playback.clock().clone();
     Ok((playback.surface(&stock, MOST_FACES), clock))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_block_has_a_million_points_and_a_large_sheet_no_more_faces_than_a_page_can_have() {
+        let block = step_for(DVec3::new(200.0, 200.0, 40.0));
+        assert!((block - 1.6f64.cbrt()).abs() < 1e-12);
+        let sheet = step_for(DVec3::new(2000.0, 1000.0, 3.0));
+        assert!((2.0 * (2e6 + 9e3) / sheet.powi(2) / 3e5 - 1.0).abs() < 1e-9, "{sheet}");
+    }
 }

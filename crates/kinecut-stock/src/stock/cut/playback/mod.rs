@@ -85,7 +85,8 @@ impl Playback {
     pub fn memory(bounds: Aabb, step: f64) -> u64 {
         /// Bytes of a point, its lines, and the faces about it while the surface is made.
         const OF_POINT: f64 = 100.0;
-        let size = bounds.size() / step;
+        // With the border.
+        let size = bounds.size() / step + 2.0;
         (size.x * size.y * size.z * OF_POINT) as u64
     }
 
