@@ -3,7 +3,7 @@
 
 use glam::{DVec2, DVec3};
 use kinecut_stock::base::Silent;
-use kinecut_stock::geom::{Aabb, Line, Profile};
+use kinecut_stock::geom::{Aabb, Curve, InvoluteRecord, Line, Profile};
 use kinecut_stock::stock::TriDexel;
 use kinecut_stock::stock::cut::{
     Clock, CutAxis, CutMove, Playback, PlayedFace, PlayedSurface, REMAINS, ToolBody,
@@ -120,7 +120,7 @@ fn tick(surface: &PlayedSurface, clock: &Clock, (number, fraction): (usize, f64)
     (clock.done(number, fraction) * f64::from(surface.ticks) + 0.5) as u16
 }
 
-/// How often the surface is crossed from below on a line upwards from a point, less how often from above.
+/// Number of faces above a point that look up, less those that look down: 1 inside of a closed surface, 0 outside.
 fn crossings(surface: &PlayedSurface, faces: &[&PlayedFace], p: DVec3) -> i32 {
     let mut sum = 0;
     for face in faces {
@@ -203,4 +203,67 @@ fn a_surface_in_few_faces_has_longer_ticks_and_ends_as_the_finer_one() {
     // Faces that remain at the end: those that came in the last, long state.
     let (few, many) = (ends(&coarse).len(), ends(&fine).len());
     assert!(few > 1000 && few <= many && many <= few + few / 4, "{few} {many}");
+}
+
+/// Faces along the axes are where they are, and not only within a step: floors and walls at heights that no line of the lattice has.
+#[test]
+fn flat_faces_are_exact_while_a_tool_is_on_its_way_and_after() {
+    let (surface, clock) = played(0.8, 1.2, 1_000_000);
+    let last = program().len();
+    let boxed = |low: [f64; 3], high: [f64; 3]| Aabb { min: low.into(), max: high.into() };
+    let places = [
+        // The second slot is cut half of its way, from X+.
+        ((1, 0.5), boxed([12.0, -3.5, -6.2], [28.0, 3.5, -4.4]), 2, -5.3),
+        ((1, 0.5), boxed([12.0, 4.2, -4.2], [28.0, 5.8, -3.0]), 1, 5.0),
+        ((1, 0.5), boxed([-28.0, -3.5, -3.0], [-12.0, 3.5, -1.2]), 2, -2.1),
+        ((2, 0.0), boxed([-25.0, -5.8, -4.2], [25.0, -4.2, -1.0]), 1, -5.0),
+        // 0.4 mm more at this wall: less than a step.
+        ((last, 0.0), boxed([-12.0, -6.2, -4.2], [0.0, -4.6, -1.0]), 1, -5.4),
+        ((last, 0.0), boxed([-18.0, 8.0, -4.6], [-17.0, 18.0, -2.8]), 2, -3.7),
+    ];
+    for (moment, region, axis, value) in places {
+        let faces = alive(&surface, tick(&surface, &clock, moment));
+        let corners = faces.iter().flat_map(|face| face.corners);
+        let points = corners.map(|c| DVec3::from(surface.vertices[c as usize].map(f64::from)));
+        let mut seen = 0;
+        for p in points.filter(|p| p.cmpgt(region.min).all() && p.cmplt(region.max).all()) {
+            assert!((p[axis] - value).abs() < 1e-3, "{moment:?} {p}: {value}");
+            seen += 1;
+        }
+        assert!(seen > 40, "{moment:?} {value}: {seen}");
+    }
+}
+
+/// A spiral of several turns is one move: its walls are where the turns before have left them, to a fraction of the step.
+#[test]
+fn walls_of_a_spiral_are_those_of_the_turns_that_are_done() {
+    let (base, end, step, length) = (0.4, 13.0, 0.8, 1.2);
+    let way = end * end / (2.0 * base);
+    let record = InvoluteRecord::new(way, [0.0, 0.0], 0.0, 0.0, end).expect("a spiral");
+    let curve = Curve::involute(record, -5.3, 0.0);
+    let mut stock = TriDexel::from_box(BLOCK, step).expect("a case of these numbers");
+    let tool = ToolBody::new(Profile::cylinder(2.0 * A, 30.0).expect("a tool"));
+    let mut playback = Playback::new(&stock, Clock::new([way], length));
+    let moves = [CutMove::new(curve.clone(), CutAxis::PlusZ, 0)];
+    playback.cut(&mut stock, &[tool], &moves, &Silent).expect("a case of these numbers");
+    let clock = playback.clock().clone();
+    let surface = playback.surface(&stock, 1_000_000);
+    let tip = |at: f64| curve.at(at).p.truncate();
+    for fraction in [0.45, 0.62, 0.8] {
+        let done: Vec<DVec2> = (0..=6000).map(|k| tip(way * fraction * f64::from(k) / 6000.0)).collect();
+        let faces = alive(&surface, tick(&surface, &clock, (0, fraction)));
+        let corners = faces.iter().flat_map(|face| face.corners);
+        let points = corners.map(|c| DVec3::from(surface.vertices[c as usize].map(f64::from)));
+        let is_wall = |p: &DVec3| -4.4 < p.z && p.z < -1.0 && p.truncate().length() < 19.0;
+        let (mut seen, mut worst) = (0, 0.0f64);
+        for p in points.filter(is_wall).map(|p| p.truncate()) {
+            if p.distance(tip(way * fraction)) < A + 2.0 * length + step {
+                continue;
+            }
+            let nearest = done.iter().map(|c| c.distance(p)).fold(f64::INFINITY, f64::min);
+            worst = worst.max((nearest - A).abs());
+            seen += 1;
+        }
+        assert!(seen > 200 && worst < 0.05, "{fraction}: {seen} {worst}");
+    }
 }

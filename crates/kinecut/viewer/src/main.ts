@@ -40,12 +40,16 @@ function startBar(view: View): void {
   }
   const by = element<HTMLSelectElement>("kc-colour");
   const scale = element("kc-scale");
-  by?.addEventListener("change", () => {
+  const paint = () => {
+    if (!by) return;
     const most = view.colourPath(by.value as "" | "arc" | "chip");
     if (!scale) return;
     scale.hidden = by.value === "";
     scale.querySelector("span:last-child")?.replaceChildren(by.value === "arc" ? `${most.toFixed(0)}° and more` : `${most.toFixed(3)} mm`);
-  });
+  };
+  by?.addEventListener("change", paint);
+  // A browser may remember the choice from the last visit.
+  paint();
   const [axis, place, at] = [element<HTMLSelectElement>("kc-clip-axis"), element<HTMLInputElement>("kc-clip"), element("kc-clip-at")];
   if (!axis || !place || !at) return;
   const cut = () => {

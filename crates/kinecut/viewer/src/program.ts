@@ -23,6 +23,9 @@ export class ProgramList {
   private readonly marks = new Map<number, string>();
   private from = -1;
   private to = -1;
+  /** Height of the list and how far it is scrolled [px]: to ask the browser would make it lay out the page. */
+  private room = 0;
+  private scrolled = 0;
 
   constructor(private readonly track: Track, private readonly cursor: Cursor) {
     this.text = listing(track.head);
@@ -38,8 +41,19 @@ export class ProgramList {
     this.space.style.height = `${this.height}px`;
     this.rows.className = "rows";
     this.list.append(this.space, this.rows);
-    this.list.addEventListener("scroll", () => this.fill(), { passive: true });
-    new ResizeObserver(() => this.fill()).observe(this.list);
+    this.list.addEventListener(
+      "scroll",
+      () => {
+        this.scrolled = this.list.scrollTop;
+        this.fill();
+      },
+      { passive: true },
+    );
+    new ResizeObserver(() => {
+      this.room = this.list.clientHeight;
+      this.fill();
+    }).observe(this.list);
+    this.room = this.list.clientHeight;
     this.list.addEventListener("click", (e) => {
       const row = (e.target as Element).closest<HTMLElement>("[data-row]");
       if (row) cursor.go(track.ofLine(Number(row.dataset.row)), "program");
@@ -61,16 +75,19 @@ export class ProgramList {
   /** The first line in sight, with fraction, among those of all programs. */
   private get top(): number {
     const whole = this.count * ROW;
-    if (whole <= TALLEST) return this.part.from + this.list.scrollTop / ROW;
-    const room = this.list.clientHeight;
-    return this.part.from + ((this.list.scrollTop / (TALLEST - room)) * (whole - room)) / ROW;
+    if (whole <= TALLEST) return this.part.from + this.scrolled / ROW;
+    return this.part.from + ((this.scrolled / (TALLEST - this.room)) * (whole - this.room)) / ROW;
   }
 
   private scrollTo(line: number): void {
     const whole = this.count * ROW;
-    const room = this.list.clientHeight;
     const at = (line - this.part.from) * ROW;
-    this.list.scrollTop = whole <= TALLEST ? at : (at / (whole - room)) * (TALLEST - room);
+    this.scroll(whole <= TALLEST ? at : (at / (whole - this.room)) * (TALLEST - this.room));
+  }
+
+  private scroll(to: number): void {
+    this.scrolled = Math.max(0, Math.min(to, this.height - this.room));
+    this.list.scrollTop = this.scrolled;
   }
 
   /** A tab for each program, where there are several. */
@@ -98,16 +115,16 @@ export class ProgramList {
     this.part = part;
     this.showTabs();
     this.space.style.height = `${this.height}px`;
-    this.list.scrollTop = 0;
+    this.scroll(0);
     this.fill(true);
   }
 
   private fill(force = false): void {
     const top = this.top;
-    const count = Math.ceil(this.list.clientHeight / ROW) + 1;
+    const count = Math.ceil(this.room / ROW) + 1;
     const from = Math.max(this.part.from, Math.floor(top) - SPARE);
     const to = Math.min(this.part.to, Math.floor(top) + count + SPARE);
-    const shift = this.list.scrollTop + (from - top) * ROW;
+    const shift = this.scrolled + (from - top) * ROW;
     this.rows.style.transform = `translateY(${shift}px)`;
     if (!force && from === this.from && to === this.to) return;
     this.from = from;
@@ -157,7 +174,7 @@ export class ProgramList {
     const own = this.parts.find((part) => place.line >= part.from && place.line < part.to);
     if (own) this.show(own);
     const top = this.top;
-    const seen = this.list.clientHeight / ROW;
+    const seen = this.room / ROW;
     if (place.line >= 0 && source !== "program" && (place.line < top + 1 || place.line > top + seen - 2)) {
       this.scrollTo(Math.max(0, place.line - seen / 2));
     }

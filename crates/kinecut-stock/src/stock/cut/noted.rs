@@ -14,7 +14,7 @@ use crate::stock::tile::{TILE_EDGE, TakenStretch};
 use crate::stock::tri_dexel::Grid;
 use crate::stock::{Axis, CutId, TriDexel, unfixed};
 
-/// What has been taken: by grid and by tile, in order.
+/// Stretches of material that were taken, by grid and by tile, in order.
 pub(super) type Noted = [Vec<Vec<TakenStretch>>; 3];
 
 /// Cuts the moves of a list one after the other.
@@ -32,7 +32,7 @@ pub(super) fn cut_noted(stock: &mut TriDexel, list: &CutList, progress: &dyn Pro
     Ok(taken)
 }
 
-/// Changes a stock.
+/// Stretches of material that a change takes from a stock.
 pub(super) fn noted(stock: &mut TriDexel, change: impl FnOnce(&mut TriDexel) -> Result<()>) -> Result<Noted> {
     for tile in stock.grids.iter_mut().flat_map(|grid| &mut grid.tiles) {
         tile.note_taken();

@@ -6,7 +6,7 @@ use crate::job::{Engagement, Outcome, SetupOutcome};
 use crate::page::{Cell, Chart, Follows, Row, Section, Table, fixed};
 use crate::stock::cut::MoveEngagement;
 use crate::tool::{Tool, ToolNumber};
-use crate::trace::Segment;
+use crate::trace::{Segment, SegmentPace};
 
 /// The section; `begins`: for each line of all programs the time at which it begins [s]; none where engagement was not measured.
 pub(super) fn section(outcome: &Outcome, begins: &[f64], first_lines: &[u32]) -> Option<Section> {
@@ -58,40 +58,64 @@ fn notes(all: &Engagement) -> [String; 3] {
     ]
 }
 
-/// The course along a segment for the 3-D view; runs that are nearly alike are one.
+/// The course along a segment at feed for the 3-D view, from its beginning to its end; nothing of one that is in air.
 pub(super) fn runs(
     setup: &SetupOutcome,
     segment: &Segment,
     moved: &MoveEngagement,
     tools: &[Tool],
 ) -> Vec<EngagedRun> {
+    if !matches!(segment.motion, SegmentPace::Feed(_)) {
+        return Vec::new();
+    }
     let chips = Chips::of(setup, segment, tools);
     let chip = |advance: f64| chips.as_ref().map(|chips| chips.thickest(advance) as f32);
-    let mut runs: Vec<EngagedRun> = Vec::new();
-    let mut add = |run: EngagedRun| match runs.last_mut() {
-        Some(last) if are_alike(last, &run) => last.to = run.to,
-        _ => runs.push(run),
-    };
+    let air = |to: f64| EngagedRun { to: to as f32, arc: 0.0, chip: chip(0.0) };
+    let mut runs = Vec::new();
     let mut done = 0.0;
     for stretch in &moved.stretches {
-        if stretch.from > done + 1e-9 {
-            add(EngagedRun { to: stretch.from as f32, arc: 0.0, chip: chip(0.0) });
+        if stretch.from > done + SAME {
+            runs.push(air(stretch.from));
         }
         let arc = stretch.arc.to_degrees() as f32;
-        add(EngagedRun { to: stretch.to as f32, arc, chip: chip(stretch.advance) });
+        runs.push(EngagedRun { to: stretch.to as f32, arc, chip: chip(stretch.advance) });
         done = stretch.to;
     }
-    if done > 0.0 && done < 1.0 - 1e-9 {
-        add(EngagedRun { to: 1.0, arc: 0.0, chip: chip(0.0) });
+    if done > 0.0 && done < 1.0 - SAME {
+        runs.push(air(1.0));
     }
-    runs
+    joined(&runs)
 }
 
-/// Whether two runs have one colour in the 3-D view, nearly: within three degrees and a thirtieth of the thickness of the chip.
+/// Fractions of a segment that are one.
+const SAME: f64 = 1e-9;
+
+/// Neighbours that are like the first of them, as one with the greatest values of all.
+fn joined(runs: &[EngagedRun]) -> Vec<EngagedRun> {
+    let mut all: Vec<EngagedRun> = Vec::new();
+    let mut first: Option<&EngagedRun> = None;
+    for run in runs {
+        match (all.last_mut(), first) {
+            (Some(last), Some(first)) if are_alike(first, run) => {
+                let chip = last.chip.zip(run.chip).map(|(a, b)| a.max(b));
+                *last = EngagedRun { to: run.to, arc: last.arc.max(run.arc), chip };
+            }
+            _ => {
+                all.push(*run);
+                first = Some(run);
+            }
+        }
+    }
+    all
+}
+
+/// Whether two runs have nearly one colour: within three degrees and a thirtieth of the thickness of the chip.
 fn are_alike(a: &EngagedRun, b: &EngagedRun) -> bool {
-    let chips = [a, b].map(|run| run.chip.unwrap_or(-1.0));
-    let chip = (chips[0] - chips[1]).abs() <= chips[0].max(chips[1]) / 30.0;
-    (a.arc - b.arc).abs() <= 3.0 && (a.arc == 0.0) == (b.arc == 0.0) && chip
+    let chips = match (a.chip, b.chip) {
+        (Some(a), Some(b)) => (a - b).abs() <= a.max(b) / 30.0,
+        (a, b) => a == b,
+    };
+    (a.arc - b.arc).abs() <= 3.0 && (a.arc == 0.0) == (b.arc == 0.0) && chips
 }
 
 /// Cubic centimetres a minute in a cubic millimetre a second.
@@ -152,4 +176,26 @@ fn table(outcome: &Outcome, blocks: &[(u32, &Block)]) -> Table {
     });
     let columns = "Tool; Arc [\u{b0}]; Depth [mm]; Width [mm]; Chip [mm] (teeth); Rate [cm\u{b3}/min]; Removed [cm\u{b3}]; In air [%]";
     Table::new("Greatest engagement of each tool", columns).rows(rows)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn neighbours_that_are_alike_are_one_with_their_greatest_values() {
+        let run = |to, arc, chip| EngagedRun { to, arc, chip };
+        let all = [
+            run(0.1, 90.0, Some(0.1)),
+            run(0.2, 92.5, Some(0.102)),
+            // Like the one before, but no longer like the first.
+            run(0.3, 94.0, Some(0.102)),
+            run(0.4, 94.0, Some(0.11)),
+            run(0.5, 0.0, Some(0.0)),
+            run(0.6, 2.0, Some(0.0)),
+        ];
+        let kept = [run(0.2, 92.5, Some(0.102)), run(0.3, 94.0, Some(0.102)), all[3], all[4], all[5]];
+        assert_eq!(joined(&all), kept);
+        assert_eq!(joined(&[run(0.5, 90.0, None), run(1.0, 89.0, None)]), [run(1.0, 90.0, None)]);
+    }
 }

@@ -1,7 +1,7 @@
 //! The stock over time in a job: its last moment is the part of the verdict, its first one the raw stock.
 
 use glam::{DAffine3, DQuat, DVec3};
-use kinecut::base::{DiskLoader, MemoryLoader, Silent};
+use kinecut::base::{Code, DiskLoader, MemoryLoader, Result, Silent};
 use kinecut::geom::{Mesh, MeshDistance};
 use kinecut::job::report::JointView;
 use kinecut::job::{Outcome, RunWants, StockWants, report, run_with};
@@ -10,9 +10,13 @@ use kinecut::stock::cut::PlayedSurface;
 use super::external::{FANUC, PLAIN, job};
 
 fn outcome(text: &str, playback: bool) -> Outcome {
+    tried(text, playback).unwrap()
+}
+
+fn tried(text: &str, playback: bool) -> Result<Outcome> {
     let wants = RunWants { compare: false, stock: StockWants { playback, ..StockWants::default() } };
     let loader = MemoryLoader::default().with("P.nc", FANUC);
-    run_with("job.toml", text, &wants, &loader, &Silent).unwrap()
+    run_with("job.toml", text, &wants, &loader, &Silent)
 }
 
 /// The surface at the end of a tick.
@@ -81,6 +85,18 @@ fn the_report_has_it_with_the_time_of_each_piece_where_it_is_wanted() {
     );
     let without = report::html(&report::of_job(&outcome(&job("fanuc", PLAIN), false)));
     assert!(without.contains("\"playback\":null") && !without.contains("Stock now"));
+}
+
+#[test]
+fn its_memory_is_told_and_counts() {
+    let [with, without] =
+        [true, false].map(|playback| outcome(&job("fanuc", PLAIN), playback).simulation.budget);
+    assert!(with.playback > 0 && without.playback == 0);
+    assert_eq!(with.total(), without.total() + with.playback);
+    let little = job("fanuc", PLAIN).replace("step = 0.5", "step = 0.5, memory = 1.0");
+    let refused = *tried(&little, true).unwrap_err().0;
+    assert_eq!(refused.code, Code::JOB_BUDGET);
+    assert!(refused.message.contains("playback: "), "{refused}");
 }
 
 /// The data of the machine in the 3-D view, followed by arithmetic of this test: its spindle carries the tool tip along the path.

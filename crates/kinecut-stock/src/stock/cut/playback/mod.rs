@@ -6,7 +6,7 @@
 //! there, so that flat faces are flat and round ones round.
 //!
 //! **Error.** At each tick the surface is within a step of that of the stock, except for what is thinner than a step, and near the tool:
-//! there material may go half a tick early or late, and between ticks that follow one another closely the surface is that of
+//! there material may go a tick early or late, and between ticks that follow one another closely the surface is that of
 //! the longest of them. It is for the eye: nothing is proven with it.
 
 mod clock;
@@ -211,7 +211,7 @@ struct When<'a> {
     is_upright: bool,
 }
 
-/// What was taken from the lines of a tile.
+/// Pieces of the lines of a tile and points on them that were taken, with their ticks.
 #[derive(Default)]
 struct TileNotes {
     pieces: Vec<Piece>,
@@ -275,11 +275,13 @@ impl StretchTicks<'_> {
             k += 1;
         }
         let mut piece = Piece { ends: stretch.ends, line: stretch.line, tick: 0 };
-        // A tool that stands along the line comes to a lower point no earlier than to a higher one: in one tick at both ends, in one at all.
+        // A tool that stands along the line mostly comes to all of the stretch at once: where it does to both ends and to the middle, it is
+        // not asked further. One that is widest between these may come there earlier, by the way of its radius at most.
         let alike = (axis == Axis::Z && self.when.is_upright).then(|| {
-            let first = self.asked(at(k).min(stretch.ends[1]));
-            let last = self.asked(stretch.ends[1] - 1);
-            (first == last).then_some(first)
+            let [low, high] = [at(k).min(stretch.ends[1]), stretch.ends[1] - 1];
+            let first = self.asked(low);
+            let same = |place: i32| self.asked(place) == first;
+            (same(high) && same(low + (high - low) / 2)).then_some(first)
         });
         while k < count && at(k) < stretch.ends[1] {
             let node = self.node(k);

@@ -259,7 +259,7 @@ impl Ticks {
         [0, 1, 2].map(|k| self.lattice.origin[k] + (at[k] as f64 - 1.0) * self.lattice.step)
     }
 
-    /// Where the material ends in a tick between a point and the next along an axis [mm]; `low`: it is the first that is material.
+    /// Place of the surface in a tick between a point and the next along an axis [mm]; `low`: the first of the two is material.
     fn crossing(&self, axis: Axis, node: usize, now: u16, low: bool) -> f64 {
         let (a, b) = axis.others();
         let at = self.indices(node);
