@@ -29,6 +29,9 @@ const FINER: f64 = 4.0;
 const MOST_BYTES: u64 = 64 << 20;
 const MOST_BYTES_OF_ALL: u64 = 2 << 30;
 
+/// Most pairs of a line and a move over it, of all parts of one job: work of about half a minute on one core.
+const MOST_WORK: f64 = 3e8;
+
 /// Round an edge that was seen, so many steps are looked at: an overlap is no farther than 1.42 steps from it, and walls shall
 /// have a thickness.
 const ROOM: f64 = 2.5;
@@ -67,7 +70,7 @@ pub(super) fn look_closer(
         return Ok(());
     }
     let swept: Vec<Swept<'_>> = story.moves.iter().map(|list| Swept::of(list)).collect();
-    let mut left = MOST_BYTES_OF_ALL;
+    let mut left = Left { bytes: MOST_BYTES_OF_ALL, work: MOST_WORK };
     while !passing.is_empty() && SQRT_2 * step > Missed::UNTOLD {
         let margin = ROOM * step;
         step = (step / FINER).max(Missed::UNTOLD / SQRT_2 * 0.999);
@@ -77,14 +80,14 @@ pub(super) fn look_closer(
             let Some(all) = cut_to(all, story.job.stock.bounds()) else { continue };
             for part in split(all, step, margin) {
                 let inside: Vec<Passing> = group.iter().filter(|p| p.bounds.meets(part)).copied().collect();
-                let bytes = TriDexel::memory(part, step);
-                let found = if inside.is_empty() {
+                if inside.is_empty() {
                     continue;
-                } else if bytes > MOST_BYTES || bytes > left {
-                    vec![None; inside.len()]
-                } else {
-                    left -= bytes;
-                    cut_part(story, &swept, part, step, &inside, progress)?.into_iter().map(Some).collect()
+                }
+                let found = match left.moves_of(story, &swept, part, step, &inside) {
+                    Some(moves) => {
+                        cut_part(story, &moves, part, step, &inside, progress)?.into_iter().map(Some).collect()
+                    }
+                    None => vec![None; inside.len()],
                 };
                 for (of, now) in inside.iter().zip(found) {
                     let answer = answers.entry((of.setup, of.index)).or_insert(Some(MoveEffect::default()));
@@ -105,6 +108,49 @@ pub(super) fn look_closer(
         }
     }
     Ok(())
+}
+
+/// Memory [bytes] and work that are left to closer looks.
+struct Left {
+    bytes: u64,
+    work: f64,
+}
+
+impl Left {
+    /// The moves of each setup that cut a part of the stock anew, in order; `None` where that needs more than is left.
+    fn moves_of(
+        &mut self,
+        story: &Story<'_>,
+        swept: &[Swept<'_>],
+        part: Aabb,
+        step: f64,
+        asked: &[Passing],
+    ) -> Option<Vec<Vec<usize>>> {
+        let bytes = TriDexel::memory(part, step);
+        if bytes > MOST_BYTES || bytes > self.bytes {
+            return None;
+        }
+        let last = asked.iter().map(|p| p.setup).max().unwrap_or(0);
+        let moves: Vec<Vec<usize>> = swept[..=last].iter().map(|s| s.reaching(part)).collect();
+        let lines = |(list, indices): (&Arc<CutList>, &Vec<usize>)| -> f64 {
+            indices.iter().map(|i| lines_over(list.swept(*i), part, step)).sum()
+        };
+        let work: f64 = story.moves.iter().zip(&moves).map(lines).sum();
+        if work > self.work {
+            return None;
+        }
+        self.bytes -= bytes;
+        self.work -= work;
+        Some(moves)
+    }
+}
+
+/// Lines of a part of the stock, in all three directions, that cross a box.
+fn lines_over(swept: Aabb, part: Aabb, step: f64) -> f64 {
+    let size = part.max.min(swept.max) - part.min.max(swept.min);
+    let along = |length: f64| (length.max(0.0) / step).floor() + 1.0;
+    let (x, y, z) = (along(size.x), along(size.y), along(size.z));
+    x * y + y * z + z * x
 }
 
 /// The moves that pass an edge.
@@ -239,7 +285,7 @@ fn cut_to(part: Aabb, whole: Aabb) -> Option<Aabb> {
 /// Cuts a part of the stock anew and tells what some moves meet in it.
 fn cut_part(
     story: &Story<'_>,
-    swept: &[Swept<'_>],
+    moves: &[Vec<usize>],
     part: Aabb,
     step: f64,
     asked: &[Passing],
@@ -250,12 +296,10 @@ fn cut_part(
     let mut found = vec![MoveEffect::default(); asked.len()];
     let places: BTreeMap<(usize, usize), usize> =
         asked.iter().enumerate().map(|(k, p)| ((p.setup, p.index), k)).collect();
-    let last = asked.iter().map(|p| p.setup).max().unwrap_or(0);
-    for setup in 0..=last {
+    for (setup, reaching) in moves.iter().enumerate() {
         let segments = &story.traces[setup].segments;
         let mut cores: Vec<&Loose> = story.loose.get(setup).into_iter().flatten().collect();
         cores.sort_by_key(|core| core.item);
-        let reaching = swept[setup].reaching(part);
         let mut done = 0;
         let mut run = |stock: &mut TriDexel, to: usize| -> Result<()> {
             let indices = &reaching[done..reaching.partition_point(|i| *i < to).max(done)];
