@@ -17,6 +17,8 @@ pub struct Body {
     pub name: String,
     /// The least distance that others are to keep [mm]; nearer is a warning, zero asks for none.
     pub near: f64,
+    /// How far it may be from its place, or others from theirs [mm]: what comes nearer may meet it. Zero where all is where it is said to be.
+    pub off: f64,
     pub(super) bounds: Aabb,
     /// A ball that holds it.
     pub(super) ball: Ball,
@@ -82,7 +84,23 @@ impl Body {
         let whole = |sum: Aabb, piece: &Piece| sum.union(piece.bounds_at(&Rigid::IDENTITY));
         let bounds = all.iter().fold(Aabb::EMPTY, whole);
         let ball = Ball { centre: 0.5 * (bounds.min + bounds.max), radius: 0.5 * bounds.size().length() };
-        Body { name, near, bounds, ball, round, pieces }
+        Body { name, near, off: 0.0, bounds, ball, round, pieces }
+    }
+
+    /// The body where it, or what passes it, may be so far off [mm].
+    ///
+    /// ```
+    /// # use kinecut_stock as kinecut;
+    /// use glam::DVec3;
+    /// use kinecut::contact::Body;
+    /// use kinecut::geom::{Aabb, Rigid, Solid};
+    /// let cube = Solid::Box(Aabb { min: DVec3::ZERO, max: DVec3::splat(10.0) });
+    /// let body = Body::new("cube", &cube, Rigid::IDENTITY, 0.5).unwrap();
+    /// assert_eq!((body.off, body.off_by(0.07).off), (0.0, 0.07));
+    /// ```
+    #[must_use]
+    pub fn off_by(self, off: f64) -> Body {
+        Body { off, ..self }
     }
 
     /// Whether it touches another body, both where they are.
@@ -99,7 +117,7 @@ impl Body {
     pub fn touches(&self, other: &Body) -> bool {
         let motion = Standing(Rigid::IDENTITY);
         let here = [Moment::of(&motion, 0.0); 2];
-        Pair { motion: &motion, moving: self, standing: other }.touch(&here).is_some()
+        Pair { motion: &motion, moving: self, standing: other }.touch(&here, 0.0).is_some()
     }
 
     /// A box that holds it at a place.

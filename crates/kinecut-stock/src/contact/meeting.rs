@@ -5,9 +5,9 @@ use rayon::prelude::*;
 
 use super::body::Body;
 use super::clearance::Clearances;
-use super::motion::Moment;
+use super::motion::{Moment, Motion};
 use super::nearest_of::NearestOf;
-use super::pair::{Pair, TOUCH, clearing, may_meet};
+use super::pair::{Pair, TOUCH, Touch, clearing, may_meet};
 use super::search::Nearest;
 use super::tool::{MovingTool, ToolPart};
 use crate::base::{Code, Finding, Progress, Result};
@@ -39,7 +39,7 @@ pub struct Meeting {
     pub part: ToolPart,
     /// A place of the body that is met first, or is nearest [mm].
     pub place: DVec3,
-    /// Least distance [mm]; zero in a contact.
+    /// Least distance [mm]; zero in a contact that is certain.
     pub distance: f64,
     /// The contact, if it is one.
     pub contact: Option<Contact>,
@@ -48,6 +48,8 @@ pub struct Meeting {
 /// A contact over a part of a move.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Contact {
+    /// The bodies meet where they are said to be; else they pass nearer than one of them may be off ([`Body::off`]).
+    pub certain: bool,
     /// Part of the move, from 0 to 1, at which it begins.
     pub from: f64,
     /// Part of the move at which it ends for the last time.
@@ -70,7 +72,7 @@ pub fn meetings(
     progress: &dyn Progress,
 ) -> Result<Vec<Meeting>> {
     progress.stage("contacts", moves.len() as u64);
-    let all = bodies.iter().fold(Aabb::EMPTY, |sum, body| sum.union(body.bounds.grown(body.near)));
+    let all = bodies.iter().fold(Aabb::EMPTY, |sum, body| sum.union(body.bounds.grown(body.near.max(body.off))));
     let task = |(n, moves): (usize, &[Watched])| {
         let mut found = Vec::new();
         let mut kept = Kept { near: NearestOf::new(), clear: Clearances::new() };
@@ -112,6 +114,28 @@ pub fn meetings(
     Ok(found)
 }
 
+/// Distance up to which bodies are looked for that may be `off`; none where all is where it is said to be [mm].
+pub(super) fn reach(off: f64) -> f64 {
+    if off > 0.0 { off + TOUCH } else { 0.0 }
+}
+
+/// The contact of a pair, one of which may be `off` [mm]: a certain one, or else one that may be; with its distance and place.
+pub(super) fn contact<M: Motion>(
+    pair: &Pair<'_, M>,
+    ends: &[Moment; 2],
+    off: f64,
+) -> Option<(Contact, Nearest)> {
+    let of = |touch: Touch, certain| Contact { certain, from: touch.from, to: touch.to, clears_by: None };
+    if let Some(touch) = pair.touch(ends, 0.0) {
+        return Some((of(touch, true), Nearest { t: touch.from, distance: 0.0, place: touch.place }));
+    }
+    let touch = if off > 0.0 { pair.touch(ends, off) } else { None }?;
+    // No nearer than it was found to be, and none where the search for a distance ends just above.
+    let nearest = pair.nearest(ends, reach(off) + TOUCH);
+    let nearest = nearest.unwrap_or(Nearest { t: touch.from, distance: off, place: touch.place });
+    Some((of(touch, false), nearest))
+}
+
 /// The error of a search that was cancelled.
 pub(super) fn cancelled(progress: &dyn Progress) -> Result<()> {
     match progress.cancelled() {
@@ -150,16 +174,15 @@ fn one_move(
         for (part, moving) in &parts {
             let pair = Pair { motion, moving, standing };
             let two = (*number, body, *part);
-            let open = near.open(two, standing.near);
+            let open = near.open(two, standing.near).max(reach(standing.off));
             let near_it = may_meet(motion, moving, &ends, standing.bounds, open.max(TOUCH));
             if !near_it || clear.clear(two, &pair, &ends, open) {
                 cleared.push(*part);
                 continue;
             }
-            if let Some(touch) = pair.touch(&ends) {
-                let contact = Some(Contact { from: touch.from, to: touch.to, clears_by: None });
-                let (part, place) = (*part, touch.place);
-                found.push(Meeting { watched, body, part, place, distance: 0.0, contact });
+            if let Some((contact, Nearest { distance, place, .. })) = contact(&pair, &ends, standing.off) {
+                let (part, contact) = (*part, Some(contact));
+                found.push(Meeting { watched, body, part, place, distance, contact });
             }
         }
         for (part, moving) in &parts {

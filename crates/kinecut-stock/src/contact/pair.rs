@@ -86,25 +86,26 @@ pub(super) fn may_meet(
 }
 
 impl<M: Motion> Pair<'_, M> {
-    /// The contact of the two, if there is one.
-    pub(super) fn touch(&self, ends: &[Moment; 2]) -> Option<Touch> {
+    /// The contact of the two, if there is one; of bodies that may be `off` [mm], of what may be one.
+    pub(super) fn touch(&self, ends: &[Moment; 2], off: f64) -> Option<Touch> {
+        let near = off + TOUCH;
         let mut met = self.within(ends);
-        stretches(self.motion, self.moving, *ends, (self.standing.bounds, TOUCH), &mut |stretch| {
+        stretches(self.motion, self.moving, *ends, (self.standing.bounds, near), &mut |stretch| {
             let [start, end] = stretch.ends;
             self.pieces(
                 &stretch,
-                || TOUCH,
+                || near,
                 |search| {
                     // Only what is sooner than the first, and later than the last.
                     if met.is_none_or(|m| start.t < m.from)
-                        && let Some((from, place)) = search.touch([start, end], TOUCH, false)
+                        && let Some((from, place)) = search.touch([start, end], near, false)
                         && met.is_none_or(|m| from < m.from)
                     {
                         met = Some(Touch { from, to: met.map_or(from, |m| m.to), place });
                     }
                     if let Some(m) = &mut met
                         && end.t > m.to
-                        && let Some((to, _)) = search.touch([start, end], TOUCH, true)
+                        && let Some((to, _)) = search.touch([start, end], near, true)
                         && to > m.to
                     {
                         m.to = to;
@@ -165,7 +166,7 @@ impl<M: Motion> Pair<'_, M> {
     }
 }
 
-/// The lift along `up` with which bodies that move together clear one that stands [mm].
+/// The lift along `up` with which bodies that move together clear one that stands, wherever it may be [mm].
 pub(super) fn clearing<'a, M: Motion>(
     motion: &M,
     moving: impl Iterator<Item = &'a Body> + Clone,
@@ -182,12 +183,12 @@ pub(super) fn clearing<'a, M: Motion>(
     }
     let corner = DVec3::select(up.cmpge(DVec3::ZERO), standing.bounds.max, standing.bounds.min);
     // Above all of the body it clears; in between it is sought where it begins to.
-    let (mut meets, mut clears) = (0.0, (corner.dot(up) - lowest + 2.0 * LIFT).max(LIFT));
+    let (mut meets, mut clears) = (0.0, (corner.dot(up) - lowest + standing.off + 2.0 * LIFT).max(LIFT));
     while clears - meets > LIFT {
         let lift = 0.5 * (meets + clears);
         let lifted = Lifted { motion, by: up * lift };
         let ends = [0.0, 1.0].map(|t| Moment::of(&lifted, t));
-        let touches = |moving: &Body| Pair { motion: &lifted, moving, standing }.touch(&ends).is_some();
+        let touches = |moving: &Body| Pair { motion: &lifted, moving, standing }.touch(&ends, standing.off).is_some();
         match moving.clone().any(touches) {
             true => meets = lift,
             false => clears = lift,

@@ -5,10 +5,11 @@ use rayon::prelude::*;
 
 use super::super::body::Body;
 use super::super::clearance::Clearances;
-use super::super::meeting::{Contact, MOST_LIFTS, TASK, cancelled};
+use super::super::meeting::{Contact, MOST_LIFTS, TASK, cancelled, contact, reach};
 use super::super::motion::{Moment, Standing};
 use super::super::nearest_of::NearestOf;
 use super::super::pair::{Pair, TOUCH, clearing, may_meet};
+use super::super::search::Nearest;
 use super::super::piece::Piece;
 use super::super::tool::{MovingTool, ToolPart};
 use super::axes::{Axes, tip_at_home};
@@ -69,7 +70,7 @@ pub struct MachineMeeting {
     pub standing: u32,
     /// A place of the other one that is met first, or is nearest [part coordinates at that moment, mm].
     pub place: DVec3,
-    /// Least distance [mm]; zero in a contact.
+    /// Least distance [mm]; zero in a contact that is certain.
     pub distance: f64,
     /// The contact, if it is one; its lift is along the axis Z.
     pub contact: Option<Contact>,
@@ -209,7 +210,7 @@ impl MachineParts {
         let mut below_tool: Vec<LinkPair> = Vec::new();
         let add = |list: &mut Vec<LinkPair>, joints: [usize; 2], pair: [u32; 2]| {
             let body = |i: u32| &bodies[i as usize].body;
-            let standing = body(pair[0]).bounds.grown(body(pair[0]).near.max(body(pair[1]).near));
+            let standing = body(pair[0]).bounds.grown(most_of(body(pair[0]), body(pair[1])));
             let place = match list.iter().position(|p| p.joints == joints) {
                 Some(place) => place,
                 None => {
@@ -258,7 +259,7 @@ impl MachineParts {
             touching.extend(pair.bodies.iter().copied().filter(|[standing, moving]| {
                 let body = |i: &u32| &self.bodies[*i as usize].body;
                 let pair = Pair { motion: &motion, moving: body(moving), standing: body(standing) };
-                pair.touch(&ends).is_some()
+                pair.touch(&ends, 0.0).is_some()
             }));
         }
         touching.sort_unstable();
@@ -340,10 +341,10 @@ impl MachineParts {
                 continue;
             }
             for [standing, moving] in pair.bodies.iter().filter(|p| left_out.binary_search(p).is_err()) {
-                let most = body(*standing).near.max(body(*moving).near);
+                let (most, off) = most_and_off(body(*standing), body(*moving));
                 let pair = Pair { motion: &motion, moving: body(*moving), standing: body(*standing) };
                 let two = (None, Party::Body(*moving), *standing);
-                self.meeting(watched, two, &pair, (&ends, most), (found, kept));
+                self.meeting(watched, two, &pair, (&ends, most, off), (found, kept));
             }
         }
         let (parts, _, place) = &self.tools[tool as usize];
@@ -357,26 +358,27 @@ impl MachineParts {
                 for [standing, _] in &pair.bodies {
                     let pair = Pair { motion: &motion, moving, standing: body(*standing) };
                     let two = (Some(tool), Party::Tool(*part), *standing);
-                    let most = body(*standing).near;
-                    self.meeting(watched, two, &pair, (&ends, most), (found, kept));
+                    let Body { near, off, .. } = *body(*standing);
+                    self.meeting(watched, two, &pair, (&ends, near, off), (found, kept));
                 }
             }
         }
     }
 
-    /// The contact of two bodies, or their pass where it is nearer than `most` and the nearest so far.
+    /// The contact of two bodies that may be `off`, or their pass where it is nearer than `most` and the nearest so far.
     fn meeting(
         &self,
         watched: u32,
         two: Two,
         pair: &Pair<'_, LinkMotion<'_>>,
-        (ends, most): (&[Moment; 2], f64),
+        (ends, most, off): (&[Moment; 2], f64, f64),
         (found, Kept { near, clear }): (&mut Vec<MachineMeeting>, &mut Kept),
     ) {
         let (_, moving, standing) = two;
         let open = near.open(two, most);
-        let near_it = may_meet(pair.motion, pair.moving, ends, pair.standing.bounds, open.max(TOUCH));
-        if !near_it || clear.clear(two, pair, ends, open) {
+        let asked = open.max(reach(off));
+        let near_it = may_meet(pair.motion, pair.moving, ends, pair.standing.bounds, asked.max(TOUCH));
+        if !near_it || clear.clear(two, pair, ends, asked) {
             return;
         }
         let LinkMotion { way, first, .. } = pair.motion;
@@ -384,9 +386,8 @@ impl MachineParts {
             let place = self.in_part(&way.at(t), *first, place);
             MachineMeeting { watched, moving, standing, place, distance, contact }
         };
-        if let Some(touch) = pair.touch(ends) {
-            let contact = Contact { from: touch.from, to: touch.to, clears_by: None };
-            found.push(meeting(touch.from, touch.place, 0.0, Some(contact)));
+        if let Some((contact, Nearest { t, distance, place })) = contact(pair, ends, off) {
+            found.push(meeting(t, place, distance, Some(contact)));
             return;
         }
         if open > 0.0
@@ -441,6 +442,17 @@ impl MachineParts {
             contact.clears_by = Some(lift);
         }
     }
+}
+
+/// The distance up to which two bodies are looked at, and how far off they may be [mm].
+fn most_and_off(a: &Body, b: &Body) -> (f64, f64) {
+    (a.near.max(b.near), a.off.max(b.off))
+}
+
+/// The distance within which anything counts [mm].
+fn most_of(a: &Body, b: &Body) -> f64 {
+    let (near, off) = most_and_off(a, b);
+    near.max(off)
 }
 
 /// A body that is a box.

@@ -6,6 +6,7 @@
 
 use glam::DVec3;
 
+use super::Spared;
 use crate::geom::{Aabb, Profile, ProfileElement};
 
 /// The shape of a foot between its flat disc and its cylinder.
@@ -119,6 +120,29 @@ impl ConvexPart {
         ConvexPart { foot, r0: self.r0 + d, r1: self.r1 + d, ..*self }
     }
 
+    /// The part with both ends moved inwards by `d`: what is left of it wherever it is within `d` along its axis. `None` when nothing is left.
+    fn shortened(&self, d: f64) -> Option<ConvexPart> {
+        let foot = match self.foot {
+            Foot::Torus { centre_radius, centre_z, radius } => {
+                Foot::Torus { centre_radius, centre_z: centre_z + d, radius }
+            }
+            foot => foot,
+        };
+        let (z0, z1, top) = (self.z0 + d, self.z1 + d, self.top - d);
+        ConvexPart { foot, z0, z1, top, ..*self }.up_to_top()
+    }
+
+    /// The part, of which what lies above its top is left out: its foot may have reached so far. `None` when nothing is left.
+    fn up_to_top(self) -> Option<ConvexPart> {
+        if self.top <= self.z0 || self.r1 <= 0.0 || self.r1 < self.r0 {
+            return None;
+        }
+        match self.top < self.z1 {
+            true => Some(ConvexPart { z1: self.top, r1: self.radius(self.top), ..self }),
+            false => Some(self),
+        }
+    }
+
     /// The part with every face moved inwards by `d`; `None` when nothing is left.
     fn shrunk(&self, d: f64) -> Option<ConvexPart> {
         let (z0, r1, top) = (self.z0 + d, self.r1 - d, self.top - d);
@@ -142,8 +166,7 @@ impl ConvexPart {
             }
         };
         let foot_left = !matches!(part.foot, Foot::Torus { radius, .. } if radius <= 0.0);
-        (foot_left && part.r1 > part.r0.min(0.0) && part.r1 >= part.r0 && part.r1 > 0.0 && part.top > part.z1)
-            .then_some(part)
+        if foot_left { part.up_to_top() } else { None }
     }
 }
 
@@ -191,6 +214,15 @@ impl RevolvedParts {
     /// The body with every face moved inwards.
     pub(super) fn shrunk(&self, d: f64) -> RevolvedParts {
         RevolvedParts::of(self.parts.iter().filter_map(|p| p.shrunk(d)).collect())
+    }
+
+    /// The body without what is spared.
+    pub(super) fn sparing(&self, spared: Spared) -> RevolvedParts {
+        if spared == Spared::NOTHING {
+            return self.clone();
+        }
+        let part = |p: &ConvexPart| p.shrunk(spared.around)?.shortened(spared.along);
+        RevolvedParts::of(self.parts.iter().filter_map(part).collect())
     }
 
     /// The body made wider by `d` on all sides, its heights as they are.
@@ -297,6 +329,41 @@ mod tests {
         }
     }
 
+    /// How far heights over radii of the body without what is spared along it are from what they should be.
+    fn part_heights(body: &RevolvedParts, d: f64) -> f64 {
+        let less = body.sparing(Spared { around: 0.0, along: d });
+        let mut worst = (less.top - (body.top - d)).abs();
+        for (part, own) in body.parts.iter().zip(&less.parts) {
+            for i in 0..=100 {
+                let rho = part.r1 * f64::from(i) / 100.0;
+                worst = worst.max((own.height(rho) - part.height(rho) - d).abs());
+            }
+        }
+        worst
+    }
+
+    #[test]
+    fn a_part_that_ends_in_its_foot_is_shrunk_on_all_faces() {
+        let d = 1e-3;
+        let cone = Profile::new(vec![ProfileElement::Cone { z0: 0.0, r0: 0.25, z1: 5.0, r1: 5.25 }]).unwrap();
+        let ball = ProfileElement::Torus { centre_radius: 0.0, centre_z: 3.0, radius: 3.0, z0: 0.0, z1: 3.0 };
+        let ball = Profile::new(vec![ball]).unwrap();
+        for profile in [cone, ball] {
+            let body = RevolvedParts::new([(&profile, 0.0)]);
+            let inner = body.shrunk(d);
+            let ([part], [own]) = (&body.parts[..], &inner.parts[..]) else { panic!("{inner:?}") };
+            assert!((own.top - (part.top - d)).abs() < 1e-12 && own.z1 <= own.top);
+            // Its side runs on, `d` inside.
+            for i in 0..100 {
+                let z = own.z0 + (own.top - own.z0) * f64::from(i) / 100.0;
+                let (nx, nz) = own.side_normal(z);
+                let (r, z) = (own.radius(z) + nx * d, z + nz * d);
+                assert!((part.radius(z) - r).abs() < 2e-6, "{z} {r}");
+            }
+            assert!(body.sparing(Spared { around: d, along: 1.0 }).top == part.top - d - 1.0);
+        }
+    }
+
     #[test]
     fn a_shrunk_part_lies_inside_by_the_distance() {
         let d = 0.01;
@@ -309,6 +376,8 @@ mod tests {
                 assert!((part.radius(z) - r).abs() < 1e-9, "{part:?} {z} {r}");
             }
         }
+        let shorter = part_heights(&RevolvedParts::new([(&apt(), 0.0)]), d);
+        assert!(shorter < 1e-12, "{shorter}");
         let needle = RevolvedParts::new([(&Profile::cylinder(0.01, 5.0).unwrap(), 0.0)]);
         assert!(needle.shrunk(0.006).parts.is_empty());
     }

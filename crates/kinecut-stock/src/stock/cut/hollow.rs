@@ -8,7 +8,7 @@ use glam::DVec2;
 
 use super::face::{Station, SweptFace};
 use super::plan::Plan;
-use crate::geom::{EdgeProfile, EdgeSegment};
+use crate::geom::{EdgeProfile, EdgeSegment, Profile};
 
 /// Sideways way [mm] up to which a move counts as one along the axis: a tenth of an end point's rounding.
 const SIDEWAYS: f64 = 1e-6;
@@ -73,6 +73,13 @@ impl Hollow {
     /// The radius within which nothing cuts [mm].
     pub(super) fn inner(&self) -> f64 {
         self.edge.inner_radius()
+    }
+
+    /// The cylinder above the highest place of the edge, with its height above the tip; nothing where a core stays.
+    pub(super) fn above_all(&self) -> Option<(Profile, f64)> {
+        let highest = self.edge.extent()[1];
+        let profile = Profile::cylinder(2.0 * self.outer(), self.top - highest).ok()?;
+        (self.inner() == 0.0).then_some((profile, highest))
     }
 
     /// Radii at which a segment begins or ends [mm].

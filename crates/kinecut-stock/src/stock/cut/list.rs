@@ -8,7 +8,7 @@ use glam::DVec3;
 use super::body::{RevolvedParts, bounds};
 use super::run::check;
 use super::task::Tool;
-use super::{CutAxis, CutMove, CutOptions, Stance, ToolBody};
+use super::{CutAxis, CutMove, CutOptions, Spared, Stance, ToolBody};
 use crate::base::Result;
 use crate::geom::{Aabb, CurveKind};
 use crate::stock::CutId;
@@ -44,8 +44,24 @@ impl CutList {
         options: &CutOptions,
         step: f64,
     ) -> Result<Arc<CutList>> {
+        CutList::sparing(bodies, &[], moves, options, step)
+    }
+
+    /// The same of tools that leave something along the faces of what they take: what is spared of each, in the order of the bodies; of those
+    /// behind the end of the list nothing is.
+    ///
+    /// # Errors
+    /// As those of [`CutList::new`].
+    pub fn sparing(
+        bodies: &[ToolBody],
+        spared: &[Spared],
+        moves: Vec<CutMove>,
+        options: &CutOptions,
+        step: f64,
+    ) -> Result<Arc<CutList>> {
         check(bodies, &moves, options)?;
-        let tools = bodies.iter().map(|b| Tool::new(b, options, step)).collect();
+        let of = |i: usize| spared.get(i).copied().unwrap_or(Spared::NOTHING);
+        let tools = bodies.iter().enumerate().map(|(i, b)| Tool::new(b, of(i), options, step)).collect();
         Ok(Arc::new(CutList { moves, tools, options: *options, step, blocks: OnceLock::new() }))
     }
 

@@ -46,6 +46,7 @@ mod piece;
 mod plan;
 mod playback;
 mod run;
+mod spared;
 mod stance;
 mod strip;
 mod strip_cut;
@@ -72,6 +73,7 @@ pub(in crate::stock) use leaning::{OwedAcross, may_meet_at_rest, meets_at_rest};
 pub use list::CutList;
 pub use playback::{Clock, Playback, PlayedFace, PlayedSurface, REMAINS};
 pub use run::{cut, cut_list};
+pub use spared::Spared;
 pub use stance::Stance;
 
 /// A tool: the part that cuts, and the parts that must not touch.

@@ -9,7 +9,7 @@ use super::body::RevolvedParts;
 use super::effect::Looked;
 use super::hollow::{Hollow, standing};
 use super::piece::MovePiece;
-use super::{CutOptions, ToolBody};
+use super::{CutOptions, Spared, ToolBody};
 use crate::stock::tile::TILE_EDGE;
 use crate::stock::tri_dexel::{Grid, LINE_OFFSET};
 use crate::stock::{CutId, EndPoint, Lattice, PackedNormal, fixed};
@@ -34,14 +34,19 @@ pub(super) struct Tool {
 }
 
 impl Tool {
-    pub(super) fn new(body: &ToolBody, options: &CutOptions, step: f64) -> Tool {
+    pub(super) fn new(body: &ToolBody, spared: Spared, options: &CutOptions, step: f64) -> Tool {
         let stack = |list: &[(crate::geom::Profile, f64)]| {
             RevolvedParts::new(list.iter().map(|(profile, z)| (profile, *z))).shrunk(options.clearance)
         };
-        let cutting = RevolvedParts::new([(&body.cutting, 0.0)]);
+        let mut cutting = RevolvedParts::new([(&body.cutting, 0.0)]).sparing(spared);
         let (shank, holder) = (stack(&body.shank), stack(&body.holder));
         let contact = cutting.shrunk(options.clearance);
-        let hollow = body.edge.as_ref().and_then(|edge| Hollow::new(edge, body.cutting.top()));
+        let mut hollow = body.edge.as_ref().and_then(|edge| Hollow::new(edge, body.cutting.top()));
+        if let Some(edge) = hollow.filter(|_| spared != Spared::NOTHING) {
+            // What such an edge is sure to take is what it takes over its whole width, above its highest place.
+            cutting = RevolvedParts::new(edge.above_all().iter().map(|(profile, z)| (profile, *z))).sparing(spared);
+            hollow = None;
+        }
         let all = [&cutting, &shank, &holder];
         Tool {
             radius: all.iter().map(|b| b.radius).fold(0.0, f64::max),

@@ -4,6 +4,7 @@
 mod against_poses;
 mod at_once;
 mod closed_forms;
+mod ends_in_foot;
 mod from_above;
 mod hollow;
 mod in_two_ways;
