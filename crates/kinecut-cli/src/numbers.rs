@@ -1,5 +1,7 @@
 //! Numbers and names as an option writes them.
 
+use kinecut::job::Uncertainty;
+
 /// Numbers with commas between.
 fn numbers<const N: usize>(text: &str) -> Option<[f64; N]> {
     let numbers: Result<Vec<f64>, _> = text.split(',').map(|t| t.trim().parse::<f64>()).collect();
@@ -11,6 +13,14 @@ pub(crate) fn triple(text: &str) -> Result<[f64; 3], String> {
     numbers(text)
         .filter(|n| n.iter().all(|v| v.is_finite()))
         .ok_or_else(|| "write three numbers with commas between, such as 0,-1,1".to_owned())
+}
+
+/// How far a zero, a tool's length and the raw stock may be off.
+pub(crate) fn uncertainty(text: &str) -> Result<Uncertainty, String> {
+    let [offset, length, stock] = numbers(text).filter(|n| n.iter().all(|v| v.is_finite())).ok_or_else(|| {
+        "write how far the zero, each tool's length and the raw stock may be off, such as 0.05,0.02,0.5".to_owned()
+    })?;
+    Ok(Uncertainty { offset, length, stock })
 }
 
 /// Six finite numbers.

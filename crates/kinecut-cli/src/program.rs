@@ -6,7 +6,7 @@ use clap::ValueEnum;
 use kinecut::base::{Code, Error, FileKind, Finding};
 use kinecut::job::{
     DesignWants, GivenFile, GivenJob, GivenStock, InspectWants, ProgramWants, RunWants, SectionPlane,
-    StockWants, control_of, given_alone, given_with_job, is_tool_table, program_text, subprograms,
+    StockWants, control_of, given_alone, given_with_job, is_tool_table, program_text, subprograms, Uncertainty,
 };
 use kinecut::nc::{Control, NumberInput, PostSettings};
 use kinecut::operations::OrientationName;
@@ -16,7 +16,7 @@ use kinecut::verbs::post::translate;
 use kinecut::verbs::run::{self, MeshForm, ResultFiles};
 
 use crate::answers::{Data, To, answer};
-use crate::numbers::{corners, triple, two_points};
+use crate::numbers::{corners, triple, two_points, uncertainty};
 use crate::printing::Printing;
 use crate::progress::Bar;
 use crate::{files, machine};
@@ -74,6 +74,10 @@ struct Stock {
     /// Do not measure it
     #[arg(long)]
     no_engagement: bool,
+    /// How far the zero, each tool's length and the raw stock may be off, mm: contacts are looked for over the whole range; default: that of
+    /// the job, then not at all
+    #[arg(long, value_name = "OFFSET,LENGTH,STOCK", value_parser = uncertainty)]
+    uncertainty: Option<Uncertainty>,
     /// Wanted part to compare the cut part with: a closed STL or 3MF mesh in part coordinates, of a program by itself those of the work
     /// offset; default: that of the job
     #[arg(long, value_name = "FILE.stl|FILE.3mf")]
@@ -92,6 +96,7 @@ impl Stock {
             certified,
             engagement,
             no_engagement,
+            uncertainty,
             design,
             design_tolerance,
         } = self;
@@ -109,6 +114,7 @@ impl Stock {
             memory: *memory,
             certified: *certified,
             engagement: (*engagement || *no_engagement).then_some(*engagement),
+            uncertainty: *uncertainty,
             design: design.transpose()?,
             ..StockWants::default()
         })

@@ -45,6 +45,13 @@ pub struct Meeting {
     pub contact: Option<Contact>,
 }
 
+impl Meeting {
+    /// Whether it is a contact of bodies where they are said to be.
+    pub fn is_certain(&self) -> bool {
+        self.contact.is_some_and(|contact| contact.certain)
+    }
+}
+
 /// A contact over a part of a move.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Contact {

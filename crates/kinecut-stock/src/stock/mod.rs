@@ -13,6 +13,7 @@ mod deviation;
 mod dexel;
 mod end_map;
 mod engagement;
+mod grown;
 mod lattice;
 pub mod near;
 mod raw;

@@ -11,7 +11,7 @@ use crate::geom::{Aabb, Solid};
 /// Face classes of raw stock: the faces of a box and of a cylinder; a mesh has class 0 everywhere.
 pub(super) mod class {
     /// Faces normal to an axis: 2 * axis towards minus, one more towards plus.
-    pub(super) fn face(axis: usize, plus: bool) -> u8 {
+    pub(in crate::stock) fn face(axis: usize, plus: bool) -> u8 {
         2 * axis as u8 + u8::from(plus)
     }
     /// The round side of a cylinder.

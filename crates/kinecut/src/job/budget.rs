@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use super::check::Job;
 use super::part_surface::{PartSurface, every};
-use super::{engagement, playback};
+use super::{engagement, playback, uncertain};
 use crate::base::{Code, Finding, Result};
 use crate::geom::Aabb;
 use crate::stock::TriDexel;
@@ -18,6 +18,9 @@ const MOVE: u64 = 620;
 
 /// The same of a move with a tool that leans or turns, which has a motion of its own [bytes].
 const LEANING_MOVE: u64 = 1750;
+
+/// Memory of a move that is cut once more, with its effect [bytes].
+const MOVE_AGAIN: u64 = 300;
 
 /// Memory of an end of a line that is compared with the wanted part [bytes]: what wants it, how far it is off, with what tolerance.
 const COMPARED: u64 = 24;
@@ -40,6 +43,8 @@ pub struct Budget {
     pub engagement: u64,
     /// The stock over time: its lines, with at most two stretches of material each, and its surface.
     pub playback: u64,
+    /// The lines of a stock that may be larger, where something may be off, with at most two stretches of material each; and its moves.
+    pub uncertain: u64,
     /// Number of moves.
     pub move_count: u64,
     /// The moves, with what they do.
@@ -55,6 +60,14 @@ fn of_engagement(job: &Job, step: f64) -> u64 {
 fn of_playback(job: &Job, step: f64) -> u64 {
     let (bounds, step) = (job.stock.bounds(), playback::step(job).max(step));
     TriDexel::memory(bounds, step).saturating_add(Playback::memory(bounds, step))
+}
+
+/// Memory of the stock that may be larger, and of the moves that cut it, at a step.
+fn of_uncertain(job: &Job, moves: u64, step: f64) -> u64 {
+    match job.uncertainty {
+        Some(_) => uncertain::memory(job, step).saturating_add(moves.saturating_mul(MOVE_AGAIN)),
+        None => 0,
+    }
 }
 
 impl Budget {
@@ -74,6 +87,7 @@ impl Budget {
             move_count,
             engagement: if engagement::is_wanted(job, move_count) { of_engagement(job, 0.0) } else { 0 },
             playback: if job.playback { of_playback(job, 0.0) } else { 0 },
+            uncertain: of_uncertain(job, move_count, job.step),
             moves: segments().map(|s| if leans(s) { LEANING_MOVE } else { MOVE }).sum(),
             ..Budget::of_stock(job, job.stock.bounds(), job.step)
         }
@@ -101,7 +115,7 @@ impl Budget {
 
     /// All of it [bytes].
     pub fn total(&self) -> u64 {
-        [self.surface, self.comparison, self.engagement, self.playback, self.moves]
+        [self.surface, self.comparison, self.engagement, self.uncertain, self.playback, self.moves]
             .into_iter()
             .fold(self.stock, u64::saturating_add)
     }
@@ -147,6 +161,7 @@ impl Budget {
         let at = |step: f64| Budget {
             moves: self.moves,
             engagement: if self.engagement > 0 { of_engagement(job, step) } else { 0 },
+            uncertain: of_uncertain(job, self.move_count, step),
             playback: if self.playback > 0 { of_playback(job, step) } else { 0 },
             ..Budget::of_stock(job, job.stock.bounds(), step)
         };
@@ -168,6 +183,7 @@ impl Budget {
             (self.surface, "surface".to_owned()),
             (self.comparison, "comparison".to_owned()),
             (self.engagement, "engagement".to_owned()),
+            (self.uncertain, "uncertainty".to_owned()),
             (self.playback, "playback".to_owned()),
             (self.moves, format!("{} moves", self.move_count)),
         ];

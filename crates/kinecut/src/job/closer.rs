@@ -84,9 +84,10 @@ pub(super) fn look_closer(
                     continue;
                 }
                 let found = match left.moves_of(story, &swept, part, step, &inside) {
-                    Some(moves) => {
-                        cut_part(story, &moves, part, step, &inside, progress)?.into_iter().map(Some).collect()
-                    }
+                    Some(moves) => cut_part(story, &moves, part, step, &inside, progress)?
+                        .into_iter()
+                        .map(Some)
+                        .collect(),
                     None => vec![None; inside.len()],
                 };
                 for (of, now) in inside.iter().zip(found) {
@@ -334,7 +335,7 @@ fn merge(effect: &mut MoveEffect, closer: &MoveEffect) {
 }
 
 /// Passes on that a run was cancelled, and says nothing of stages.
-struct Quiet<'a>(&'a dyn Progress);
+pub(super) struct Quiet<'a>(pub(super) &'a dyn Progress);
 
 impl Progress for Quiet<'_> {
     fn stage(&self, _: &str, _: u64) {}

@@ -43,13 +43,16 @@ mod simulate;
 mod subject;
 mod tilt;
 pub(crate) mod time_terms;
+mod uncertain;
 pub(crate) mod unknown;
 mod verdict;
 mod wants;
 mod wrong_type;
 
 pub use budget::Budget;
-pub use check::{Design, Job, JobProgram, JobSetup, Subprogram, check, program_text, subprograms};
+pub use check::{
+    Design, Job, JobProgram, JobSetup, Subprogram, Uncertainty, check, program_text, subprograms,
+};
 pub use engagement::{Engagement, engagement_json};
 pub use external::{
     Carried, CarriedStock, CarriedTool, ExternalProgram, GivenFile, GivenJob, GivenStock, ProgramWants,
@@ -78,6 +81,7 @@ pub use setup_outcome::SetupOutcome;
 pub use shape::{Deviation, Largest, deviation};
 pub use simulate::{Simulation, simulate};
 pub use subject::{Subject, sha256};
+pub use uncertain::UncertainStock;
 pub use verdict::{
     Heading, Judgement, Proof, ToEnsure, Unchecked, UncheckedItem, Verdict, VerdictCheck, verify,
 };

@@ -6,18 +6,30 @@ use super::check::Job;
 use crate::base::{Code, Finding, Result, Silent};
 use crate::geom::{Line, Profile, Solid};
 use crate::operations::measured::Loose;
-use crate::stock::TriDexel;
-use crate::stock::cut::{CutAxis, CutMove, CutOptions, ToolBody, cut};
+use crate::stock::cut::{CutAxis, CutList, CutMove, CutOptions, Spared, ToolBody, cut_list};
+use crate::stock::{DexelGrid, TriDexel};
 
 /// Takes the holes that the raw stock already has out of it: the first cuts of the body.
 pub(super) fn drill(stock: &mut TriDexel, job: &Job) -> Result<()> {
+    drill_sparing(stock, job, Spared::NOTHING)
+}
+
+/// The same of holes that may be narrower.
+pub(super) fn drill_sparing(stock: &mut TriDexel, job: &Job, spared: Spared) -> Result<()> {
     for (i, hole) in job.drilled.iter().enumerate() {
         let body = ToolBody::new(Profile::cylinder(hole.diameter, hole.height)?);
         let down = Line { start: hole.base + DVec3::Z * hole.height, end: hole.base };
-        let options = CutOptions { first_cut: i as u32, ..CutOptions::default() };
-        cut(stock, &[body], &[CutMove::new(down, CutAxis::PlusZ, 0)], &options, &Silent)?;
+        plunge(stock, body, CutMove::new(down, CutAxis::PlusZ, 0), i as u32, spared)?;
     }
     Ok(())
+}
+
+/// One cut by hand.
+fn plunge(stock: &mut TriDexel, body: ToolBody, one: CutMove, first_cut: u32, spared: Spared) -> Result<()> {
+    let options = CutOptions { first_cut, ..CutOptions::default() };
+    let step = stock.lattice().step;
+    let list = CutList::sparing(&[body], &[spared], vec![one], &options, step)?;
+    cut_list(stock, &list, 0..1, &Silent).map(|_| ())
 }
 
 /// The raw stock with lines at a distance [mm].
@@ -31,14 +43,22 @@ pub(super) fn raw_stock(stock: &Solid, step: f64) -> Result<TriDexel> {
 
 /// Takes a loose core out.
 pub(super) fn take_out(stock: &mut TriDexel, core: &Loose, first_cut: u32) -> Result<()> {
+    take_out_sparing(stock, core, first_cut, Spared::NOTHING)
+}
+
+/// The same of one that may be elsewhere.
+pub(super) fn take_out_sparing(
+    stock: &mut TriDexel,
+    core: &Loose,
+    first_cut: u32,
+    spared: Spared,
+) -> Result<()> {
     /// The core stands in a slot as wide as the cutter: a little more than its diameter is all of it [mm].
     const ROUND: f64 = 0.05;
     let axis = CutAxis::of(core.out).ok_or_else(off_axis)?;
     let body = ToolBody::new(Profile::cylinder(core.diameter + ROUND, core.depth)?);
     let down = Line { start: core.centre, end: core.centre - core.out * core.depth };
-    let options = CutOptions { first_cut, ..CutOptions::default() };
-    cut(stock, &[body], &[CutMove::new(down, axis, 0)], &options, &Silent)?;
-    Ok(())
+    plunge(stock, body, CutMove::new(down, axis, 0), first_cut, spared)
 }
 
 /// The error of a tool axis that the stock cannot be cut along.

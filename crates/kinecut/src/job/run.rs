@@ -25,6 +25,7 @@ use super::read_back::{ReadBack, compare};
 use super::setup_outcome::{SetupOutcome, block_of_cut};
 use super::shape::{Deviation, deviation};
 use super::simulate::{self, Simulation, left, simulate};
+use super::uncertain;
 use super::verdict::{banner, not_checked, proven, scope, to_ensure};
 use super::wants::StockWants;
 use super::{Heading, JobText, Judgement, Subject, Verdict, feeds, names, parts, sha256};
@@ -319,10 +320,15 @@ fn findings(
         }
         found.extend(s.planned.operations.iter().flat_map(|o| o.plan.remarks().iter().cloned()));
         found.extend(simulate::findings(&s.trace, &simulation.effects[i], &job.tools, place));
-        let fixtures = &job.setups[i].setup;
+        if let Some(off) = &simulation.uncertain {
+            let effects = (off.uncertainty, &off.effects[i][..]);
+            let known = &simulation.effects[i];
+            found.extend(uncertain::findings(&s.trace, effects, known, &job.tools, place));
+        }
+        let fixtures = (&job.setups[i].setup, job.uncertainty);
         found.extend(contacts::fixtures::findings(fixtures, &s.trace, &simulation.meetings[i], place));
         if let Some(machine) = &simulation.machine[i] {
-            found.extend(contacts::machine::findings(machine, &s.trace, place));
+            found.extend(contacts::machine::findings(machine, job.uncertainty, &s.trace, place));
         }
         if let Some(machine) = &job.machine {
             // Of a planned program too: moves on which the tool turns, and those of a template, are not lowered to them.

@@ -18,6 +18,7 @@ use super::missed::Missed;
 use super::part_surface::PartSurface;
 use super::playback::{self, PlayedStock};
 use super::raw::{drill, off_axis, raw_stock, take_out};
+use super::uncertain::{self, UncertainStock};
 use crate::base::{Code, Finding, Progress, Result, Severity};
 use crate::contact::Meeting;
 use crate::geom::Solid;
@@ -64,6 +65,8 @@ pub struct Simulation {
     pub certificate: Option<Certificate>,
     /// Engagement of the tools, where it was measured.
     pub engagement: Option<Engagement>,
+    /// What tools may meet of the stock where something is off, where the job says how far it may be.
+    pub uncertain: Option<UncertainStock>,
     /// The stock over time, where it is wanted for the report.
     pub playback: Option<PlayedStock>,
 }
@@ -117,6 +120,7 @@ pub fn simulate(
         machine: Vec::new(),
         certificate: None,
         engagement: None,
+        uncertain: None,
         playback: None,
     };
     let mut measured: Vec<Option<PointEngagement>> = probes.iter().map(|_| None).collect();
@@ -178,6 +182,7 @@ pub fn simulate(
     look_closer(&story, &mut simulation.effects, progress)?;
     let gone = || simulation.raw_volume - simulation.stock.volume();
     simulation.engagement = engagement::measure(&story, gone, progress)?;
+    simulation.uncertain = uncertain::look(&story, progress)?;
     simulation.playback = playback::play(&story, progress)?;
     if job.certified {
         let runs = simulation.first_cut.iter().zip(&all);
@@ -308,7 +313,7 @@ fn blunt(number: Option<ToolNumber>, tools: &[Tool]) -> bool {
     tool.is_some_and(|t| matches!(t.cutter.point(), DrillPoint::Cone { .. }))
 }
 
-/// Faults of the segments of one setup's program: one finding for each code and item, at its worst segment. `key` gives
+/// Faults of the segments of one setup's program: one finding for each code and item, at its worst segment. `place` gives
 /// the item's place.
 pub(super) fn findings(
     trace: &Trace,
@@ -316,6 +321,11 @@ pub(super) fn findings(
     tools: &[Tool],
     place: impl Fn(u32) -> Option<crate::base::Location>,
 ) -> Vec<Finding> {
+    faults(trace, effects, tools).into_iter().map(|(item, f)| Finding { place: place(item), ..f }).collect()
+}
+
+/// The same with the item of each.
+pub(super) fn faults(trace: &Trace, effects: &[MoveEffect], tools: &[Tool]) -> Vec<(u32, Finding)> {
     let mut found: Vec<(u32, f64, Finding)> = Vec::new();
     let mut known: HashMap<(u32, Code), usize> = HashMap::new();
     let mut add = |item: u32, weight: f64, finding: Finding| match known.entry((item, finding.code)) {
@@ -404,10 +414,9 @@ pub(super) fn findings(
     }
     found
         .into_iter()
-        .map(|(item, _, mut f)| {
-            f.place = place(item);
+        .map(|(item, _, f)| {
             debug_assert_eq!(f.severity, Severity::Error);
-            f
+            (item, f)
         })
         .collect()
 }

@@ -1,6 +1,6 @@
 //! Settings of the simulation that are given beside the job.
 
-use super::check::{Design, Job, step};
+use super::check::{Design, Job, Uncertainty, step};
 use super::part_surface::PartSurface;
 use super::{Subject, sha256};
 use crate::base::bounded::{MAX_LENGTH, length, positive};
@@ -20,6 +20,8 @@ pub struct StockWants {
     pub certified: bool,
     /// Whether the engagement of the tools is measured; default: as the job says.
     pub engagement: Option<bool>,
+    /// How far a person may be off; default: as the job says.
+    pub uncertainty: Option<Uncertainty>,
     /// Whether the stock over time is wanted, for the report; default no.
     pub playback: bool,
     /// Surface of the cut part that is wanted.
@@ -76,6 +78,9 @@ impl StockWants {
         };
         job.certified |= self.certified;
         job.engagement = self.engagement.or(job.engagement);
+        if let Some(off) = self.uncertainty {
+            job.uncertainty = Some(off.checked("--uncertainty")?).filter(Uncertainty::is_any);
+        }
         job.playback = self.playback;
         job.part_surface = self.surface;
         self.design.as_ref().map(|design| design.apply(job)).transpose()

@@ -76,6 +76,13 @@ pub struct MachineMeeting {
     pub contact: Option<Contact>,
 }
 
+impl MachineMeeting {
+    /// Whether it is a contact of bodies where they are said to be.
+    pub fn is_certain(&self) -> bool {
+        self.contact.is_some_and(|contact| contact.certain)
+    }
+}
+
 /// All that was found in moves.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Met {

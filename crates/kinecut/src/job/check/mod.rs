@@ -13,6 +13,9 @@ pub(crate) mod numbers;
 mod program;
 mod setup;
 pub(in crate::job) mod step;
+mod uncertainty;
+
+pub use uncertainty::Uncertainty;
 
 pub use program::{JobProgram, Subprogram, program_text, subprograms};
 
@@ -67,6 +70,8 @@ pub struct Job {
     pub certified: bool,
     /// Whether the engagement of the tools is measured; if nothing says so, for programs that take little time.
     pub engagement: Option<bool>,
+    /// How far a person may be off, if at all.
+    pub uncertainty: Option<Uncertainty>,
     /// Whether the stock over time is wanted.
     pub playback: bool,
     /// Surface of the cut part that is made.
@@ -151,6 +156,7 @@ pub fn check(file: &JobFile, name: &str, loader: &dyn Loader) -> Result<Job> {
     if file.setups.is_empty() {
         return Err(Finding::error(Code::JOB_SHAPE, "a job needs a setup").help("add [[setup]]").into());
     }
+    let uncertainty = file.simulate.uncertainty.as_ref().map(Uncertainty::of).transpose()?;
     let drilled = file
         .drilled
         .iter()
@@ -189,6 +195,7 @@ pub fn check(file: &JobFile, name: &str, loader: &dyn Loader) -> Result<Job> {
         surface: step::surface("simulate.mesh_tolerance", file.simulate.mesh_tolerance, step)?,
         certified: file.simulate.certified,
         engagement: file.simulate.engagement,
+        uncertainty: uncertainty.unwrap_or_default(),
         playback: false,
         part_surface: PartSurface::Full,
         setups,

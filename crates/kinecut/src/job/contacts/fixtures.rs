@@ -2,9 +2,9 @@
 
 use glam::DVec3;
 
-use super::super::check::Job;
+use super::super::check::{Job, Uncertainty};
 use super::noun::noun;
-use super::{AS_LONG, AS_NEAR, AT_ONCE, LOOK, changed_before, hundredths};
+use super::{AS_NEAR, AT_ONCE, LOOK, changed_before, hundredths, is_worse, may_meet};
 use crate::base::{Code, Finding, Location, Progress, Result};
 use crate::contact::{Body, Meeting, MovingTool, ToolPart, Watched, meetings};
 use crate::geom::{Rigid, Solid};
@@ -25,8 +25,15 @@ pub(in crate::job) fn contacts(
     }
     let tools = job.tools.iter().map(moving).collect::<Result<Vec<_>>>()?;
     let to_part = setup.part_on_table.inverse();
+    let off = job.uncertainty.map_or(0.0, |off| off.of_tool());
     let bodies = setup.fixtures.iter().map(|fixture| {
-        Body::new(fixture.name.clone(), &fixture.solid, to_part.after(&fixture.place), fixture.near.max(LOOK))
+        Body::new(
+            fixture.name.clone(),
+            &fixture.solid,
+            to_part.after(&fixture.place),
+            fixture.near.max(LOOK).max(off),
+        )
+        .map(|body| body.off_by(off))
     });
     let bodies = bodies.collect::<Result<Vec<_>>>()?;
     let watched = |segment: &Segment| {
@@ -59,7 +66,7 @@ pub(super) fn moving(tool: &Tool) -> Result<MovingTool> {
 
 /// Findings of the meetings: contacts by block and body, near passes by tool, part and body, each at the nearest block.
 pub(in crate::job) fn findings(
-    setup: &Setup,
+    (setup, off): (&Setup, Option<Uncertainty>),
     trace: &Trace,
     meetings: &[Meeting],
     place: impl Fn(u32) -> Option<Location>,
@@ -81,7 +88,8 @@ pub(in crate::job) fn findings(
             }
             continue;
         };
-        if let Some(item) = changed_before(trace, meeting.watched).filter(|_| contact.from == 0.0)
+        if let Some(item) =
+            changed_before(trace, meeting.watched).filter(|_| contact.certain && contact.from == 0.0)
             && !changed.iter().any(|(known, m)| (*known, m.body) == (item, meeting.body))
         {
             changed.push((item, meeting));
@@ -93,7 +101,9 @@ pub(in crate::job) fn findings(
         let same = contacts[from..].iter().position(|(_, m, _)| m.body == meeting.body).map(|i| from + i);
         match same {
             // The first of those that are as long.
-            Some(i) if way > contacts[i].2 + AS_LONG => contacts[i] = (segment.item, meeting, way),
+            Some(i) if is_worse((meeting.contact, way), (contacts[i].1.contact, contacts[i].2)) => {
+                contacts[i] = (segment.item, meeting, way);
+            }
             Some(_) => {}
             None => contacts.push((segment.item, meeting, way)),
         }
@@ -103,9 +113,17 @@ pub(in crate::job) fn findings(
         let alone = if segment.alternative { " when the axes run one by one" } else { "" };
         let rapid = if segment.motion == SegmentPace::Rapid { " at rapid" } else { "" };
         let message = format!("the {} meets {}{rapid}{alone}", noun(meeting.part), name(setup, meeting));
-        let finding = Finding::error(Code::FIXTURE_MET, message).point(meeting.place.to_array());
+        let finding = match meeting.contact.filter(|contact| !contact.certain) {
+            Some(_) => may_meet(Code::FIXTURE_MET, &message, meeting.distance, off),
+            None => Finding::error(Code::FIXTURE_MET, message),
+        };
+        let finding = finding.point(meeting.place.to_array());
         // Both in hundredths: the lift is not less than what clears.
-        let finding = if way > 0.0 { finding.value(hundredths(way), "mm of the move") } else { finding };
+        let certain = meeting.contact.is_some_and(|contact| contact.certain);
+        let finding = match certain && way > 0.0 {
+            true => finding.value(hundredths(way), "mm of the move"),
+            false => finding,
+        };
         let clears = meeting.contact.as_ref().and_then(|c| c.clears_by);
         let higher = clears.map(|lift| format!("{:.2} mm higher", hundredths(lift + 0.005)));
         let help = match (segment.motion, higher) {

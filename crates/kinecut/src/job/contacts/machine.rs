@@ -1,9 +1,9 @@
 //! All that the machine moves: its bodies past one another, past tools, fixtures and the raw stock.
 
-use super::super::check::Job;
+use super::super::check::{Job, Uncertainty};
 use super::fixtures::moving;
 use super::noun::noun;
-use super::{AS_LONG, AS_NEAR, AT_ONCE, LOOK, changed_before, hundredths};
+use super::{AS_NEAR, AT_ONCE, LOOK, changed_before, hundredths, is_worse, may_meet};
 use crate::base::{Code, Finding, Location, Progress, Result};
 use crate::contact::{
     Body, LinkBody, MachineMeeting, MachineMove, MachineParts, Met, Party, ToolInSpindle, ToolPart,
@@ -128,9 +128,12 @@ pub(in crate::job) fn contacts(
 /// The bodies of a machine in a setup, in the machine's coordinates with all axes at zero.
 fn bodies(job: &Job, machine: &Machine, setup: &Setup) -> Result<(Vec<LinkBody>, Vec<ComparedBody>)> {
     let (mut bodies, mut compared) = (Vec::new(), Vec::new());
+    let off = job.uncertainty.unwrap_or_default();
+    let tool_off = off.of_tool();
     for (i, body) in machine.bodies.iter().enumerate() {
         let name = body_name(machine, i);
-        let solid = Body::new(name.clone(), &body.solid, body.place, body.near.max(LOOK))
+        let solid = Body::new(name.clone(), &body.solid, body.place, body.near.max(LOOK).max(tool_off))
+            .map(|body| body.off_by(tool_off))
             .map_err(|e| e.under(&format!("machine.body[{i}].mesh")))?;
         bodies.push(LinkBody { link: body.link, body: solid, of_machine: true });
         compared.push(ComparedBody { name, near: body.near, kind: BodyKind::Machine(i) });
@@ -138,13 +141,14 @@ fn bodies(job: &Job, machine: &Machine, setup: &Setup) -> Result<(Vec<LinkBody>,
     let link = machine.work_link();
     for (i, fixture) in setup.fixtures.iter().enumerate() {
         let place = machine.work.after(&fixture.place);
-        let body = Body::new(fixture.name.clone(), &fixture.solid, place, fixture.near.max(LOOK))?;
+        let near = fixture.near.max(LOOK).max(tool_off);
+        let body = Body::new(fixture.name.clone(), &fixture.solid, place, near)?.off_by(tool_off);
         bodies.push(LinkBody { link, body, of_machine: false });
         let (name, near) = (fixture.name.clone(), fixture.near);
         compared.push(ComparedBody { name, near, kind: BodyKind::Fixture(i) });
     }
     let place: Rigid = machine.work.after(&setup.part_on_table);
-    let body = Body::new("the stock", &job.stock, place, 0.0)?;
+    let body = Body::new("the stock", &job.stock, place, 0.0)?.off_by(off.of_raw());
     bodies.push(LinkBody { link, body, of_machine: false });
     compared.push(ComparedBody { name: "the stock".to_owned(), near: 0.0, kind: BodyKind::Stock });
     Ok((bodies, compared))
@@ -201,6 +205,7 @@ impl MachineContacts {
 /// Findings: pairs that touch where the program begins, contacts by block and pair, near passes by pair, each at the nearest block.
 pub(in crate::job) fn findings(
     contacts: &MachineContacts,
+    off: Option<Uncertainty>,
     trace: &Trace,
     place: impl Fn(u32) -> Option<Location>,
 ) -> Vec<Finding> {
@@ -225,6 +230,7 @@ pub(in crate::job) fn findings(
             continue;
         };
         if let (Some(item), Party::Tool(part)) = (changed_before(trace, meeting.watched), meeting.moving)
+            && contact.certain
             && contact.from == 0.0
             && !changed.iter().any(|(known, m, _)| (*known, pair(m)) == (item, pair(meeting)))
         {
@@ -235,7 +241,9 @@ pub(in crate::job) fn findings(
         let of_block = met.iter().rev().take_while(|(item, ..)| *item == segment.item).count();
         let from = met.len() - of_block;
         match met[from..].iter_mut().find(|(_, m, _)| pair(m) == pair(meeting)) {
-            Some(known) if way > known.2 + AS_LONG => *known = (segment.item, meeting, way),
+            Some(known) if is_worse((meeting.contact, way), (known.1.contact, known.2)) => {
+                *known = (segment.item, meeting, way);
+            }
             Some(_) => {}
             None => met.push((segment.item, meeting, way)),
         }
@@ -249,7 +257,7 @@ pub(in crate::job) fn findings(
     });
     let met = met.into_iter().map(|(item, meeting, way)| {
         let segment = &trace.segments[meeting.watched as usize];
-        (item, contact(contacts, meeting, segment, way))
+        (item, contact((contacts, off), meeting, segment, way))
     });
     let warned = |meeting: &&MachineMeeting| meeting.distance < contacts.near(meeting);
     let passed = near.into_iter().filter(warned).map(|meeting| {
@@ -274,23 +282,39 @@ pub(in crate::job) fn findings(
 }
 
 /// The finding of a contact.
-fn contact(contacts: &MachineContacts, meeting: &MachineMeeting, segment: &Segment, way: f64) -> Finding {
+fn contact(
+    (contacts, off): (&MachineContacts, Option<Uncertainty>),
+    meeting: &MachineMeeting,
+    segment: &Segment,
+    way: f64,
+) -> Finding {
     let alone = if segment.alternative { " when the axes run one by one" } else { "" };
     let rapid = if segment.motion == SegmentPace::Rapid { " at rapid" } else { "" };
     let (one, other) = (contacts.party(meeting.moving), contacts.named(meeting.standing));
     let higher = meeting.contact.as_ref().and_then(|c| c.clears_by);
     let higher = higher.map(|lift| format!("; {:.2} mm higher it clears", hundredths(lift + 0.005)));
     let higher = higher.unwrap_or_default();
+    let certain = meeting.contact.is_some_and(|contact| contact.certain);
     let finding = match contacts.with_stock(meeting) {
         true => {
             let what = format!("{one} comes where the stock was before the first cut{rapid}{alone}");
-            Finding::doubt(Code::MACHINE_MET, what)
-                .help(format!("make sure that it has been cut away there, or use a longer tool{higher}"))
+            let finding = match certain {
+                true => Finding::doubt(Code::MACHINE_MET, what),
+                false => may_meet(Code::MACHINE_MET, &what, meeting.distance, off),
+            };
+            finding.help(format!("make sure that it has been cut away there, or use a longer tool{higher}"))
         }
-        false => Finding::error(Code::MACHINE_MET, format!("{one} meets {other}{rapid}{alone}")).help(
-            format!("use a longer tool, place the part elsewhere, or let the move go another way{higher}"),
-        ),
+        false => {
+            let what = format!("{one} meets {other}{rapid}{alone}");
+            let finding = match certain {
+                true => Finding::error(Code::MACHINE_MET, what),
+                false => may_meet(Code::MACHINE_MET, &what, meeting.distance, off),
+            };
+            finding.help(format!(
+                "use a longer tool, place the part elsewhere, or let the move go another way{higher}"
+            ))
+        }
     };
     let finding = finding.point(meeting.place.to_array());
-    if way > 0.0 { finding.value(hundredths(way), "mm of the move") } else { finding }
+    if certain && way > 0.0 { finding.value(hundredths(way), "mm of the move") } else { finding }
 }

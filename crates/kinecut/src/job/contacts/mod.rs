@@ -4,6 +4,9 @@ pub(super) mod fixtures;
 pub(super) mod machine;
 pub(super) mod noun;
 
+use super::check::Uncertainty;
+use crate::base::{Code, Finding};
+use crate::contact::Contact;
 use crate::trace::{StandKind, Trace};
 
 /// Moves that are watched at once: their motions take some hundred bytes each.
@@ -27,6 +30,24 @@ fn changed_before(trace: &Trace, watched: u32) -> Option<u32> {
     let from = trace.stands.partition_point(|stand| stand.next < next);
     let mut here = trace.stands[from..].iter().take_while(|stand| stand.next == next);
     here.find(|stand| matches!(stand.kind, StandKind::Change(_))).map(|stand| stand.item)
+}
+
+/// Whether a contact says more than another one, each with its way [mm]: a certain one than one that may be, else the longer one.
+fn is_worse((one, way): (Option<Contact>, f64), (other, known): (Option<Contact>, f64)) -> bool {
+    let certain = |contact: Option<Contact>| contact.is_some_and(|c| c.certain);
+    match (certain(one), certain(other)) {
+        (true, false) => true,
+        (false, true) => false,
+        _ => way > known + AS_LONG,
+    }
+}
+
+/// The doubt about bodies that pass nearer than they may be off; `message` is that of a contact.
+fn may_meet(code: Code, message: &str, distance: f64, off: Option<Uncertainty>) -> Finding {
+    let words = off.unwrap_or_default().words();
+    // Not farther than they are.
+    let apart = ((distance - ACCURACY).max(0.0) * 100.0).floor() / 100.0;
+    Finding::doubt(code, format!("{message}, with {words}")).value(apart, "mm apart")
 }
 
 /// A length in hundredths of a millimetre.

@@ -202,6 +202,25 @@ pub struct SimulateTable {
     /// default: for programs of less than 20 000 moves.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub engagement: Option<bool>,
+    /// How far zeros, tool lengths and the raw stock may be off when the programs run: contacts are looked for over the whole range;
+    /// default: not at all. `uncertainty = { offset = 0.05, length = 0.02, stock = 0.5 }`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub uncertainty: Option<UncertaintyTable>,
+}
+
+/// Distances by which a person may be off.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct UncertaintyTable {
+    /// The zero of a setup, in any direction; default 0.
+    #[serde(default)]
+    pub offset: f64,
+    /// The length of each tool, up or down; default 0.
+    #[serde(default)]
+    pub length: f64,
+    /// The raw stock, larger by so much on each side; default 0.
+    #[serde(default)]
+    pub stock: f64,
 }
 
 /// A clamping of the part.

@@ -119,13 +119,20 @@ impl Shown<'_> {
             let [low, high] =
                 heights.fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], z| [a.min(z), b.max(z)]);
             let own = || self.meetings.iter().filter(move |m| m.body == body);
-            let mut lines: Vec<_> = own().filter(|m| m.contact.is_some()).map(|m| self.line(m)).collect();
+            let mut lines: Vec<_> = own().filter(|m| m.is_certain()).map(|m| self.line(m)).collect();
             lines.dedup();
+            let mut may: Vec<_> = own().filter(|m| m.contact.is_some()).map(|m| self.line(m)).collect();
+            may.dedup();
             let near = own().min_by(|a, b| a.distance.total_cmp(&b.distance));
             let (answer, at) = match (lines.first(), near) {
                 (Some(first), _) => {
                     let blocks = if lines.len() == 1 { "block meets it" } else { "blocks meet it" };
                     (Cell::wrong(format!("{} {blocks}", lines.len())), *first)
+                }
+                (None, Some(near)) if !may.is_empty() => {
+                    let blocks = if may.len() == 1 { "block" } else { "blocks" };
+                    let text = format!("{} {blocks} may meet it, {:.2} mm apart", may.len(), near.distance);
+                    (Cell::wrong(text), self.line(near))
                 }
                 (None, Some(near)) => {
                     (Cell::new(format!("passed at {:.2} mm", near.distance)), self.line(near))

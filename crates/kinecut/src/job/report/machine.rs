@@ -158,8 +158,10 @@ impl Shown<'_> {
                 let is_own = move |m: &&MachineMeeting| m.standing == body || m.moving == Party::Body(body);
                 self.contacts.met.meetings.iter().filter(is_own)
             };
-            let mut lines: Vec<_> = own().filter(|m| m.contact.is_some()).map(|m| self.line(m)).collect();
+            let mut lines: Vec<_> = own().filter(|m| m.is_certain()).map(|m| self.line(m)).collect();
             lines.dedup();
+            let mut may: Vec<_> = own().filter(|m| m.contact.is_some()).map(|m| self.line(m)).collect();
+            may.dedup();
             let near = own().min_by(|a, b| a.distance.total_cmp(&b.distance));
             let touching = self.contacts.touching.iter().find(|pair| pair.contains(&body));
             let (answer, at) = match (lines.first(), touching, near) {
@@ -171,6 +173,15 @@ impl Shown<'_> {
                     let other = if *standing == body { moving } else { standing };
                     let other = &self.contacts.bodies[*other as usize].name;
                     (Cell::wrong(format!("touches {other} where the program begins")), None)
+                }
+                (None, None, Some(near)) if !may.is_empty() => {
+                    let blocks = if may.len() == 1 { "block" } else { "blocks" };
+                    let text = format!(
+                        "{} {blocks} may bring it into contact, {:.2} mm apart",
+                        may.len(),
+                        near.distance
+                    );
+                    (Cell::wrong(text), self.line(near))
                 }
                 (None, None, Some(near)) => {
                     (Cell::new(format!("passed at {:.2} mm", near.distance)), self.line(near))

@@ -57,6 +57,9 @@ pub(in crate::job) fn scope(
     let mut scope = vec![shape(job, deviation)];
     scope.extend(holders(job, setups));
     scope.push(bodies(job, simulation));
+    if let Some(off) = job.uncertainty {
+        scope.push(format!("Contacts looked for with {}", off.words()));
+    }
     if !job.machine.as_ref().is_some_and(|m| m.joints.iter().any(|j| j.travel.is_some())) {
         scope.push("Travel of the axes not given".to_owned());
     }

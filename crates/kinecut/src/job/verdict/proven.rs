@@ -6,6 +6,7 @@ use super::super::missed::may_clip;
 use super::super::setup_outcome::SetupOutcome;
 use super::super::shape::Deviation;
 use super::super::simulate::Simulation;
+use super::super::uncertain;
 use super::Proof;
 use crate::base::at_most;
 use crate::geom::CurveKind;
@@ -70,6 +71,28 @@ pub(in crate::job) fn proven(
         if clear(&|k| segments[k].spindle_on || segments[k].motion == SegmentPace::Rapid || none_met(k)) {
             add(format!("`{file}` never cuts with the spindle off"), swept);
         }
+        let also = job.uncertainty.map_or(String::new(), |off| format!(", also with {}", off.words()));
+        if let Some(off) = &simulation.uncertain
+            && uncertain::is_clear(&s.trace, &off.effects[i], &job.tools)
+        {
+            let turning: Vec<String> = off.turning.iter().map(ToString::to_string).collect();
+            let turning = match &turning[..] {
+                [] => String::new(),
+                all => format!(
+                    "; what {} cut with their axes turning taken as cut where the program has it",
+                    all.join(", ")
+                ),
+            };
+            add(
+                format!(
+                    "no rapid move, no tool with its spindle off, no shank and no given holder of `{file}` meets stock{also}"
+                ),
+                format!(
+                    "stock as large as any of these leaves it, cut by the motion swept; overlaps narrower than {:.2} mm at an edge of the stock can be missed{turning}",
+                    std::f64::consts::SQRT_2 * job.step
+                ),
+            );
+        }
         let fixtures = &job.setups[i].setup.fixtures;
         if !fixtures.is_empty() && simulation.meetings[i].iter().all(|m| m.contact.is_none()) {
             let bodies = match &fixtures[..] {
@@ -85,7 +108,7 @@ pub(in crate::job) fn proven(
             };
             let holders = if (0..segments.len()).any(held) { ", shank or given holder" } else { " or shank" };
             add(
-                format!("no tool{holders} meets {bodies} in `{file}`"),
+                format!("no tool{holders} meets {bodies} in `{file}`{also}"),
                 format!(
                     "motion swept, not sampled, {ways}; contacts within 0.01 mm count{curves}",
                     ways = if segments.iter().any(|s| s.alternative) {
@@ -98,7 +121,7 @@ pub(in crate::job) fn proven(
         }
         if let Some(contacts) = simulation.machine[i].as_ref().filter(|c| c.compared > 0 && c.is_clear()) {
             let (claim, bound) = machine_clear(contacts, file, segments.iter().any(|s| s.alternative));
-            add(claim, bound);
+            add(format!("{claim}{also}"), bound);
         }
         if let Some(machine) = &job.machine
             && machine.joints.iter().any(|a| a.travel.is_some())

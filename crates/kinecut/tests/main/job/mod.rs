@@ -17,3 +17,4 @@ mod prove_motion;
 mod prove_rules;
 mod shape;
 mod tap;
+mod uncertainty;
