@@ -15,11 +15,13 @@ pub(crate) fn triple(text: &str) -> Result<[f64; 3], String> {
         .ok_or_else(|| "write three numbers with commas between, such as 0,-1,1".to_owned())
 }
 
-/// How far a zero, a tool's length and the raw stock may be off.
+/// Distances by which a zero, a tool's length and the raw stock may be off.
 pub(crate) fn uncertainty(text: &str) -> Result<Uncertainty, String> {
-    let [offset, length, stock] = numbers(text).filter(|n| n.iter().all(|v| v.is_finite())).ok_or_else(|| {
-        "write how far the zero, each tool's length and the raw stock may be off, such as 0.05,0.02,0.5".to_owned()
-    })?;
+    let [offset, length, stock] =
+        numbers(text).filter(|n| n.iter().all(|v| v.is_finite())).ok_or_else(|| {
+            "write how far the zero, each tool's length and the raw stock may be off, such as 0.05,0.02,0.5"
+                .to_owned()
+        })?;
     Ok(Uncertainty { offset, length, stock })
 }
 

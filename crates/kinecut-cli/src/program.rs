@@ -6,7 +6,8 @@ use clap::ValueEnum;
 use kinecut::base::{Code, Error, FileKind, Finding};
 use kinecut::job::{
     DesignWants, GivenFile, GivenJob, GivenStock, InspectWants, ProgramWants, RunWants, SectionPlane,
-    StockWants, control_of, given_alone, given_with_job, is_tool_table, program_text, subprograms, Uncertainty,
+    StockWants, Uncertainty, control_of, given_alone, given_with_job, is_tool_table, program_text,
+    subprograms,
 };
 use kinecut::nc::{Control, NumberInput, PostSettings};
 use kinecut::operations::OrientationName;
@@ -74,7 +75,7 @@ struct Stock {
     /// Do not measure it
     #[arg(long)]
     no_engagement: bool,
-    /// How far the zero, each tool's length and the raw stock may be off, mm: contacts are looked for over the whole range; default: that of
+    /// Distances by which the zero, each tool's length and the raw stock may be off, mm: contacts are looked for over the whole range; default: that of
     /// the job, then not at all
     #[arg(long, value_name = "OFFSET,LENGTH,STOCK", value_parser = uncertainty)]
     uncertainty: Option<Uncertainty>,

@@ -222,7 +222,8 @@ fn what_lies_inside_is_told_and_the_mesh_is_said_to_cut_itself() {
     let line = json(&ball(r#""move": { "from": [0, 0, 0], "to": [20, 3, -9] }"#));
     // A convex tool that does not turn: everything is on the boundary.
     assert_eq!(line["walls"]["inside"], 0.0);
-    assert_eq!(line["mesh"]["may_cut_itself"], false);
+    assert_eq!(line["untrimmed"]["may_cut_itself"], false);
+    assert_eq!(line["mesh"]["deeper"], 0);
     assert!(line["cusps"].as_array().unwrap().is_empty());
     let shown = text(&kinecut(&["envelope", &example("06_five_axis_sweep/envelope.toml")], "").stdout);
     for word in [
@@ -364,13 +365,17 @@ fn files_stand_alone_and_are_whole_or_absent() {
         assert_eq!(text.matches("http://").count(), text.matches("http://www.w3.org").count());
     }
     let (volume, _) = closed(&std::fs::read(out.join("envelope.stl")).unwrap());
-    assert!(volume > 0.0);
+    let (untrimmed, _) = closed(&std::fs::read(out.join("envelope-untrimmed.stl")).unwrap());
+    assert!(0.0 < volume && volume < untrimmed);
     let mut names: Vec<String> = std::fs::read_dir(&out)
         .unwrap()
         .map(|e| e.unwrap().file_name().to_string_lossy().into_owned())
         .collect();
     names.sort();
-    assert_eq!(names, ["envelope.glb", "envelope.html", "envelope.stl", "swept.svg"]);
+    assert_eq!(
+        names,
+        ["envelope-untrimmed.stl", "envelope.glb", "envelope.html", "envelope.stl", "swept.svg"]
+    );
     // A folder in the way of the page: nothing is written.
     let other = folder("in-the-way");
     std::fs::create_dir_all(other.join("envelope.html")).unwrap();

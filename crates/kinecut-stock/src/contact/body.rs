@@ -17,7 +17,7 @@ pub struct Body {
     pub name: String,
     /// The least distance that others are to keep [mm]; nearer is a warning, zero asks for none.
     pub near: f64,
-    /// How far it may be from its place, or others from theirs [mm]: what comes nearer may meet it. Zero where all is where it is said to be.
+    /// Distance by which it may be off its place, or others off theirs [mm]: bodies that come nearer may meet it. Zero where all is where it is said to be.
     pub off: f64,
     pub(super) bounds: Aabb,
     /// A ball that holds it.

@@ -79,7 +79,8 @@ pub fn meetings(
     progress: &dyn Progress,
 ) -> Result<Vec<Meeting>> {
     progress.stage("contacts", moves.len() as u64);
-    let all = bodies.iter().fold(Aabb::EMPTY, |sum, body| sum.union(body.bounds.grown(body.near.max(body.off))));
+    let all =
+        bodies.iter().fold(Aabb::EMPTY, |sum, body| sum.union(body.bounds.grown(body.near.max(body.off))));
     let task = |(n, moves): (usize, &[Watched])| {
         let mut found = Vec::new();
         let mut kept = Kept { near: NearestOf::new(), clear: Clearances::new() };

@@ -188,7 +188,8 @@ pub(super) fn clearing<'a, M: Motion>(
         let lift = 0.5 * (meets + clears);
         let lifted = Lifted { motion, by: up * lift };
         let ends = [0.0, 1.0].map(|t| Moment::of(&lifted, t));
-        let touches = |moving: &Body| Pair { motion: &lifted, moving, standing }.touch(&ends, standing.off).is_some();
+        let touches =
+            |moving: &Body| Pair { motion: &lifted, moving, standing }.touch(&ends, standing.off).is_some();
         match moving.clone().any(touches) {
             true => meets = lift,
             false => clears = lift,

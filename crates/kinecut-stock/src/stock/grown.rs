@@ -63,11 +63,14 @@ impl TriDexel {
         let all: Vec<Rounded> = mesh.triangles.iter().map(rounded).collect();
         let pairs: f64 = Axis::ALL.iter().map(|axis| pairs(&all, &lattice, *axis)).sum();
         if pairs > MOST_PAIRS {
-            return Err(Finding::error(Code::JOB_BUDGET, "the mesh of the stock has too many triangles to be made larger at this step")
-                .value(pairs, "lines near its triangles")
-                .bound(MOST_PAIRS, "lines near its triangles")
-                .help("use a greater step, or give the stock as a block or a cylinder")
-                .into());
+            return Err(Finding::error(
+                Code::JOB_BUDGET,
+                "the mesh of the stock has too many triangles to be made larger at this step",
+            )
+            .value(pairs, "lines near its triangles")
+            .bound(MOST_PAIRS, "lines near its triangles")
+            .help("use a greater step, or give the stock as a block or a cylinder")
+            .into());
         }
         for grid in &mut self.grids {
             add(grid, &lattice, &all);
@@ -88,9 +91,8 @@ fn indices(lattice: &Lattice, axis: Axis, [low, high]: [f64; 2]) -> Range<usize>
 fn pairs(all: &[Rounded], lattice: &Lattice, axis: Axis) -> f64 {
     let (a, b) = axis.others();
     let of = |r: &Rounded| {
-        let along = |x: Axis| {
-            indices(lattice, x, [r.bounds.min[x.index()], r.bounds.max[x.index()]]).len() as f64
-        };
+        let along =
+            |x: Axis| indices(lattice, x, [r.bounds.min[x.index()], r.bounds.max[x.index()]]).len() as f64;
         along(a) * along(b)
     };
     all.iter().map(of).sum()
@@ -268,7 +270,8 @@ mod tests {
 
     /// A tetrahedron, and a triangle on one of its edges that has no area.
     fn mesh() -> Mesh {
-        let vertices = [[0.0, 0.0, 0.0], [9.0, 1.0, 0.5], [2.0, 8.0, -1.0], [1.5, 2.5, 6.0]].map(DVec3::from).to_vec();
+        let vertices =
+            [[0.0, 0.0, 0.0], [9.0, 1.0, 0.5], [2.0, 8.0, -1.0], [1.5, 2.5, 6.0]].map(DVec3::from).to_vec();
         Mesh { vertices, triangles: vec![[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3], [0, 1, 0]] }
     }
 

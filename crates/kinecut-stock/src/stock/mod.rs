@@ -23,6 +23,7 @@ mod skimmed;
 pub mod surface;
 mod tile;
 mod tri_dexel;
+mod trimmed;
 mod volume;
 mod wall_ends;
 
@@ -32,5 +33,6 @@ pub use end_map::EndMap;
 pub use engagement::{Engaged, PointEngagement, PointStage, point_engagement};
 pub use lattice::{Axis, DexelGrid, Lattice};
 pub use tri_dexel::TriDexel;
+pub use trimmed::{TrimmedEnvelope, trimmed_envelope};
 pub use volume::Volume;
 pub use wall_ends::{WallEnd, wall_ends};

@@ -20,7 +20,7 @@ pub use chain::{ChainPiece, PieceKind, PieceShape, ProfileChain};
 pub use cone_chain::{cone_chain, cone_chain_error};
 pub use entered_area::EnteredArea;
 pub use entering::{Entering, EnteringRegion};
-pub use envelope::{Envelope, EnvelopeEvent, EnvelopePoint};
+pub use envelope::{Depth, Envelope, EnvelopeEvent, EnvelopePoint, SweptDepth};
 pub use exact::{ConvexTool, LowerPiece, LowerProfile, LowerShape, arc_volume, line_volume, tool_volume};
 pub use grazing::{Grazing, GrazingLoop, GrazingPoint, GrazingSpan, Motion, SegmentKind};
 pub(crate) use motion::chain_acceleration;

@@ -65,7 +65,7 @@ pub struct Simulation {
     pub certificate: Option<Certificate>,
     /// Engagement of the tools, where it was measured.
     pub engagement: Option<Engagement>,
-    /// What tools may meet of the stock where something is off, where the job says how far it may be.
+    /// Contacts with the stock that are possible where something is off, if the job says by how much it may be.
     pub uncertain: Option<UncertainStock>,
     /// The stock over time, where it is wanted for the report.
     pub playback: Option<PlayedStock>,

@@ -21,7 +21,7 @@ use crate::trace::Trace;
 /// Difference of two directions that counts as none.
 const PARALLEL: f64 = 1e-9;
 
-/// What tools may meet of the stock where something is off.
+/// Contacts with the stock that are possible where something is off.
 #[derive(Clone, Debug, PartialEq)]
 pub struct UncertainStock {
     /// Distances that were counted in.
@@ -91,7 +91,7 @@ struct Pass<'a> {
 }
 
 impl Pass<'_> {
-    /// What a tool leaves in a setup, against the tools of the pass.
+    /// Material that a tool may leave in a setup, against the tools of the pass.
     fn spared(&self, setup: usize, body: usize) -> Spared {
         let Uncertainty { offset, length, .. } = self.uncertainty;
         if setup == self.setup && self.group.contains(&body) {
@@ -111,7 +111,7 @@ impl Pass<'_> {
         }
     }
 
-    /// What remains of a core that is taken out in a setup.
+    /// Material that may remain of a core that is taken out in a setup.
     fn spared_of_core(&self, setup: usize) -> Spared {
         let Uncertainty { offset, length, .. } = self.uncertainty;
         let zeros = if setup == self.setup { 0.0 } else { 2.0 * offset };

@@ -20,7 +20,7 @@ pub struct StockWants {
     pub certified: bool,
     /// Whether the engagement of the tools is measured; default: as the job says.
     pub engagement: Option<bool>,
-    /// How far a person may be off; default: as the job says.
+    /// Distances by which a person may be off; default: as the job says.
     pub uncertainty: Option<Uncertainty>,
     /// Whether the stock over time is wanted, for the report; default no.
     pub playback: bool,

@@ -9,8 +9,8 @@ use super::super::meeting::{Contact, MOST_LIFTS, TASK, cancelled, contact, reach
 use super::super::motion::{Moment, Standing};
 use super::super::nearest_of::NearestOf;
 use super::super::pair::{Pair, TOUCH, clearing, may_meet};
-use super::super::search::Nearest;
 use super::super::piece::Piece;
+use super::super::search::Nearest;
 use super::super::tool::{MovingTool, ToolPart};
 use super::axes::{Axes, tip_at_home};
 use super::motion::LinkMotion;

@@ -329,7 +329,7 @@ mod tests {
         }
     }
 
-    /// How far heights over radii of the body without what is spared along it are from what they should be.
+    /// Greatest error of the heights over radii of the body without what is spared along it.
     fn part_heights(body: &RevolvedParts, d: f64) -> f64 {
         let less = body.sparing(Spared { around: 0.0, along: d });
         let mut worst = (less.top - (body.top - d)).abs();

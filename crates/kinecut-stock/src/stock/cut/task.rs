@@ -44,7 +44,8 @@ impl Tool {
         let mut hollow = body.edge.as_ref().and_then(|edge| Hollow::new(edge, body.cutting.top()));
         if let Some(edge) = hollow.filter(|_| spared != Spared::NOTHING) {
             // What such an edge is sure to take is what it takes over its whole width, above its highest place.
-            cutting = RevolvedParts::new(edge.above_all().iter().map(|(profile, z)| (profile, *z))).sparing(spared);
+            cutting =
+                RevolvedParts::new(edge.above_all().iter().map(|(profile, z)| (profile, *z))).sparing(spared);
             hollow = None;
         }
         let all = [&cutting, &shank, &holder];

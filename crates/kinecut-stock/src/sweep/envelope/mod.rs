@@ -11,6 +11,7 @@
 
 mod cap;
 mod cusp;
+mod depth;
 mod face;
 mod point;
 mod polygon;
@@ -36,6 +37,7 @@ use stray::faces;
 use strip::Builder;
 use wall::Rail;
 
+pub use depth::{Depth, SweptDepth};
 pub use point::EnvelopePoint;
 
 /// The envelope of a move.

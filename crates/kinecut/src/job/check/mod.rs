@@ -70,7 +70,7 @@ pub struct Job {
     pub certified: bool,
     /// Whether the engagement of the tools is measured; if nothing says so, for programs that take little time.
     pub engagement: Option<bool>,
-    /// How far a person may be off, if at all.
+    /// Distances by which a person may be off, if at all.
     pub uncertainty: Option<Uncertainty>,
     /// Whether the stock over time is wanted.
     pub playback: bool,

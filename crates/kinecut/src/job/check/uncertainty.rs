@@ -1,4 +1,4 @@
-//! How far zeros, tool lengths and the raw stock may be off.
+//! Distances by which zeros, tool lengths and the raw stock may be off.
 
 use crate::base::Result;
 use crate::base::bounded::length;
@@ -46,12 +46,12 @@ impl Uncertainty {
         self.offset > 0.0 || self.length > 0.0 || self.stock > 0.0
     }
 
-    /// How far a tool may be from where a program has it, against bodies that stand [mm].
+    /// Distance of a tool from where a program has it, at most, against bodies that stand [mm].
     pub fn of_tool(&self) -> f64 {
         self.offset + self.length
     }
 
-    /// How far it may be against the faces of the raw stock [mm].
+    /// The same against the faces of the raw stock [mm].
     pub fn of_raw(&self) -> f64 {
         self.offset + self.length + self.stock
     }

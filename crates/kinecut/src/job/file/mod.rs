@@ -202,7 +202,7 @@ pub struct SimulateTable {
     /// default: for programs of less than 20 000 moves.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub engagement: Option<bool>,
-    /// How far zeros, tool lengths and the raw stock may be off when the programs run: contacts are looked for over the whole range;
+    /// Distances by which zeros, tool lengths and the raw stock may be off when the programs run: contacts are looked for over the whole range;
     /// default: not at all. `uncertainty = { offset = 0.05, length = 0.02, stock = 0.5 }`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub uncertainty: Option<UncertaintyTable>,

@@ -4,6 +4,7 @@ use serde::{Serialize, Serializer};
 
 use super::{EnteringAt, EnvelopeSheet, MoveSource};
 use crate::base::Finding;
+use crate::geom::Mesh;
 use crate::sweep::{EnvelopeEvent, EnvelopePoint};
 use crate::tool::ElementRole;
 use crate::verbs::grazing::json::{PieceJson, matrix, parameter, sign, turned};
@@ -30,6 +31,7 @@ struct SheetJson<'a> {
     tolerance: f64,
     tool_volume: f64,
     turn: f64,
+    untrimmed: UntrimmedJson,
     walls: WallsJson,
     way: &'static str,
 }
@@ -37,10 +39,28 @@ struct SheetJson<'a> {
 #[derive(Serialize)]
 struct MeshJson {
     bounds: [[f64; 3]; 2],
+    deeper: usize,
+    deepest: f64,
+    looked_at: usize,
+    step: f64,
+    triangles: usize,
+    vertices: usize,
+    volume: f64,
+    volume_of_lines: f64,
+}
+
+#[derive(Serialize)]
+struct UntrimmedJson {
+    bounds: [[f64; 3]; 2],
     may_cut_itself: bool,
     triangles: usize,
     vertices: usize,
     volume: f64,
+}
+
+fn bounds(mesh: &Mesh) -> [[f64; 3]; 2] {
+    let bounds = mesh.bounds();
+    [bounds.min.to_array(), bounds.max.to_array()]
 }
 
 /// `second` is infinite on edges, which JSON has no number for: there it is null.
@@ -67,8 +87,7 @@ struct WallsJson {
 
 impl Serialize for EnvelopeSheet {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let (envelope, mesh) = (&self.envelope, &self.envelope.mesh);
-        let bounds = mesh.bounds();
+        let (envelope, trimmed) = (&self.envelope, &self.trimmed);
         let [area, inside, of_hollow_edges] = self.wall_areas();
         let pieces = (0..self.chain.pieces().len()).map(|i| PieceJson::of(&self.chain, i, None));
         let sheet = SheetJson {
@@ -79,11 +98,15 @@ impl Serialize for EnvelopeSheet {
             findings: &self.findings,
             length: self.length,
             mesh: MeshJson {
-                bounds: [bounds.min.to_array(), bounds.max.to_array()],
-                may_cut_itself: self.cuts_itself(),
-                triangles: mesh.triangles.len(),
-                vertices: mesh.vertices.len(),
-                volume: mesh.volume(),
+                bounds: bounds(&trimmed.mesh),
+                deeper: trimmed.deeper,
+                deepest: trimmed.deepest,
+                looked_at: trimmed.looked_at,
+                step: trimmed.step,
+                triangles: trimmed.mesh.triangles.len(),
+                vertices: trimmed.mesh.vertices.len(),
+                volume: trimmed.mesh.volume(),
+                volume_of_lines: trimmed.volume,
             },
             mode: self.mode,
             moments: &envelope.moments,
@@ -97,6 +120,13 @@ impl Serialize for EnvelopeSheet {
             tolerance: self.tolerance,
             tool_volume: self.tool_volume,
             turn: self.turn.to_degrees(),
+            untrimmed: UntrimmedJson {
+                bounds: bounds(&envelope.mesh),
+                may_cut_itself: self.cuts_itself(),
+                triangles: envelope.mesh.triangles.len(),
+                vertices: envelope.mesh.vertices.len(),
+                volume: envelope.mesh.volume(),
+            },
             walls: WallsJson { area, inside, of_hollow_edges },
             way: self.way,
         };

@@ -76,14 +76,15 @@ impl Answer for Envelopes {
         }
     }
 
-    /// The page, and of each envelope its mesh in both forms; numbered when there are several.
+    /// The page, and of each envelope the boundary of what is swept in both forms and the envelope untrimmed; numbered when there are several.
     fn files(answers: &[&Envelopes]) -> Result<Outputs> {
         let sheets: Vec<&EnvelopeSheet> = answers.iter().flat_map(|answer| &answer.0).collect();
         let mut outputs = page("envelope.html", envelope_html(&sheets)?);
         for (i, sheet) in sheets.iter().enumerate() {
             let name = if sheets.len() > 1 { format!("envelope-{}", i + 1) } else { "envelope".to_owned() };
-            outputs.add(format!("{name}.stl"), write_stl(&sheet.envelope.mesh));
-            outputs.add(format!("{name}.glb"), write_glb(&sheet.envelope.mesh, None)?);
+            outputs.add(format!("{name}.stl"), write_stl(&sheet.trimmed.mesh));
+            outputs.add(format!("{name}.glb"), write_glb(&sheet.trimmed.mesh, None)?);
+            outputs.add(format!("{name}-untrimmed.stl"), write_stl(&sheet.envelope.mesh));
         }
         Ok(outputs)
     }

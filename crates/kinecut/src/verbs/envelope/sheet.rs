@@ -7,9 +7,11 @@ use super::EnvelopeTable;
 use super::given_move::{GivenMove, MoveSource};
 use super::moving::motions;
 use super::walls::{WallCell, walls};
+use crate::base::bounded::{MAX_LENGTH, length};
 use crate::base::{Code, Finding, Loader, Progress, Result};
 use crate::geom::CurveKind;
 use crate::job::contour::{chosen_contour, given_contour};
+use crate::stock::{TrimmedEnvelope, trimmed_envelope};
 use crate::sweep::{
     ConvexTool, Envelope, EnvelopePoint, Motion, ProfileChain, ToolMotion, arc_volume, line_volume,
     tool_volume,
@@ -62,9 +64,11 @@ pub struct EnvelopeSheet {
     pub length: f64,
     /// Angle by which the tool's axis turns, along its way [rad].
     pub turn: f64,
-    /// Tolerance of the mesh [mm].
+    /// Tolerance of the meshes [mm].
     pub tolerance: f64,
-    /// The envelope.
+    /// The boundary of what is swept.
+    pub trimmed: TrimmedEnvelope,
+    /// The envelope with all that lies inside of what is swept.
     pub envelope: Envelope,
     /// Volume of the tool [mm3].
     pub tool_volume: f64,
@@ -128,6 +132,8 @@ fn sheet(
         Code::SWEEP_TOLERANCE | Code::SWEEP_TOO_FINE => e.under("tolerance"),
         _ => e,
     })?;
+    let step = table.step.map(|step| length("step", step, 1e-4, MAX_LENGTH)).transpose()?;
+    let trimmed = trimmed_envelope((&contour, &motion), tolerance, step, progress)?;
     let [length, turn] = way_and_turn(&motion);
     let moments: Vec<f64> = (0..=STEPS).map(|k| k as f64 / STEPS as f64).collect();
     let entering: Vec<EnteringAt> = moments.par_iter().map(|&t| entering_at(&chain, &motion, t)).collect();
@@ -154,6 +160,7 @@ fn sheet(
         length,
         turn,
         tolerance,
+        trimmed,
         envelope,
         entering,
         notes,
@@ -174,7 +181,7 @@ impl EnvelopeSheet {
         sums
     }
 
-    /// Whether the mesh may cut itself, judged by neighbouring moments.
+    /// Whether the mesh of the envelope may cut itself, judged by neighbouring moments.
     pub fn cuts_itself(&self) -> bool {
         !self.cusps.is_empty() || self.walls.iter().any(|c| c.inside)
     }

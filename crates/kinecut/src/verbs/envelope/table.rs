@@ -37,6 +37,9 @@ pub struct EnvelopeTable {
     /// Largest distance of the mesh from the envelope, mm; default 0.01.
     #[serde(default)]
     pub tolerance: Option<f64>,
+    /// Distance of the lines by which the mesh is trimmed, mm: what is thinner may be missing; default: that of about 400 000 lines.
+    #[serde(default)]
+    pub step: Option<f64>,
     /// Most sample points in JSON; default 400.
     #[serde(default)]
     pub points: Option<u32>,

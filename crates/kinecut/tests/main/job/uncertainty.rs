@@ -47,7 +47,7 @@ fn run_at(step: f64, job: &str, programs: &[(&str, &str)], off: [f64; 3]) -> Out
     let stock =
         StockWants { step: Some(step), engagement: Some(false), uncertainty, ..StockWants::default() };
     let wants = RunWants { compare: false, stock };
-    let loader = programs.iter().fold(MemoryLoader::default(), |all, (name, text)| all.with(*name, *text));
+    let loader = programs.iter().fold(MemoryLoader::default(), |all, (name, text)| all.with(name, *text));
     run_with("job.toml", job, &wants, &loader, &Silent).unwrap_or_else(|e| panic!("{e}"))
 }
 
@@ -201,7 +201,7 @@ fn random_program(seed: u64, off: Off) -> String {
     text
 }
 
-/// What is found of the stock deeper than a length [mm], by number of the line and code.
+/// Contacts with the stock deeper than a length [mm], by number of the line and code.
 fn met(outcome: &Outcome, deeper: f64) -> BTreeSet<(u32, Code)> {
     let codes = [Code::RAPID_IN_STOCK, Code::SHANK_IN_STOCK, Code::HOLDER_IN_STOCK];
     let all = codes.iter().flat_map(|code| found(outcome, *code));

@@ -52,7 +52,7 @@ fn line(end: [f64; 3]) -> Curve {
 }
 
 /// A move of each class.
-fn moves() -> Vec<(&'static str, ToolMotion)> {
+pub(super) fn moves() -> Vec<(&'static str, ToolMotion)> {
     let arc = |rise| -> Curve {
         Arc::new(DVec3::new(12.0, 0.0, 0.0), DVec3::ZERO, DVec3::Z, 2.0, rise).unwrap().into()
     };
@@ -79,7 +79,8 @@ fn moves() -> Vec<(&'static str, ToolMotion)> {
     ]
 }
 
-const TOOLS: [&str; 8] = ["flat", "ball", "bull", "apt7", "barrel", "lollipop", "cornerround", "dished"];
+pub(super) const TOOLS: [&str; 8] =
+    ["flat", "ball", "bull", "apt7", "barrel", "lollipop", "cornerround", "dished"];
 
 #[test]
 fn meshes_close_whatever_tool_and_move() {

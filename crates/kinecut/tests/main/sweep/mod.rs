@@ -7,3 +7,4 @@ mod exact;
 mod golden;
 mod grazing;
 mod motion;
+mod trimmed;

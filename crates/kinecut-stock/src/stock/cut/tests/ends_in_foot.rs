@@ -11,21 +11,12 @@ use crate::sweep::ToolMotion;
 /// A cone, a ball, a round of a bull nose: each 5 mm or 3 mm high.
 fn profiles() -> [Profile; 3] {
     let one = |element| Profile::new(vec![element]).unwrap();
-    let round = |centre_radius| ProfileElement::Torus {
-        centre_radius,
-        centre_z: 3.0,
-        radius: 3.0,
-        z0: 0.0,
-        z1: 3.0,
-    };
-    [
-        one(ProfileElement::Cone { z0: 0.0, r0: 0.25, z1: 5.0, r1: 5.25 }),
-        one(round(0.0)),
-        one(round(2.0)),
-    ]
+    let round =
+        |centre_radius| ProfileElement::Torus { centre_radius, centre_z: 3.0, radius: 3.0, z0: 0.0, z1: 3.0 };
+    [one(ProfileElement::Cone { z0: 0.0, r0: 0.25, z1: 5.0, r1: 5.25 }), one(round(0.0)), one(round(2.0))]
 }
 
-/// What a tool meets on a line in a block whose top is at Z 0, its axis upright and leaning by 10 degrees.
+/// Effects of a tool that moves on a line in a block whose top is at Z 0, its axis upright and leaning by 10 degrees.
 fn met(tool: &ToolBody, from: [f64; 3], to: [f64; 3]) -> [MoveEffect; 2] {
     let line = Line { start: from.into(), end: to.into() };
     let axis = DVec3::new(10f64.to_radians().sin(), 0.0, 10f64.to_radians().cos());

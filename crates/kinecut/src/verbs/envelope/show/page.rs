@@ -2,7 +2,7 @@
 
 use super::charts::charts;
 use super::figure::figure;
-use super::tables::{cusps, entering, events, facts, move_lines, second_order, title, volume_note};
+use super::tables::{cusps, entering, events, facts, move_lines, second_order, title, trimmed_lines};
 use crate::base::Result;
 use crate::page::verb_page::VerbPage;
 use crate::page::{Block, Section, draw, fixed};
@@ -10,8 +10,7 @@ use crate::verbs::envelope::EnvelopeSheet;
 use crate::verbs::grazing::show::sentence;
 
 /// Caution on a page of this verb.
-const CAUTION: &str = "An envelope bounds what the surface of revolution sweeps: it knows nothing of teeth, and is not trimmed \
-where it lies inside of what other moments sweep.";
+const CAUTION: &str = "An envelope bounds what the surface of revolution sweeps: it knows nothing of teeth.";
 
 /// The page of one sheet, or of several.
 ///
@@ -47,10 +46,10 @@ fn drawn(sheet: &EnvelopeSheet, number: usize) -> Result<Section> {
 /// The sheet in words and numbers.
 pub(crate) fn section(sheet: &EnvelopeSheet) -> Section {
     let mut lines = move_lines(sheet);
-    let b = sheet.envelope.mesh.bounds();
+    let b = sheet.trimmed.mesh.bounds();
     let side = |k: usize| format!("{} to {}", fixed(b.min[k], 3), fixed(b.max[k], 3));
     lines.push(format!("it lies in X {}, Y {}, Z {} mm", side(0), side(1), side(2)));
-    lines.push(format!("the volume is {}", volume_note(sheet)));
+    lines.extend(trimmed_lines(sheet));
     lines.push(format!(
         "straight ways between the moments leave the tool's by {} mm at most",
         fixed(sheet.envelope.pose_error, 6)

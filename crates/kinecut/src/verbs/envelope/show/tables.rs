@@ -42,13 +42,29 @@ pub(crate) fn move_lines(sheet: &EnvelopeSheet) -> Vec<String> {
     lines
 }
 
-/// Whether the volume of the mesh is that of the envelope.
-pub(crate) fn volume_note(sheet: &EnvelopeSheet) -> &'static str {
-    if sheet.cuts_itself() {
-        "of a mesh that cuts itself: parts may count twice or be taken away"
-    } else {
-        "of the mesh; no cut of it with itself is told by the moments beside"
-    }
+/// The mesh of the boundary, and the one of the envelope, in sentences.
+pub(crate) fn trimmed_lines(sheet: &EnvelopeSheet) -> Vec<String> {
+    let trimmed = &sheet.trimmed;
+    let deeper = match trimmed.deeper {
+        0 => format!("none of {} vertices", trimmed.looked_at),
+        n => format!("{n} of {} vertices", trimmed.looked_at),
+    };
+    let untrimmed = match sheet.cuts_itself() {
+        true => "it cuts itself, and its volume counts parts twice or takes them away",
+        false => "no cut of it with itself is told by the moments beside",
+    };
+    vec![
+        format!(
+            "the boundary is trimmed on lines {} mm apart: what is thinner may be missing; {deeper} looked at are deeper inside than the tolerance, the deepest by {} mm",
+            trimmed.step,
+            fixed(trimmed.deepest, 4)
+        ),
+        format!(
+            "untrimmed the envelope has {} triangles around {} mm\u{b3}: {untrimmed}",
+            sheet.envelope.mesh.triangles.len(),
+            fixed(sheet.envelope.mesh.volume(), 3)
+        ),
+    ]
 }
 
 /// Results on the second order that are certain, in sentences.
@@ -181,10 +197,11 @@ pub(crate) fn entering(sheet: &EnvelopeSheet) -> Table {
 
 /// The main numbers.
 pub(crate) fn facts(sheet: &EnvelopeSheet) -> Vec<Fact> {
-    let mesh = &sheet.envelope.mesh;
+    let mesh = &sheet.trimmed.mesh;
     let size = mesh.bounds().size();
     let exact = sheet.exact_volume.map_or(String::new(), |v| format!("closed form {} mm\u{b3}", fixed(v, 3)));
-    let note = if exact.is_empty() { volume_note(sheet).to_owned() } else { exact };
+    let by_lines = format!("{} mm\u{b3} on the lines", fixed(sheet.trimmed.volume, 3));
+    let note = if exact.is_empty() { by_lines } else { exact };
     let [area, inside, _] = sheet.wall_areas();
     let share = if area > 0.0 { inside / area } else { 0.0 };
     vec![
