@@ -151,7 +151,7 @@ pub(crate) fn meets(
         if d <= touch {
             return (Some(t), least);
         }
-        t += direction * ((d - 0.5 * touch) / speed).max(1e-7);
+        t += direction * ((d - touch + 5e-5) / speed).max(1e-7);
     }
     (None, least)
 }

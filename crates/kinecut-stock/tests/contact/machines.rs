@@ -235,16 +235,18 @@ fn contacts_and_near_misses_of_links_are_those_of_another_library() {
         let there = case.seen(case.moving.link, random.next());
         let near = there.point(case.moving.shown[0].place.translation) + random.point(70.0);
         let (solid, place, mut judged) = body(&mut random, near);
-        let find = |bodies: &[LinkBody], by: DVec3| -> Vec<MachineMeeting> {
+        let find_off = |bodies: &[LinkBody], by: DVec3, off: f64| -> Vec<MachineMeeting> {
             let place = Rigid { translation: place.translation + by, ..place };
             let mut bodies = bodies.to_vec();
-            bodies.push(link_body(link(low), Body::new("standing", &solid, place, NEAR).unwrap()));
+            let standing = Body::new("standing", &solid, place, NEAR).unwrap().off_by(off);
+            bodies.push(link_body(link(low), standing));
             let tool = ToolInSpindle { tool: in_spindle.clone(), length: LENGTH };
             let parts = MachineParts::new(&machine, placed(), bodies, vec![tool]).unwrap();
             let met = parts.meetings(&[MachineMove { segment, tool: 0 }], &[], &Silent).unwrap();
             assert!(met.lost.is_empty());
             met.meetings
         };
+        let find = |bodies: &[LinkBody], by: DVec3| find_off(bodies, by, 0.0);
         let judge = |standing: &Shown, touch: f64, from: f64, way: f64| {
             meets(|t| case.distance_of(standing, t), speed, from, way, touch)
         };
@@ -292,6 +294,10 @@ fn contacts_and_near_misses_of_links_are_those_of_another_library() {
             let nearest = found.iter().map(|m| m.distance).fold(f64::INFINITY, f64::min);
             // The judge steps by the distance: it is at least half a step off the nearest.
             assert!(nearest <= least + 2e-3 && nearest >= least - 0.11, "{nearest} {least}");
+            let may = find_off(&bodies, by, least + 0.02);
+            let mut contacts = may.iter().filter_map(|m| m.contact);
+            assert!(contacts.any(|contact| !contact.certain) && may.iter().all(|m| !m.is_certain()));
+            assert!(find_off(&bodies, by, nearest - 0.03).iter().all(|m| m.contact.is_none()));
             misses += 1;
         }
     }

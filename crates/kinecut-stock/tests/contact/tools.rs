@@ -81,11 +81,12 @@ fn contacts_and_near_misses_are_those_of_another_library() {
         };
         let (met, least) = judge(&judged, 1e-4, 0.0, 1.0);
         let watched = [Watched { motion: motion.clone(), tool: 0 }];
-        let find = |by: DVec3| {
+        let find_off = |by: DVec3, off: f64| {
             let place = Rigid { translation: place.translation + by, ..place };
-            let standing = [Body::new("clamp", &solid, place, NEAR).unwrap()];
+            let standing = [Body::new("clamp", &solid, place, NEAR).unwrap().off_by(off)];
             meetings(std::slice::from_ref(&moving), &standing, &watched, DVec3::Z, &Silent).unwrap()
         };
+        let find = |by: DVec3| find_off(by, 0.0);
         if let Some(first) = met {
             // A mesh of the judge has no inside: a tool that begins within is no case for it.
             if judged.shape.as_trimesh().is_some() && least == 0.0 && first == 0.0 {
@@ -149,6 +150,23 @@ fn contacts_and_near_misses_are_those_of_another_library() {
             let nearest = found.iter().map(|m| m.distance).fold(f64::INFINITY, f64::min);
             // The judge steps by the distance: it is at least half a step off the nearest.
             assert!(nearest <= least + 2e-3, "{nearest} {least}");
+            // Of a clamp that may be off by more it may be a contact, from where it is as near; of one off by less it is none.
+            let off = least + random.between(0.01, 0.5);
+            let may: Vec<_> =
+                find_off(by, off).into_iter().filter_map(|m| Some((m.contact?, m.distance))).collect();
+            let from = may.iter().map(|(c, _)| c.from).fold(f64::INFINITY, f64::min);
+            let to = may.iter().map(|(c, _)| c.to).fold(0.0, f64::max);
+            let times = |touch: f64| {
+                [judge(&judged, touch, 0.0, 1.0).0, judge(&judged, touch, 1.0, -1.0).0].map(Option::unwrap)
+            };
+            let ([first, last], [sooner, later]) = (times(off - 1e-3), times(off + 0.01));
+            let room = 0.01 / speed;
+            assert!(from <= first + room && from >= sooner - room, "{from} {first} {sooner} {off} {least}");
+            assert!(to >= last - room && to <= later + room, "{to} {last} {later} {off} {least}");
+            assert!(may.iter().all(|(c, _)| !c.certain));
+            let nearest = may.iter().map(|(_, distance)| *distance).fold(f64::INFINITY, f64::min);
+            assert!(nearest <= least + 2e-3, "{nearest} {least}");
+            assert!(find_off(by, nearest - 0.03).iter().all(|m| m.contact.is_none()));
             misses += 1;
         }
     }
@@ -196,7 +214,7 @@ fn many_short_moves_find_what_each_finds_by_itself() {
             .map(|i| {
                 let there = at + random.point(90.0);
                 let (solid, place, _) = body(&mut random, there);
-                Body::new(format!("body {i}"), &solid, place, NEAR).unwrap()
+                Body::new(format!("body {i}"), &solid, place, NEAR).unwrap().off_by(0.3 * f64::from(i))
             })
             .collect();
         // A walk in steps of a tenth of a millimetre to a few, now and then far away.
