@@ -23,6 +23,7 @@ mod mesh_3mf;
 mod mesh_3mf_read;
 mod mesh_closed;
 mod mesh_distance;
+mod mesh_faces;
 mod mesh_glb;
 mod mesh_line;
 mod mesh_load;

@@ -51,7 +51,7 @@ mod wrong_type;
 
 pub use budget::Budget;
 pub use check::{
-    Design, Job, JobProgram, JobSetup, Subprogram, Uncertainty, check, program_text, subprograms,
+    Design, Job, JobProgram, JobSetup, Region, Subprogram, Uncertainty, check, program_text, subprograms,
 };
 pub use engagement::{Engagement, engagement_json};
 pub use external::{
@@ -78,7 +78,7 @@ pub use read_back::{ReadBack, compare};
 pub(crate) use run::still_wanted;
 pub use run::{RunWants, run, run_with, simulate_given};
 pub use setup_outcome::SetupOutcome;
-pub use shape::{Deviation, Largest, deviation};
+pub use shape::{Deviation, Largest, RegionMeasure, deviation};
 pub use simulate::{Simulation, simulate};
 pub use subject::{Subject, sha256};
 pub use uncertain::UncertainStock;

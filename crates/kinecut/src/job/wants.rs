@@ -50,7 +50,7 @@ impl DesignWants {
         let mesh = load_mesh(&self.name, &loader)?;
         let of_job = job.design.as_ref().map_or(TOLERANCE, |design| design.tolerance);
         let tolerance = length("--design-tolerance", self.tolerance.unwrap_or(of_job), 1e-6, 100.0)?;
-        job.design = Some(Design { mesh, tolerance });
+        job.design = Some(Design::new(mesh, tolerance));
         Ok(Subject {
             role: "given design".to_owned(),
             file: Some(self.name.clone()),

@@ -130,11 +130,12 @@ def plays(page: Page, file: Path) -> float:
     assert 0 < 2 * faces <= FEW, faces
     page.locator("#kc-play").click()
     best = 0.0
-    # Something else may run for a moment.
-    for _ in range(5):
+    # Something else may run for a while.
+    for _ in range(15):
         best = max(best, page.evaluate(RATE))
         if best >= LEAST_RATE:
             break
+        page.wait_for_timeout(3000)
     return best
 
 

@@ -4,6 +4,7 @@
 pub(crate) mod axes;
 mod body;
 pub(crate) mod control;
+mod design;
 mod feed_limit;
 mod fixture;
 pub(crate) mod joint;
@@ -15,6 +16,7 @@ mod setup;
 pub(in crate::job) mod step;
 mod uncertainty;
 
+pub use design::{Design, Region};
 pub use uncertainty::Uncertainty;
 
 pub use program::{JobProgram, Subprogram, program_text, subprograms};
@@ -27,8 +29,8 @@ use feed_limit::feed_limit;
 
 use super::file::{DrilledTable, JobFile, MachineEntry, StockTable};
 use crate::base::bounded::{MAX_LENGTH, length, positive, text};
-use crate::base::{Code, Error, Finding, Loader, Result};
-use crate::geom::{Aabb, Mesh, Solid, load_mesh};
+use crate::base::{Code, Finding, Loader, Result};
+use crate::geom::{Aabb, Solid, load_mesh};
 use crate::job::part_surface::PartSurface;
 use crate::machine::Machine;
 use crate::motion::AxisLimit;
@@ -80,15 +82,6 @@ pub struct Job {
     pub setups: Vec<JobSetup>,
     /// Whether other ways than the one asked for are planned too, each with its price.
     pub compare: bool,
-}
-
-/// The wanted part as a mesh.
-#[derive(Clone, Debug)]
-pub struct Design {
-    /// Surface [part coordinates].
-    pub mesh: Mesh,
-    /// Largest allowed distance of the cut surface from it [mm].
-    pub tolerance: f64,
 }
 
 /// A clamping with its operations.
@@ -149,10 +142,7 @@ pub fn check(file: &JobFile, name: &str, loader: &dyn Loader) -> Result<Job> {
     };
     let bounds = stock.bounds();
     let memory = positive("simulate.memory", file.simulate.memory.unwrap_or(4000.0), 1e6, "MB")?;
-    let design = file.design.as_ref().map(|d| {
-        let mesh = load_mesh(&d.mesh, loader).map_err(|e| e.under("design.mesh"))?;
-        Ok::<_, Error>(Design { mesh, tolerance: length("design.tolerance", d.tolerance, 1e-6, 100.0)? })
-    });
+    let design = file.design.as_ref().map(|table| Design::of(table, loader));
     if file.setups.is_empty() {
         return Err(Finding::error(Code::JOB_SHAPE, "a job needs a setup").help("add [[setup]]").into());
     }

@@ -73,6 +73,28 @@ pub struct DesignTable {
     pub mesh: String,
     /// Largest allowed distance between cut and wanted surface.
     pub tolerance: f64,
+    /// Regions of its surface with limits of their own.
+    #[serde(default, rename = "region", skip_serializing_if = "Vec::is_empty")]
+    pub regions: Vec<RegionTable>,
+}
+
+/// Faces of the design with limits of their own.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct RegionTable {
+    /// Name.
+    pub name: String,
+    /// Points on its faces, one for each: a face goes on as far as its triangles do smoothly.
+    pub at: Vec<[f64; 3]>,
+    /// Angle of the normals on both sides of an edge up to which a face goes on, degrees; default 20.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub angle: Option<f64>,
+    /// Greatest depth to which it may be cut into; default: the tolerance of the design.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub gouge: Option<f64>,
+    /// Most stock that may be left on it; default: the tolerance of the design.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub rest: Option<f64>,
 }
 
 /// The raw stock.

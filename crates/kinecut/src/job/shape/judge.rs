@@ -1,12 +1,12 @@
 //! Deviations out of tolerance as findings, those within as claims, and what could not be measured as doubts.
 
 use super::Deviation;
+use super::design::RegionMeasure;
 use super::wanted::Wanted;
 use crate::base::{Code, Finding};
-use crate::job::check::Design;
 use crate::operations::Operation;
 use crate::operations::measured::{BoreMeasure, FaceMeasure, Worst};
-use crate::stock::{DeviationSummary, FIXED_STEP, WorstEnd};
+use crate::stock::FIXED_STEP;
 
 /// Judges the walls and floors of bores; `wanted` and `measures` go together.
 pub(super) fn bores(wanted: &[Wanted<'_>], measures: &[BoreMeasure], answer: &mut Deviation) {
@@ -73,35 +73,39 @@ pub(super) fn face(operation: &Operation, m: &FaceMeasure, answer: &mut Deviatio
     }
 }
 
-/// Judges the whole part against the design mesh.
-pub(super) fn design(
-    design: &Design,
-    summary: &DeviationSummary,
-    first: Option<WorstEnd>,
-    answer: &mut Deviation,
-) {
+/// Judges the part against a region of the design mesh, or against what lies in none; the whole mesh has none to be named.
+pub(super) fn design(m: &RegionMeasure, in_regions: bool, answer: &mut Deviation) {
     let help = "add the operations that are missing, or correct those that cut too deep";
-    let worst = |w: WorstEnd| Worst { depth: w.depth, point: w.point, cut: w.cut };
-    let (gouge, left) = (worst(summary.gouge), worst(summary.left));
-    answer.judge(
-        Code::WALL_GOUGED,
-        "the part is cut into the design",
-        &gouge,
-        design.tolerance,
-        (help, None),
-    );
+    let of = match (in_regions, m.name.as_str()) {
+        (false, _) => String::new(),
+        (true, "") => "outside of all regions ".to_owned(),
+        (true, name) => format!("at `{name}` "),
+    };
+    let what = format!("{of}the part is cut into the design");
+    answer.judge(Code::WALL_GOUGED, &what, &m.gouge, m.gouge_limit, (help, None));
     // Another block than the worst one may have been the first.
-    if let Some(first) = first.filter(|first| first.cut != summary.gouge.cut) {
-        let what = "the part is cut into the design for the first time";
-        answer.judge(Code::WALL_GOUGED, what, &worst(first), design.tolerance, (help, None));
+    if let Some(first) = m.first.filter(|first| first.cut != m.gouge.cut) {
+        let what = format!("{what} for the first time");
+        answer.judge(Code::WALL_GOUGED, &what, &first, m.gouge_limit, (help, None));
     }
-    answer.judge(Code::STOCK_LEFT, "stock is left on the design", &left, design.tolerance, (help, None));
-    let most = gouge.depth.max(left.depth);
-    if most <= design.tolerance && summary.ends > 0 {
-        let (um, ends) = (micrometres(most), summary.ends);
+    let what = format!("{of}stock is left on the design");
+    answer.judge(Code::STOCK_LEFT, &what, &m.left, m.rest_limit, (help, None));
+    if m.is_within() && m.ends > 0 {
+        let (um, ends) = (micrometres(m.gouge.depth.max(m.left.depth)), m.ends);
         answer
             .proven
-            .push(format!("the part lies within {um} \u{b5}m of the design mesh at {ends} line ends"));
+            .push(format!("{of}the part lies within {um} \u{b5}m of the design mesh at {ends} line ends"));
+    }
+    if in_regions && !m.name.is_empty() && m.ends == 0 {
+        let f = Finding::doubt(
+            Code::NOT_MEASURED,
+            format!(
+                "region `{}` of the design could not be measured: no line of the stock ends near it",
+                m.name
+            ),
+        )
+        .help("lower simulate.step, or look whether the region lies on the part");
+        answer.findings.push((f, 0, None));
     }
 }
 

@@ -5,6 +5,7 @@
 //! one cuts away is not looked for.
 
 mod claim;
+mod design;
 mod flat;
 mod judge;
 mod measure;
@@ -17,9 +18,11 @@ use super::check::Job;
 use super::setup_outcome::{SetupOutcome, block_of_cut};
 use super::simulate::Simulation;
 use crate::base::{Finding, Result};
-use crate::geom::{Aabb, Mesh, MeshDistance, Rigid};
+use crate::geom::{Aabb, Mesh, Rigid};
 use crate::operations::measured::{BoreMeasure, FaceMeasure};
 use crate::stock::{Axis, CutId, DexelGrid, EndMap, Lattice, TriDexel, unfixed};
+
+pub use self::design::RegionMeasure;
 
 use self::claim::Claim;
 use self::flat::measure_face;
@@ -43,6 +46,8 @@ pub struct Deviation {
     pub bores: Vec<BoreMeasure>,
     /// One for each milled face.
     pub faces: Vec<FaceMeasure>,
+    /// What lies in no region of the design, and one for each region; none without a design.
+    pub regions: Vec<RegionMeasure>,
     /// Findings, each with the cut that made it, 0 where nothing cut, and the number of the operation that wanted the surface;
     /// without one it is the design's.
     pub findings: Vec<(Finding, CutId, Option<u32>)>,
@@ -130,15 +135,17 @@ pub fn deviation(
     });
     drop(claims);
     if let Some(design) = &job.design {
-        let distance = MeshDistance::new(&design.mesh)?;
-        let tolerance = design.tolerance as f32;
-        let from_design = crate::stock::deviation(stock, |p| distance.signed(p))?;
-        let summary = crate::stock::summary(stock, &from_design);
-        compared.merge_from(&from_design, |old, d| old.or(Compared { deviation: d as f32, tolerance }));
-        answer.note_largest(summary.ends as usize, summary.left.depth, summary.gouge.depth, design.tolerance);
-        let first = crate::stock::first_gouge(stock, &from_design, design.tolerance);
-        judge::design(design, &summary, first, &mut answer);
-        tolerances.push(design.tolerance);
+        let from_design = design::ends(design, stock)?;
+        compared.merge_from(&from_design, |old, end| old.or(end.compared(design)));
+        for m in design::measures(design, stock, &from_design) {
+            answer.note_largest(m.ends, m.left.depth, 0.0, m.rest_limit);
+            answer.note_largest(m.ends, 0.0, m.gouge.depth, m.gouge_limit);
+            judge::design(&m, !design.regions.is_empty(), &mut answer);
+            if m.ends > 0 {
+                tolerances.extend([m.gouge_limit, m.rest_limit]);
+            }
+            answer.regions.push(m);
+        }
     }
     let first = tolerances.first().copied().unwrap_or(0.0);
     answer.relative = tolerances.iter().any(|t| *t != first);
