@@ -1,7 +1,5 @@
 //! The raw stock, and changes of it by hand: holes that are there before the job, and cores that a person takes out.
 
-use glam::DVec3;
-
 use super::check::Job;
 use crate::base::{Code, Finding, Result, Silent};
 use crate::geom::{Line, Profile, Solid};
@@ -14,11 +12,15 @@ pub(super) fn drill(stock: &mut TriDexel, job: &Job) -> Result<()> {
     drill_sparing(stock, job, Spared::NOTHING)
 }
 
-/// The same of holes that may be narrower.
+/// The same of holes that may be narrower, and shorter where they end within the stock: a stock that is larger is drilled through all the same.
 pub(super) fn drill_sparing(stock: &mut TriDexel, job: &Job, spared: Spared) -> Result<()> {
     for (i, hole) in job.drilled.iter().enumerate() {
-        let body = ToolBody::new(Profile::cylinder(hole.diameter, hole.height)?);
-        let down = Line { start: hole.base + DVec3::Z * hole.height, end: hole.base };
+        let (whole, beyond) = (job.stock.bounds(), 3.0 * spared.around);
+        let (mut low, mut high) = (hole.base.z, hole.base.z + hole.height);
+        low -= if low <= whole.min.z { beyond } else { 0.0 };
+        high += if high >= whole.max.z { beyond } else { 0.0 };
+        let body = ToolBody::new(Profile::cylinder(hole.diameter, high - low)?);
+        let down = Line { start: hole.base.with_z(high), end: hole.base.with_z(low) };
         plunge(stock, body, CutMove::new(down, CutAxis::PlusZ, 0), i as u32, spared)?;
     }
     Ok(())

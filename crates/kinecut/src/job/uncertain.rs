@@ -43,6 +43,9 @@ pub(super) fn look(story: &Story<'_>, progress: &dyn Progress) -> Result<Option<
     let mut effects: Vec<Vec<MoveEffect>> =
         story.moves.iter().map(|list| vec![MoveEffect::default(); list.moves().len()]).collect();
     let mut turning = Vec::new();
+    let axes: Vec<Vec<Option<DVec3>>> = (story.traces.iter())
+        .map(|trace| story.job.tools.iter().map(|tool| axis(trace, tool)).collect())
+        .collect();
     let passes: Vec<(usize, Vec<usize>)> = (0..story.moves.len())
         .flat_map(|setup| {
             let used = used(story.moves[setup].moves(), story.bodies.len());
@@ -54,9 +57,9 @@ pub(super) fn look(story: &Story<'_>, progress: &dyn Progress) -> Result<Option<
         .collect();
     progress.stage("cut with what may be off", passes.len() as u64);
     for (setup, group) in passes {
-        let pass = Pass { story, uncertainty, setup, group };
+        let pass = Pass { story, uncertainty, axes: &axes, setup, group };
         if uncertainty.length > 0.0 {
-            let turn = |body: &&usize| axis(story.traces[setup], &story.job.tools[**body]).is_none();
+            let turn = |body: &&usize| axes[setup][**body].is_none();
             turning.extend(pass.group.iter().filter(turn).map(|body| story.job.tools[*body].number));
         }
         pass.run(&mut effects[setup], progress)?;
@@ -86,6 +89,8 @@ fn axis(trace: &Trace, tool: &Tool) -> Option<DVec3> {
 struct Pass<'a> {
     story: &'a Story<'a>,
     uncertainty: Uncertainty,
+    /// For each setup and tool the one axis of all its moves.
+    axes: &'a [Vec<Option<DVec3>>],
     setup: usize,
     group: Vec<usize>,
 }
@@ -99,10 +104,9 @@ impl Pass<'_> {
         }
         // Two zeros in earlier setups, one in its own.
         let zeros = if setup == self.setup { 0.0 } else { 2.0 * offset };
-        let axis = |setup: usize, body: usize| axis(self.story.traces[setup], &self.story.job.tools[body]);
-        let own = axis(setup, body);
+        let own = self.axes[setup][body];
         let alike = |other: &usize| {
-            own.zip(axis(self.setup, *other)).is_some_and(|(a, b)| (a - b).length() < PARALLEL)
+            own.zip(self.axes[self.setup][*other]).is_some_and(|(a, b)| (a - b).length() < PARALLEL)
         };
         // Both lengths along one axis, or the other one in some direction.
         match self.group.iter().all(alike) {
@@ -115,7 +119,7 @@ impl Pass<'_> {
     fn spared_of_core(&self, setup: usize) -> Spared {
         let Uncertainty { offset, length, .. } = self.uncertainty;
         let zeros = if setup == self.setup { 0.0 } else { 2.0 * offset };
-        Spared { around: zeros + if setup == self.setup { 0.0 } else { length }, along: length }
+        Spared { around: zeros + if setup == self.setup { 0.0 } else { length }, along: 2.0 * length }
     }
 
     fn run(&self, effects: &mut [MoveEffect], progress: &dyn Progress) -> Result<()> {

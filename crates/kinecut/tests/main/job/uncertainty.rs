@@ -115,6 +115,17 @@ fn a_tool_is_as_far_off_as_its_own_cuts_and_others_are_not() {
 }
 
 #[test]
+fn a_hole_through_the_raw_stock_stays_one() {
+    // A rapid down through a hole of 12 mm that the stock has; and to 1 mm above the bottom of another one.
+    let drilled = "[[drilled]]\nat = [8, 10]\ndiameter = 12\ntop = 0\nbottom = -8\n[[drilled]]\nat = [22, 10]\ndiameter = 12\ntop = 0\nbottom = -6\n";
+    let program = "G17 G21 G90 G94 G54\nT2 M6\nG43\nS3000 M3\nG0 X8 Y10 Z5\nG0 Z-7\nG0 Z5\nG0 X22\nG0 Z-5\nG0 Z5\nG1 X29 F900\nG1 Z-1\nG0 Z30\nM2\n";
+    let done = |off| run(&job(BLOCK, drilled, SETUP), &[("P.ngc", program)], off);
+    assert!(done([0.1, 0.0, 0.8]).verdict.is_safe(), "{:?}", done([0.1, 0.0, 0.8]).verdict.found);
+    let met = doubts(&done([0.1, 0.1, 1.0]), Code::RAPID_IN_STOCK);
+    assert!(met.len() == 1 && met[0].0 == "G0 Z-5" && (met[0].1 - 0.2).abs() < 5e-3, "{met:?}");
+}
+
+#[test]
 fn what_an_earlier_setup_left_is_off_by_two_zeros() {
     let setups = format!("{SETUP}[[setup]]\noffset = \"G55\"\nprogram = {{ file = \"Q.ngc\" }}\n");
     // A slot 6 mm wide through the block along X; then a mill of 4 mm goes through at rapid 0.8 mm from a wall, and 0.3 mm over its floor.
