@@ -17,11 +17,11 @@ pub(crate) fn triple(text: &str) -> Result<[f64; 3], String> {
 
 /// Distances by which a zero, a tool's length and the raw stock may be off.
 pub(crate) fn uncertainty(text: &str) -> Result<Uncertainty, String> {
-    let [offset, length, stock] =
-        numbers(text).filter(|n| n.iter().all(|v| v.is_finite())).ok_or_else(|| {
-            "write how far the zero, each tool's length and the raw stock may be off, such as 0.05,0.02,0.5"
-                .to_owned()
-        })?;
+    let distances = |n: &[f64; 3]| n.iter().all(|v| v.is_finite() && *v >= 0.0);
+    let [offset, length, stock] = numbers(text).filter(distances).ok_or_else(|| {
+        "write by how much the zero, each tool's length and the raw stock may be off, none below zero, such as 0.05,0.02,0.5"
+            .to_owned()
+    })?;
     Ok(Uncertainty { offset, length, stock })
 }
 

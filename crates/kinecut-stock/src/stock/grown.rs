@@ -79,22 +79,16 @@ impl TriDexel {
     }
 }
 
-/// The indices of coordinates of a lattice between two values, and of lines beside them.
-fn indices(lattice: &Lattice, axis: Axis, [low, high]: [f64; 2]) -> Range<usize> {
-    let count = lattice.counts[axis.index()] as usize;
-    let index = |x: f64| ((x - lattice.origin[axis.index()]) / lattice.step).clamp(-1.0, count as f64);
-    let from = (index(low).floor()).max(0.0) as usize;
-    from..((index(high).ceil() + 1.0) as usize).clamp(from, count.max(from))
+/// The indices of the lines beside which a rounded triangle lies, along an axis across them.
+fn beside(one: &Rounded, lattice: &Lattice, axis: Axis) -> Range<usize> {
+    let range = lattice.between(axis, [one.bounds.min[axis.index()], one.bounds.max[axis.index()]]);
+    range.start as usize..range.end as usize
 }
 
 /// Number of pairs of a triangle and a line along an axis that may be near it.
 fn pairs(all: &[Rounded], lattice: &Lattice, axis: Axis) -> f64 {
     let (a, b) = axis.others();
-    let of = |r: &Rounded| {
-        let along =
-            |x: Axis| indices(lattice, x, [r.bounds.min[x.index()], r.bounds.max[x.index()]]).len() as f64;
-        along(a) * along(b)
-    };
+    let of = |r: &Rounded| beside(r, lattice, a).len() as f64 * beside(r, lattice, b).len() as f64;
     all.iter().map(of).sum()
 }
 
@@ -103,7 +97,7 @@ fn add(grid: &mut Grid, lattice: &Lattice, all: &[Rounded]) {
     let axis = grid.axis;
     let (_, b) = axis.others();
     let [across, bands] = grid.tiles_across();
-    let rows = |r: &Rounded| indices(lattice, b, [r.bounds.min[b.index()], r.bounds.max[b.index()]]);
+    let rows = |r: &Rounded| beside(r, lattice, b);
     let mut in_band = vec![Vec::new(); bands as usize];
     for (i, one) in all.iter().enumerate() {
         let reach = rows(one);
@@ -132,7 +126,7 @@ fn add_to_band(tiles: &mut [Tile], band: usize, near: &[&Rounded], axis: Axis, l
             if y < low[b.index()] || y > high[b.index()] {
                 continue;
             }
-            for column in indices(lattice, a, [low[a.index()], high[a.index()]]) {
+            for column in beside(one, lattice, a) {
                 let mut p = DVec3::ZERO;
                 p[a.index()] = lattice.coordinate(a, column as u32) + LINE_OFFSET;
                 p[b.index()] = y;

@@ -1,5 +1,7 @@
 //! The lattice that the three grids share, and the view of a tri-dexel body that its surface is made from.
 
+use std::ops::Range;
+
 use glam::DVec3;
 use serde::Serialize;
 
@@ -64,6 +66,25 @@ impl Lattice {
     /// A lattice point [mm].
     pub fn point(&self, i: u32, j: u32, k: u32) -> DVec3 {
         self.origin + DVec3::new(f64::from(i), f64::from(j), f64::from(k)) * self.step
+    }
+
+    /// The indices along an axis whose coordinates lie between two values [mm], and one more on each side; none beyond the ends.
+    ///
+    /// ```
+    /// # use kinecut_stock as kinecut;
+    /// use kinecut::stock::{Axis, Lattice};
+    /// let lattice = Lattice { origin: [0.5, 0.5, 0.5].into(), step: 1.0, counts: [10, 4, 4] };
+    /// assert_eq!(lattice.between(Axis::X, [2.7, 4.1]), 2..5);
+    /// assert_eq!(lattice.between(Axis::Y, [-9.0, 0.2]), 0..1);
+    /// assert!(lattice.between(Axis::Z, [7.0, 9.0]).is_empty());
+    /// ```
+    pub fn between(&self, axis: Axis, [low, high]: [f64; 2]) -> Range<u32> {
+        let (at, count) = (axis.index(), self.counts[axis.index()]);
+        // Casts keep in range by themselves.
+        let index = |x: f64| (x - self.origin[at]) / self.step;
+        let from = index(low).floor() as u32;
+        let to = (index(high).ceil() + 1.0) as u32;
+        from.min(count)..to.min(count).max(from.min(count))
     }
 
     /// Coordinate of the index `i` along an axis [mm].

@@ -9,7 +9,6 @@
 
 pub mod certify;
 pub mod cut;
-mod deviation;
 mod dexel;
 mod end_map;
 mod engagement;
@@ -27,7 +26,6 @@ mod trimmed;
 mod volume;
 mod wall_ends;
 
-pub use deviation::{DeviationSummary, WorstEnd, deviation, first_gouge, summary};
 pub use dexel::{CutId, EndPoint, FIXED_STEP, Interval, PackedNormal, fixed, unfixed};
 pub use end_map::EndMap;
 pub use engagement::{Engaged, PointEngagement, PointStage, point_engagement};

@@ -94,15 +94,23 @@ pub fn trimmed_envelope(
         Code::SWEEP_TOLERANCE | Code::SWEEP_TOO_FINE => e.under("tolerance"),
         _ => e,
     })?;
-    let bounds = envelope.mesh.bounds();
-    let step = step.unwrap_or_else(|| usual_step(bounds));
-    let bounds = bounds.grown(step);
+    let step = step.unwrap_or_else(|| usual_step(envelope.mesh.bounds()));
+    trim(&envelope.mesh, &SweptDepth::new(contour, motion), (tolerance, fine, step), progress)
+}
+
+/// Trims the mesh of an envelope with lines; `fine` [mm] is the tolerance of the faces.
+fn trim(
+    envelope: &Mesh,
+    depth: &SweptDepth<'_>,
+    (tolerance, fine, step): (f64, f64, f64),
+    progress: &dyn Progress,
+) -> Result<TrimmedEnvelope> {
+    let bounds = envelope.bounds().grown(step);
     MOST_LINES.check(TriDexel::lines(bounds, step) as f64).map_err(|e| e.under("step"))?;
-    let mut lines = TriDexel::of_mesh(&envelope.mesh, bounds, step)?;
-    let depth = SweptDepth::new(contour, motion);
+    let mut lines = TriDexel::of_mesh(envelope, bounds, step)?;
     let lattice = *lines.lattice();
     for grid in &mut lines.grids {
-        close_gaps(grid, &lattice, (&depth, DEEP * fine), progress);
+        close_gaps(grid, &lattice, (depth, DEEP * fine), progress);
     }
     if progress.cancelled() {
         return Err(Finding::error(Code::CANCELLED, "the trimming of a swept volume was cancelled").into());
@@ -202,4 +210,50 @@ fn usual_step(bounds: Aabb) -> f64 {
     let step = ((s.x * s.y + s.y * s.z + s.z * s.x) / LINES).sqrt();
     let digit = 10f64.powf(step.log10().floor() - 1.0);
     (step / digit).ceil() * digit
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::base::Silent;
+    use crate::geom::Arc;
+    use crate::tool::{ContourElement, ElementRole};
+
+    #[test]
+    fn slivers_between_walls_that_run_along_each_other_are_closed() {
+        // A flat mill on an upright arc, its axis upright: walls run along each other inside of what is swept.
+        let flat = Contour::new(vec![
+            ContourElement::line([0.0, 0.0], [5.0, 0.0], ElementRole::Cutting),
+            ContourElement::line([5.0, 0.0], [5.0, 30.0], ElementRole::Cutting),
+            ContourElement::line([5.0, 30.0], [0.0, 30.0], ElementRole::Shank),
+        ])
+        .unwrap();
+        let arc = Arc::new(DVec3::ZERO, DVec3::new(0.0, 0.0, 15.0), DVec3::Y, -1.6, 0.0).unwrap();
+        let motion = ToolMotion::fixed(arc.into(), DVec3::Z).unwrap();
+        // Coarse facets have slivers that the lines see.
+        let coarse = ProfileChain::new(&flat).envelope(&motion, 0.025, &Silent).unwrap();
+        let depth = SweptDepth::new(&flat, &motion);
+        let trimmed = trim(&coarse.mesh, &depth, (0.05, 0.05, 0.1), &Silent).unwrap();
+        assert!(trimmed.looked_at > 2000 && trimmed.deeper == 0, "{} {}", trimmed.deeper, trimmed.deepest);
+        let bounds = coarse.mesh.bounds().grown(0.1);
+        let gaps = |lines: &TriDexel| {
+            let of = |axis: Axis| {
+                let (a, b) = axis.others();
+                let counts = lines.lattice().counts;
+                let line = |i: u32, j: u32| lines.line(axis, i, j).len().saturating_sub(1);
+                (0..counts[b.index()])
+                    .map(|j| (0..counts[a.index()]).map(|i| line(i, j)).sum::<usize>())
+                    .sum::<usize>()
+            };
+            Axis::ALL.map(of).iter().sum::<usize>()
+        };
+        let mut lines = TriDexel::of_mesh(&coarse.mesh, bounds, 0.1).unwrap();
+        let before = gaps(&lines);
+        let lattice = *lines.lattice();
+        for grid in &mut lines.grids {
+            close_gaps(grid, &lattice, (&depth, 0.0125), &Silent);
+        }
+        let after = gaps(&lines);
+        assert!(before > 1000 && after < before / 2, "{before} {after}");
+    }
 }

@@ -150,7 +150,7 @@ fn contacts_and_near_misses_are_those_of_another_library() {
             let nearest = found.iter().map(|m| m.distance).fold(f64::INFINITY, f64::min);
             // The judge steps by the distance: it is at least half a step off the nearest.
             assert!(nearest <= least + 2e-3, "{nearest} {least}");
-            // Of a clamp that may be off by more it may be a contact, from where it is as near; of one off by less it is none.
+            // A clamp off by more may be met, from where it is as near; one off by less is not.
             let off = least + random.between(0.01, 0.5);
             let may: Vec<_> =
                 find_off(by, off).into_iter().filter_map(|m| Some((m.contact?, m.distance))).collect();

@@ -185,7 +185,7 @@ pub(super) fn findings(
     new.filter(|(item, f)| !met.contains(&(*item, f.code)))
         .map(|(item, f)| Finding {
             severity: Severity::Doubt,
-            message: format!("{}, with {}", f.message, off.words()),
+            message: off.possible(&f.message),
             place: place(item),
             ..f
         })

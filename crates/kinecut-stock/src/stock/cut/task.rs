@@ -43,7 +43,7 @@ impl Tool {
         let contact = cutting.shrunk(options.clearance);
         let mut hollow = body.edge.as_ref().and_then(|edge| Hollow::new(edge, body.cutting.top()));
         if let Some(edge) = hollow.filter(|_| spared != Spared::NOTHING) {
-            // What such an edge is sure to take is what it takes over its whole width, above its highest place.
+            // Only above its highest place it takes its whole width: no more than that is sure.
             cutting =
                 RevolvedParts::new(edge.above_all().iter().map(|(profile, z)| (profile, *z))).sparing(spared);
             hollow = None;

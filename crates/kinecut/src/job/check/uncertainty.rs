@@ -56,6 +56,26 @@ impl Uncertainty {
         self.offset + self.length + self.stock
     }
 
+    /// The message of a contact as that of one that may be: "the holder may meet `clamp`, with zeros ±0.05 mm".
+    pub(in crate::job) fn possible(&self, message: &str) -> String {
+        const VERBS: [[&str; 2]; 5] = [
+            [" goes ", " may go "],
+            [" turns ", " may turn "],
+            [" cuts ", " may cut "],
+            [" meets ", " may meet "],
+            [" comes ", " may come "],
+        ];
+        // The first verb of the sentence; that of a clause within it stays.
+        let within = message.find("which does not cut").map_or(0, |at| at + "which does not cut".len());
+        let first =
+            |[verb, may]: [&'static str; 2]| Some((message[within..].find(verb)? + within, verb, may));
+        let text = match VERBS.into_iter().filter_map(first).min_by_key(|(at, ..)| *at) {
+            Some((at, verb, may)) => format!("{}{may}{}", &message[..at], &message[at + verb.len()..]),
+            None => message.to_owned(),
+        };
+        format!("{text}, with {}", self.words())
+    }
+
     /// In words: "zeros ±0.05 mm, tool lengths ±0.02 mm, raw stock +0.5 mm".
     pub fn words(&self) -> String {
         let parts = [
@@ -66,5 +86,35 @@ impl Uncertainty {
         let given = parts.iter().filter(|(_, value)| *value > 0.0);
         let parts: Vec<String> = given.map(|(what, value)| format!("{what}{value} mm")).collect();
         parts.join(", ")
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_contact_that_may_be_is_said_to_be_one() {
+        let off = Uncertainty { offset: 0.05, length: 0.0, stock: 0.5 };
+        for (certain, possible) in [
+            ("a rapid move goes through stock", "a rapid move may go through stock"),
+            (
+                "the nose of the tool, which does not cut, meets stock",
+                "the nose of the tool, which does not cut, may meet stock",
+            ),
+            (
+                "the tool cuts while the spindle stands still",
+                "the tool may cut while the spindle stands still",
+            ),
+            (
+                "`head` of the machine comes where the stock was",
+                "`head` of the machine may come where the stock was",
+            ),
+        ] {
+            assert_eq!(
+                off.possible(certain),
+                format!("{possible}, with zeros \u{b1}0.05 mm, raw stock +0.5 mm")
+            );
+        }
     }
 }

@@ -71,6 +71,7 @@ pub(in crate::job) fn findings(
     meetings: &[Meeting],
     place: impl Fn(u32) -> Option<Location>,
 ) -> Vec<Finding> {
+    let told = |m: &Meeting, way: f64| (m.contact, way, m.distance);
     // Item, body, and the one that lasts longest or is nearest.
     let mut contacts: Vec<(u32, &Meeting, f64)> = Vec::new();
     let mut near: Vec<&Meeting> = Vec::new();
@@ -101,7 +102,7 @@ pub(in crate::job) fn findings(
         let same = contacts[from..].iter().position(|(_, m, _)| m.body == meeting.body).map(|i| from + i);
         match same {
             // The first of those that are as long.
-            Some(i) if is_worse((meeting.contact, way), (contacts[i].1.contact, contacts[i].2)) => {
+            Some(i) if is_worse(told(meeting, way), told(contacts[i].1, contacts[i].2)) => {
                 contacts[i] = (segment.item, meeting, way);
             }
             Some(_) => {}

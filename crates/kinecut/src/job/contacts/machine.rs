@@ -210,6 +210,7 @@ pub(in crate::job) fn findings(
     place: impl Fn(u32) -> Option<Location>,
 ) -> Vec<Finding> {
     let pair = |m: &MachineMeeting| (m.moving, m.standing);
+    let told = |m: &MachineMeeting, way: f64| (m.contact, way, m.distance);
     // Item, and the meeting that lasts longest or is nearest.
     let mut met: Vec<(u32, &MachineMeeting, f64)> = Vec::new();
     let mut near: Vec<&MachineMeeting> = Vec::new();
@@ -241,7 +242,7 @@ pub(in crate::job) fn findings(
         let of_block = met.iter().rev().take_while(|(item, ..)| *item == segment.item).count();
         let from = met.len() - of_block;
         match met[from..].iter_mut().find(|(_, m, _)| pair(m) == pair(meeting)) {
-            Some(known) if is_worse((meeting.contact, way), (known.1.contact, known.2)) => {
+            Some(known) if is_worse(told(meeting, way), told(known.1, known.2)) => {
                 *known = (segment.item, meeting, way);
             }
             Some(_) => {}

@@ -32,22 +32,26 @@ fn changed_before(trace: &Trace, watched: u32) -> Option<u32> {
     here.find(|stand| matches!(stand.kind, StandKind::Change(_))).map(|stand| stand.item)
 }
 
-/// Whether a contact says more than another one, each with its way [mm]: a certain one than one that may be, else the longer one.
-fn is_worse((one, way): (Option<Contact>, f64), (other, known): (Option<Contact>, f64)) -> bool {
+/// Whether a contact says more than another one, each with its way and its distance [mm]: a certain one more than one that may be; of two
+/// certain ones the longer, of others the nearer.
+fn is_worse(
+    (one, way, distance): (Option<Contact>, f64, f64),
+    (other, known, nearest): (Option<Contact>, f64, f64),
+) -> bool {
     let certain = |contact: Option<Contact>| contact.is_some_and(|c| c.certain);
     match (certain(one), certain(other)) {
         (true, false) => true,
         (false, true) => false,
-        _ => way > known + AS_LONG,
+        (true, true) => way > known + AS_LONG,
+        (false, false) => distance < nearest - AS_NEAR,
     }
 }
 
 /// The doubt about bodies that pass nearer than they may be off; `message` is that of a contact.
 fn may_meet(code: Code, message: &str, distance: f64, off: Option<Uncertainty>) -> Finding {
-    let words = off.unwrap_or_default().words();
     // Not farther than they are.
     let apart = ((distance - ACCURACY).max(0.0) * 100.0).floor() / 100.0;
-    Finding::doubt(code, format!("{message}, with {words}")).value(apart, "mm apart")
+    Finding::doubt(code, off.unwrap_or_default().possible(message)).value(apart, "mm apart")
 }
 
 /// A length in hundredths of a millimetre.

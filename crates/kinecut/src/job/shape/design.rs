@@ -20,10 +20,10 @@ pub(super) struct OfDesign {
     region: u16,
 }
 
-/// What was found in a region of the design.
+/// Deviations from the design in one of its regions.
 #[derive(Clone, Debug, Default)]
 pub struct RegionMeasure {
-    /// Its name; that of what lies in none is empty.
+    /// Its name; empty for the surface outside of all regions.
     pub name: String,
     /// Greatest depth to which it may be cut into [mm].
     pub gouge_limit: f64,
@@ -53,7 +53,7 @@ pub(super) fn ends(design: &Design, stock: &TriDexel) -> Result<EndMap<OfDesign>
 }
 
 impl OfDesign {
-    /// What the colours are made of.
+    /// Deviation with its tolerance, as the colours take it.
     pub(super) fn compared(self, design: &Design) -> Compared {
         let [gouge, rest] = design.limits(self.region);
         let tolerance = if self.deviation < 0.0 { gouge } else { rest };
@@ -61,7 +61,7 @@ impl OfDesign {
     }
 }
 
-/// The measures of what lies in no region, and of each region.
+/// The measures of the surface outside of all regions, and of each region.
 pub(super) fn measures(design: &Design, stock: &TriDexel, ends: &EndMap<OfDesign>) -> Vec<RegionMeasure> {
     let names = std::iter::once("").chain(design.regions.iter().map(|r| r.name.as_str()));
     let measure = |(number, name): (u16, &str)| {

@@ -46,7 +46,7 @@ pub struct Deviation {
     pub bores: Vec<BoreMeasure>,
     /// One for each milled face.
     pub faces: Vec<FaceMeasure>,
-    /// What lies in no region of the design, and one for each region; none without a design.
+    /// Measures of the design: of the surface outside of all regions, then of each region; none without a design.
     pub regions: Vec<RegionMeasure>,
     /// Findings, each with the cut that made it, 0 where nothing cut, and the number of the operation that wanted the surface;
     /// without one it is the design's.
@@ -255,12 +255,7 @@ fn measures(wanted: &[Wanted<'_>], stock: &TriDexel, claims: &EndMap<Claim>) -> 
 
 /// The indices of the lattice along an axis that lie in a region.
 fn indices(lattice: &Lattice, axis: Axis, region: &Aabb) -> std::ops::Range<u32> {
-    let (at, count) = (axis.index(), lattice.counts[axis.index()]);
-    // Casts keep in range by themselves.
-    let index = |x: f64| (x - lattice.origin[at]) / lattice.step;
-    let from = index(region.min[at]).floor() as u32;
-    let to = (index(region.max[at]).ceil() as u32).saturating_add(1).min(count);
-    from.min(to)..to
+    lattice.between(axis, [region.min[axis.index()], region.max[axis.index()]])
 }
 
 /// Measures the milled faces; their ends get claims, their tolerances are added to those of the bores.

@@ -58,7 +58,7 @@ pub(in crate::job) fn scope(
     scope.extend(holders(job, setups));
     scope.push(bodies(job, simulation));
     if let Some(off) = job.uncertainty {
-        scope.push(format!("Contacts looked for with {}", off.words()));
+        scope.push(format!("Contacts of moving tools looked for with {}", off.words()));
     }
     if !job.machine.as_ref().is_some_and(|m| m.joints.iter().any(|j| j.travel.is_some())) {
         scope.push("Travel of the axes not given".to_owned());

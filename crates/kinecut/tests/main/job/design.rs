@@ -1,7 +1,7 @@
 //! Regions of a design with limits of their own.
 
 use glam::DVec3;
-use kinecut::base::{Code, Error, MemoryLoader, Silent};
+use kinecut::base::{Code, Error, MemoryLoader, Severity, Silent};
 use kinecut::geom::{Mesh, write_stl};
 use kinecut::job::{Outcome, report};
 
@@ -29,9 +29,14 @@ fn step() -> Mesh {
 
 /// The step milled by 8 mm, 0.05 mm too deep, with 0.2 mm left at the wall.
 fn run(regions: &str) -> Result<Outcome, Error> {
+    run_in(60.0, regions)
+}
+
+/// The same in a block that ends at this X.
+fn run_in(length: f64, regions: &str) -> Result<Outcome, Error> {
     let text = format!(
         r#"format = 1
-stock = {{ box = {{ min = [0, 0, -12], max = [60, 40, 0] }} }}
+stock = {{ box = {{ min = [0, 0, -12], max = [{length}, 40, 0] }} }}
 simulate = {{ step = 0.5 }}
 post = {{ control = "linuxcnc" }}
 [design]
@@ -102,6 +107,22 @@ fn each_region_has_its_own_limits() {
     assert!(["elsewhere", "within", "stock is left"].iter().all(|word| text.contains(word)), "{text}");
     let largest = done.deviation.largest.unwrap();
     assert!((largest.deviation - 0.2).abs() < 1e-5 && largest.tolerance == 0.19, "{largest:?}");
+}
+
+#[test]
+fn a_region_that_no_line_ends_near_is_a_doubt() {
+    // The block ends 10 mm before the far side of the design: all of it is nearer to another face.
+    let far = "[[design.region]]\nname = \"far side\"\nat = [[60, 20, -8]]\n";
+    let done = run_in(50.0, far).unwrap();
+    let doubts = found(&done, Code::NOT_MEASURED);
+    assert!(doubts.len() == 1 && doubts[0].severity == Severity::Doubt, "{doubts:?}");
+    assert!(
+        doubts[0].message.starts_with("region `far side` of the design could not be measured"),
+        "{}",
+        doubts[0]
+    );
+    assert!(done.deviation.proven.iter().all(|claim| !claim.contains("far side")));
+    assert!(found(&run(far).unwrap(), Code::NOT_MEASURED).is_empty());
 }
 
 #[test]

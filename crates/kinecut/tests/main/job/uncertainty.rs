@@ -89,9 +89,9 @@ fn a_rapid_over_the_stock_counts_all_three() {
     // Nothing off: nothing is said of it.
     let done = one(&program, [0.0; 3]);
     assert!(done.simulation.uncertain.is_none());
-    assert!(done.verdict.scope.iter().all(|s| !s.contains("Contacts looked for")));
+    assert!(done.verdict.scope.iter().all(|s| !s.contains("looked for with")));
     let done = one(&program, [0.05, 0.02, 0.0]);
-    let said = "Contacts looked for with zeros \u{b1}0.05 mm, tool lengths \u{b1}0.02 mm";
+    let said = "Contacts of moving tools looked for with zeros \u{b1}0.05 mm, tool lengths \u{b1}0.02 mm";
     assert!(done.verdict.scope.iter().any(|s| s == said), "{:?}", done.verdict.scope);
 }
 
@@ -161,6 +161,7 @@ fn a_clamp_is_met_within_zero_and_length() {
     let met = found(&near, Code::FIXTURE_MET);
     assert!(met.len() == 1 && met[0].severity == Severity::Doubt && line(met[0]) == "G0 X50", "{met:?}");
     assert!((value(met[0]) - 0.05).abs() < 0.011, "{}", met[0]);
+    assert!(met[0].message.starts_with("the tool may meet `strap` at rapid, with zeros"), "{}", met[0]);
     // It has to clear by both: 0.07 less the 0.06 that there are.
     assert!(met[0].help.contains("0.02 mm higher"), "{}", met[0]);
     assert!(near.verdict.proven.iter().all(|p| !p.claim.contains("strap")));

@@ -54,6 +54,44 @@ fn valley() -> EdgeProfile {
     .unwrap()
 }
 
+#[test]
+fn a_spared_edge_takes_no_more_than_it_surely_does() {
+    use crate::stock::cut::{CutList, Spared, cut_list};
+    let bounds = Aabb { min: DVec3::new(-8.0, -8.0, -10.0), max: DVec3::new(8.0, 8.0, 0.0) };
+    let needle = ToolBody::new(Profile::cylinder(0.3, TOP).unwrap());
+    let bodies: Vec<ToolBody> = points()
+        .iter()
+        .map(|point| body(&point.edge(8.0).unwrap()))
+        .chain([body(&valley()), needle])
+        .collect();
+    let ends = [DVec3::new(0.0, 0.0, 2.0), DVec3::new(0.0, 0.0, -7.0), DVec3::new(3.0, 0.0, -7.0)];
+    let lean = DVec3::new(0.2, 0.1, 1.0).normalize_or_zero();
+    for leaning in [false, true] {
+        for (i, own) in bodies.iter().enumerate() {
+            let lines = ends.windows(2).map(|pair| Line { start: pair[0], end: pair[1] });
+            let moves: Vec<CutMove> = lines
+                .map(|line| match leaning {
+                    true => CutMove::leaning(ToolMotion::fixed(line.into(), lean).unwrap(), line, 0),
+                    false => CutMove::new(line, CutAxis::PlusZ, 0),
+                })
+                .collect();
+            let left = |spared: Spared| {
+                let mut stock = TriDexel::from_box(bounds, 0.5).unwrap();
+                let body = std::slice::from_ref(own);
+                let list =
+                    CutList::sparing(body, &[spared], moves.clone(), &CutOptions::default(), 0.5).unwrap();
+                cut_list(&mut stock, &list, 0..moves.len(), &Silent).unwrap();
+                stock.volume()
+            };
+            let (all, some) = (left(Spared::NOTHING), left(Spared { around: 0.2, along: 0.3 }));
+            assert!(some >= all, "{i} {leaning}: {some} {all}");
+            // Nothing is left of a needle, and of an edge around a core nothing is sure.
+            let nothing = i == bodies.len() - 1 || own.edge.is_some_and(|edge| edge.inner_radius() > 0.0);
+            assert!((some == 2560.0) == nothing, "{i} {leaning}: {some}");
+        }
+    }
+}
+
 fn body(edge: &EdgeProfile) -> ToolBody {
     ToolBody { edge: Some(*edge), ..ToolBody::new(filled(edge, TOP).unwrap()) }
 }

@@ -51,7 +51,7 @@ pub(crate) fn trimmed_lines(sheet: &EnvelopeSheet) -> Vec<String> {
     };
     let untrimmed = match sheet.cuts_itself() {
         true => "it cuts itself, and its volume counts parts twice or takes them away",
-        false => "no cut of it with itself is told by the moments beside",
+        false => "it does not cut itself, as far as neighbouring moments show",
     };
     vec![
         format!(
@@ -60,8 +60,9 @@ pub(crate) fn trimmed_lines(sheet: &EnvelopeSheet) -> Vec<String> {
             fixed(trimmed.deepest, 4)
         ),
         format!(
-            "untrimmed the envelope has {} triangles around {} mm\u{b3}: {untrimmed}",
+            "untrimmed the envelope has {} triangles from {} moments, around {} mm\u{b3}: {untrimmed}",
             sheet.envelope.mesh.triangles.len(),
+            sheet.envelope.moments.len(),
             fixed(sheet.envelope.mesh.volume(), 3)
         ),
     ]
@@ -213,11 +214,8 @@ pub(crate) fn facts(sheet: &EnvelopeSheet) -> Vec<Fact> {
             "Size",
             format!("{} \u{d7} {} \u{d7} {} mm", fixed(size.x, 2), fixed(size.y, 2), fixed(size.z, 2)),
         ),
-        Fact::new("Mesh", format!("{} triangles", mesh.triangles.len())).note(format!(
-            "{} moments, tolerance {} mm",
-            sheet.envelope.moments.len(),
-            sheet.tolerance
-        )),
+        Fact::new("Mesh", format!("{} triangles", mesh.triangles.len()))
+            .note(format!("tolerance {} mm, lines {} mm apart", sheet.tolerance, sheet.trimmed.step)),
         Fact::new("Locally inside", area_share(share)).note("of the walls: F_tt < 0"),
     ]
 }
