@@ -2,7 +2,7 @@
 
 use kinecut::base::Code;
 use kinecut::drilling::{
-    BoundarySurface, Cover, DrillWay, Feeds, PreHole, Side, Travel, ZoneStage, transient, zones,
+    BoundarySurface, Cover, CrossBore, DrillWay, Feeds, PreHole, Side, Travel, ZoneStage, transient, zones,
 };
 use kinecut::geom::EdgeProfile;
 use kinecut::tool::DrillPoint;
@@ -160,6 +160,24 @@ fn a_blind_hole_is_an_annulus_then_all() {
     let stages: Vec<ZoneStage> = found.iter().map(|z| z.stage).collect();
     assert_eq!(stages, [ZoneStage::Entry, ZoneStage::Partial, ZoneStage::Steady]);
     assert!((found[2].from + 20.0).abs() < 1e-9);
+}
+
+#[test]
+fn a_ring_between_slot_and_pre_hole_is_not_cut_where_the_hole_ends_in_a_bore() {
+    // 0.02 mm of the edge hang over the hole: 0.13 % of it.
+    let edge = DrillPoint::SlottedChisel { angle: 118f64.to_radians(), slot: 0.8 }.edge(10.0).unwrap();
+    let inner = edge.inner_radius();
+    let mut way = DrillWay::new(plane(0.0, 0.0), None);
+    way.bores.push(CrossBore { radius: 8.0, offset: 0.0, height: -40.0, turn: 0.0 });
+    way.pre_hole = Some(PreHole::blind(2.0 * inner + 0.04, -38.0, twist(2.0 * inner + 0.04)));
+    let passages = way.passages(&edge).unwrap();
+    let ring = ((inner + 0.02).powi(2) - inner * inner) / (25.0 - inner * inner);
+    // A column stands for 2.3e-5 of the edge.
+    assert!((1.0 - passages[0].share - ring).abs() < 5e-5, "{passages:?}");
+    let mut found = Vec::new();
+    let feeds = Feeds { entry: 0.1, steady: 0.3, exit: 0.2 };
+    zones(&passages, Travel { start: 2.0, end: -70.0 }, &feeds, &mut found);
+    assert_eq!((found[1].stage, found[1].feed), (ZoneStage::Partial, 0.1), "{found:?}");
 }
 
 #[test]
