@@ -176,20 +176,27 @@ impl Body {
 
     /// Calls a function with each piece whose box meets another.
     pub(super) fn pieces_in(&self, region: Aabb, mut each: impl FnMut(&Piece)) {
+        self.find_in(region, |piece| {
+            each(piece);
+            None::<()>
+        });
+    }
+
+    /// The first answer of a function about pieces whose box meets another.
+    pub(super) fn find_in<T>(&self, region: Aabb, mut answer: impl FnMut(&Piece) -> Option<T>) -> Option<T> {
         match &self.pieces {
-            Pieces::Convex(all) => {
-                if self.bounds.meets(region) {
-                    all.iter().for_each(each);
-                }
-            }
+            Pieces::Convex(_) if !self.bounds.meets(region) => None,
+            Pieces::Convex(all) => all.iter().find_map(answer),
             Pieces::Triangles { triangles, tree, .. } => {
+                let mut found = None;
                 tree.each_of(
                     |own| own.meets(region),
                     |i| {
-                        each(&triangles[i]);
-                        false
+                        found = answer(&triangles[i]);
+                        found.is_some()
                     },
                 );
+                found
             }
         }
     }

@@ -26,6 +26,7 @@
 //! assert!((contact.clears_by.unwrap() - 2.0).abs() < 0.02);
 //! ```
 
+mod access;
 mod body;
 mod clearance;
 mod gap;
@@ -40,6 +41,7 @@ mod search;
 mod tool;
 mod tree;
 
+pub use access::Access;
 pub use body::Body;
 pub use links::{LinkBody, MachineMeeting, MachineMove, MachineParts, Met, Party, ToolInSpindle};
 pub use meeting::{Contact, Meeting, Watched, meetings};

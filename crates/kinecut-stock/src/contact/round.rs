@@ -30,6 +30,21 @@ impl Round {
         }
     }
 
+    /// One that is smaller by about so much [mm] but for its top; of a foot without arc along the axis and across it.
+    pub(super) fn slimmer(&self, by: f64) -> Round {
+        let [[z0, r0], upper, top] = self.circles;
+        let thinner = |r: f64| (r - by).max(0.0);
+        let arc = self.arc.filter(|arc| arc[2] > by).map(|[centre, z, radius]| [centre, z, radius - by]);
+        Round {
+            circles: [
+                [z0 + by, thinner(r0)],
+                [upper[0].max(z0 + by), thinner(upper[1])],
+                [top[0], thinner(top[1])],
+            ],
+            arc,
+        }
+    }
+
     /// Radius of the cylinder above the foot [mm].
     pub(super) fn width(&self) -> f64 {
         self.circles[1][1]

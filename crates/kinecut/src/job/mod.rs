@@ -78,7 +78,7 @@ pub use read_back::{ReadBack, compare};
 pub(crate) use run::still_wanted;
 pub use run::{RunWants, run, run_with, simulate_given};
 pub use setup_outcome::SetupOutcome;
-pub use shape::{Deviation, Largest, RegionMeasure, deviation};
+pub use shape::{Deviation, Largest, RegionMeasure, RestReach, SizeReach, ToolReach, deviation};
 pub use simulate::{Simulation, simulate};
 pub use subject::{Subject, sha256};
 pub use uncertain::UncertainStock;

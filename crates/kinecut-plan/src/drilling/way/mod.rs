@@ -57,7 +57,7 @@ impl DrillWay {
 
     /// The passages of an edge, the one met first at the front. Exact; along the rim of an eccentric pre-hole within
     /// 1e-9 mm, and where bores, faces and the bottom of a pre-hole run into one another within 1e-4 mm, never inside
-    /// the true interval. Shares are counted of what the edge cuts when all of it is in: without a through pre-hole the
+    /// the true interval; of a surface that they leave as a strip narrower than 5 um beside a bore's wall there may be no passage. Shares are counted of what the edge cuts when all of it is in: without a through pre-hole the
     /// whole annulus, with one what the pre-hole leaves.
     ///
     /// # Errors

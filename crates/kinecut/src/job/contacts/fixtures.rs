@@ -54,7 +54,7 @@ pub(in crate::job) fn contacts(
 }
 
 /// A tool with its shank and its holder.
-pub(super) fn moving(tool: &Tool) -> Result<MovingTool> {
+pub(in crate::job) fn moving(tool: &Tool) -> Result<MovingTool> {
     let cutting = tool.cutting_profile()?;
     let shank = tool.shank_profile()?;
     let holder = tool.holder_profiles()?;

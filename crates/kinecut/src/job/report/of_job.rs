@@ -71,6 +71,7 @@ fn with(outcome: &Outcome, page: bool) -> Report {
     report.sections = OperationPlan::sections(&shown);
     report.sections.extend(engagement::section(outcome, &begins, &first_lines));
     report.sections.extend(design::section(outcome, &first_lines));
+    report.sections.extend(design::rest(outcome));
     report.sections.extend(fixtures::section(outcome, &first_lines));
     report.sections.extend(machine::section(outcome, &first_lines, page));
     report.sections.extend(before_run::section(&outcome.verdict.to_ensure));

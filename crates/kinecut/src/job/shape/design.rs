@@ -53,6 +53,12 @@ pub(super) fn ends(design: &Design, stock: &TriDexel) -> Result<EndMap<OfDesign>
 }
 
 impl OfDesign {
+    /// The limit of its region [mm] where there is more stock.
+    pub(super) fn is_left(self, design: &Design) -> Option<f64> {
+        let [_, rest] = design.limits(self.region);
+        (f64::from(self.deviation) > rest && self.deviation.is_finite()).then_some(rest)
+    }
+
     /// Deviation with its tolerance, as the colours take it.
     pub(super) fn compared(self, design: &Design) -> Compared {
         let [gouge, rest] = design.limits(self.region);

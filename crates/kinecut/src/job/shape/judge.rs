@@ -74,7 +74,8 @@ pub(super) fn face(operation: &Operation, m: &FaceMeasure, answer: &mut Deviatio
 }
 
 /// Judges the part against a region of the design mesh, or against what lies in none; the whole mesh has none to be named.
-pub(super) fn design(m: &RegionMeasure, in_regions: bool, answer: &mut Deviation) {
+/// `advice` is about tools that could take away what is left.
+pub(super) fn design(m: &RegionMeasure, in_regions: bool, advice: Option<&str>, answer: &mut Deviation) {
     let help = "add the operations that are missing, or correct those that cut too deep";
     let of = match (in_regions, m.name.as_str()) {
         (false, _) => String::new(),
@@ -89,7 +90,7 @@ pub(super) fn design(m: &RegionMeasure, in_regions: bool, answer: &mut Deviation
         answer.judge(Code::WALL_GOUGED, &what, &first, m.gouge_limit, (help, None));
     }
     let what = format!("{of}stock is left on the design");
-    answer.judge(Code::STOCK_LEFT, &what, &m.left, m.rest_limit, (help, None));
+    answer.judge(Code::STOCK_LEFT, &what, &m.left, m.rest_limit, (advice.unwrap_or(help), None));
     if m.is_within() && m.ends > 0 {
         let (um, ends) = (micrometres(m.gouge.depth.max(m.left.depth)), m.ends);
         answer

@@ -9,6 +9,7 @@ mod design;
 mod flat;
 mod judge;
 mod measure;
+mod rest;
 mod wanted;
 
 use glam::DVec3;
@@ -23,6 +24,7 @@ use crate::operations::measured::{BoreMeasure, FaceMeasure};
 use crate::stock::{Axis, CutId, DexelGrid, EndMap, Lattice, TriDexel, unfixed};
 
 pub use self::design::RegionMeasure;
+pub use self::rest::{RestReach, SizeReach, ToolReach};
 
 use self::claim::Claim;
 use self::flat::measure_face;
@@ -48,6 +50,8 @@ pub struct Deviation {
     pub faces: Vec<FaceMeasure>,
     /// Measures of the design: of the surface outside of all regions, then of each region; none without a design.
     pub regions: Vec<RegionMeasure>,
+    /// Tools that come to the places at which too much stock is left on the design; none where there are none.
+    pub reach: Option<RestReach>,
     /// Findings, each with the cut that made it, 0 where nothing cut, and the number of the operation that wanted the surface;
     /// without one it is the design's.
     pub findings: Vec<(Finding, CutId, Option<u32>)>,
@@ -137,10 +141,12 @@ pub fn deviation(
     if let Some(design) = &job.design {
         let from_design = design::ends(design, stock)?;
         compared.merge_from(&from_design, |old, end| old.or(end.compared(design)));
+        answer.reach = rest::reach((job, design), setups, stock, &from_design)?;
+        let advice = answer.reach.as_ref().map(RestReach::advice);
         for m in design::measures(design, stock, &from_design) {
             answer.note_largest(m.ends, m.left.depth, 0.0, m.rest_limit);
             answer.note_largest(m.ends, 0.0, m.gouge.depth, m.gouge_limit);
-            judge::design(&m, !design.regions.is_empty(), &mut answer);
+            judge::design(&m, !design.regions.is_empty(), advice.as_deref(), &mut answer);
             if m.ends > 0 {
                 tolerances.extend([m.gouge_limit, m.rest_limit]);
             }

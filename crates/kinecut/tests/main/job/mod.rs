@@ -16,6 +16,7 @@ mod picture;
 mod playback;
 mod prove_motion;
 mod prove_rules;
+mod rest;
 mod shape;
 mod tap;
 mod uncertainty;
