@@ -73,7 +73,26 @@ impl MeshDistance {
             let count = faces.len();
             split(&mut faces, 0, count, &mut nodes);
         }
+        // They are kept as long as the mesh is looked at.
+        faces.shrink_to_fit();
+        nodes.shrink_to_fit();
         Ok(MeshDistance { faces, nodes })
+    }
+
+    /// Memory that a mesh of so many triangles needs once it is prepared [bytes].
+    ///
+    /// ```
+    /// # use kinecut_geom as kinecut;
+    /// use kinecut::geom::MeshDistance;
+    /// assert!((250..350).contains(&MeshDistance::memory(1)));
+    /// ```
+    pub fn memory(triangles: usize) -> u64 {
+        triangles as u64 * (size_of::<TreeFace>() + size_of::<Node>()) as u64
+    }
+
+    /// Memory that it holds [bytes].
+    pub fn memory_held(&self) -> u64 {
+        (self.faces.capacity() * size_of::<TreeFace>() + self.nodes.capacity() * size_of::<Node>()) as u64
     }
 
     /// Distance [mm] of a point from the surface: positive outside the body, negative inside. Infinite for a mesh

@@ -74,6 +74,40 @@ impl Body {
         Ok(Body::of(name.into(), near, pieces, false))
     }
 
+    /// Memory that a body of a solid needs [bytes].
+    ///
+    /// ```
+    /// # use kinecut_stock as kinecut;
+    /// use kinecut::contact::Body;
+    /// use kinecut::geom::{Aabb, Mesh, Solid};
+    /// let corners = [[0.0, 0.0, 0.0], [3.0, 0.0, 0.0], [0.0, 3.0, 0.0], [0.0, 0.0, 3.0]];
+    /// let triangles = vec![[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]];
+    /// let mesh = Mesh { vertices: corners.map(Into::into).to_vec(), triangles };
+    /// assert!((400..800).contains(&(Body::memory(&Solid::Mesh(mesh)) / 4)));
+    /// ```
+    pub fn memory(solid: &Solid) -> u64 {
+        match solid {
+            Solid::Box(_) | Solid::Cylinder { .. } => size_of::<Piece>() as u64,
+            Solid::Mesh(mesh) => Body::memory_of_mesh(mesh.triangles.len()),
+        }
+    }
+
+    /// Memory that a body of so many triangles needs [bytes].
+    pub fn memory_of_mesh(triangles: usize) -> u64 {
+        (triangles * size_of::<Piece>()) as u64 + Tree::memory(triangles) + MeshDistance::memory(triangles)
+    }
+
+    /// Memory that its pieces hold [bytes].
+    pub fn memory_held(&self) -> u64 {
+        match &self.pieces {
+            Pieces::Convex(all) => (all.capacity() * size_of::<Piece>()) as u64,
+            Pieces::Triangles { triangles, tree, distance, .. } => {
+                let own = (triangles.capacity() * size_of::<Piece>()) as u64;
+                own + tree.memory_held() + distance.memory_held()
+            }
+        }
+    }
+
     /// A body of convex pieces.
     pub(super) fn convex(name: String, pieces: Vec<Piece>, round: bool) -> Body {
         Body::of(name, 0.0, Pieces::Convex(pieces), round)

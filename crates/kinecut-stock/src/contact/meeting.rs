@@ -28,6 +28,11 @@ pub struct Watched {
     pub tool: u32,
 }
 
+impl Watched {
+    /// Memory of one [bytes].
+    pub const BYTES: u64 = size_of::<Watched>() as u64;
+}
+
 /// A part of a tool that meets a body in a move, or comes nearer than the body allows.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Meeting {

@@ -28,8 +28,21 @@ impl Tree {
         if !tree.boxes.is_empty() {
             let count = tree.boxes.len();
             tree.split(0, count);
+            tree.nodes.shrink_to_fit();
+            tree.boxes.shrink_to_fit();
         }
         tree
+    }
+
+    /// Memory for so many boxes [bytes].
+    pub(super) fn memory(boxes: usize) -> u64 {
+        // Leaves hold two boxes at least: nodes are fewer than boxes.
+        boxes as u64 * (size_of::<(u32, Aabb)>() + size_of::<Node>()) as u64
+    }
+
+    /// Memory that it holds [bytes].
+    pub(super) fn memory_held(&self) -> u64 {
+        (self.boxes.capacity() * size_of::<(u32, Aabb)>() + self.nodes.capacity() * size_of::<Node>()) as u64
     }
 
     fn split(&mut self, from: usize, to: usize) {

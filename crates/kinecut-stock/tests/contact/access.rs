@@ -89,6 +89,8 @@ fn tools_come_where_smaller_ones_do_and_larger_ones_do_not() {
         let judged = Shown { shape: Box::new(shape), place: Rigid::IDENTITY };
         let body = Body::new("ground", &Solid::Mesh(mesh.clone()), Rigid::IDENTITY, 0.0)
             .expect("a case of these numbers");
+        let (held, told) = (body.memory_held(), Body::memory(&Solid::Mesh(mesh.clone())));
+        assert!(held <= told && 2 * held > told, "{held} {told}");
         for _ in 0..12 {
             let triangle = loop {
                 let corners = mesh.triangles[(random.next() * mesh.triangles.len() as f64) as usize]

@@ -2,10 +2,11 @@
 
 use glam::DVec3;
 
-use super::check::Job;
+use super::check::{Design, Job};
 use super::part_surface::{PartSurface, every};
-use super::{engagement, playback, uncertain};
+use super::{contacts, engagement, playback, uncertain};
 use crate::base::{Code, Finding, Result};
+use crate::contact::Body;
 use crate::geom::Aabb;
 use crate::stock::TriDexel;
 use crate::stock::cut::{CutAxis, Playback};
@@ -45,10 +46,17 @@ pub struct Budget {
     pub playback: u64,
     /// The lines of a stock that may be larger, where something may be off, with at most two stretches of material each; and its moves.
     pub uncertain: u64,
+    /// Bodies that tools and machine are compared with in one setup at most, and its moves; more for contacts that are found.
+    pub contacts: u64,
     /// Number of moves.
     pub move_count: u64,
     /// The moves, with what they do.
     pub moves: u64,
+}
+
+/// Memory of a design that is compared with, as a body that tools may meet; for distances alone it takes less.
+fn of_design(design: &Design) -> u64 {
+    Body::memory_of_mesh(design.mesh.triangles.len())
 }
 
 /// Memory of the pass that measures engagement, at a step that is no finer than the given one [mm].
@@ -88,6 +96,7 @@ impl Budget {
             engagement: if engagement::is_wanted(job, move_count) { of_engagement(job, 0.0) } else { 0 },
             playback: if job.playback { of_playback(job, 0.0) } else { 0 },
             uncertain: of_uncertain(job, move_count, job.step),
+            contacts: contacts::memory(job, traces),
             moves: segments().map(|s| if leans(s) { LEANING_MOVE } else { MOVE }).sum(),
             ..Budget::of_stock(job, job.stock.bounds(), job.step)
         }
@@ -108,16 +117,25 @@ impl Budget {
                 }
                 PartSurface::Picture | PartSurface::Full => TriDexel::surface_memory(bounds, step),
             },
-            comparison: if compared { lines.saturating_mul(4 * COMPARED) } else { 0 },
+            comparison: (if compared { lines.saturating_mul(4 * COMPARED) } else { 0 })
+                .saturating_add(job.design.as_ref().map_or(0, of_design)),
             ..Budget::default()
         }
     }
 
     /// All of it [bytes].
     pub fn total(&self) -> u64 {
-        [self.surface, self.comparison, self.engagement, self.uncertain, self.playback, self.moves]
-            .into_iter()
-            .fold(self.stock, u64::saturating_add)
+        [
+            self.surface,
+            self.comparison,
+            self.engagement,
+            self.uncertain,
+            self.playback,
+            self.contacts,
+            self.moves,
+        ]
+        .into_iter()
+        .fold(self.stock, u64::saturating_add)
     }
 
     /// The distance of the lines in words, and whether it was chosen.
@@ -160,6 +178,7 @@ impl Budget {
         let mb = |bytes: u64| (bytes as f64 / 1e6).ceil();
         let at = |step: f64| Budget {
             moves: self.moves,
+            contacts: self.contacts,
             engagement: if self.engagement > 0 { of_engagement(job, step) } else { 0 },
             uncertain: of_uncertain(job, self.move_count, step),
             playback: if self.playback > 0 { of_playback(job, step) } else { 0 },
@@ -185,6 +204,7 @@ impl Budget {
             (self.engagement, "engagement".to_owned()),
             (self.uncertain, "uncertainty".to_owned()),
             (self.playback, "playback".to_owned()),
+            (self.contacts, "bodies for contacts".to_owned()),
             (self.moves, format!("{} moves", self.move_count)),
         ];
         let parts = parts.into_iter().filter(|(bytes, _)| *bytes > 0);

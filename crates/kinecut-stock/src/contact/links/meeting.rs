@@ -50,6 +50,11 @@ pub struct MachineMove<'a> {
     pub tool: u32,
 }
 
+impl MachineMove<'_> {
+    /// Memory of one [bytes].
+    pub const BYTES: u64 = size_of::<MachineMove<'static>>() as u64;
+}
+
 /// One of two that meet.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Party {

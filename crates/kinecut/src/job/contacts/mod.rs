@@ -4,13 +4,35 @@ pub(super) mod fixtures;
 pub(super) mod machine;
 pub(super) mod noun;
 
-use super::check::Uncertainty;
+use super::check::{Job, JobSetup, Uncertainty};
 use crate::base::{Code, Finding};
-use crate::contact::Contact;
+use crate::contact::{Body, Contact, MachineMove, Watched};
+use crate::geom::Solid;
 use crate::trace::{StandKind, Trace};
 
 /// Moves that are watched at once: their motions take some hundred bytes each.
 const AT_ONCE: usize = 1 << 18;
+
+/// Memory of the bodies that are watched in one setup at most, and of its moves [bytes].
+pub(in crate::job) fn memory(job: &Job, traces: &[&Trace]) -> u64 {
+    let bodies = |solids: &mut dyn Iterator<Item = &Solid>| solids.map(Body::memory).sum::<u64>();
+    let of_setup = |(own, trace): (&JobSetup, &&Trace)| {
+        let setup = &own.setup;
+        let moves = trace.segments.len() as u64;
+        let at_once = moves.min(AT_ONCE as u64);
+        let fixtures = bodies(&mut setup.fixtures.iter().map(|fixture| &*fixture.solid));
+        let tool = if setup.fixtures.is_empty() { 0 } else { fixtures + at_once * Watched::BYTES };
+        let machine = job.machine.as_ref().filter(|m| !m.bodies.is_empty() && setup.located);
+        let machine = machine.map_or(0, |machine| {
+            let all = bodies(&mut machine.bodies.iter().map(|body| &body.solid)) + Body::memory(&job.stock);
+            // All moves with their numbers, and some once more.
+            fixtures + all + (moves + at_once) * (MachineMove::BYTES + size_of::<u64>() as u64)
+        });
+        // One after the other.
+        tool.max(machine)
+    };
+    job.setups.iter().zip(traces).map(of_setup).max().unwrap_or(0)
+}
 
 /// Distance up to which passes are looked for [mm]: how far an offset or a length may be off.
 pub(in crate::job) const LOOK: f64 = 5.0;
