@@ -10,7 +10,7 @@ use super::budget::Budget;
 use super::check::Job;
 use super::closer::{Story, look_closer};
 use super::contacts::machine::MachineContacts;
-use super::contacts::{fixtures, machine};
+use super::contacts::{fixtures, machine, stock_at};
 use super::engagement;
 use super::engagement::Engagement;
 use super::look::{Look, Looks, looks};
@@ -180,6 +180,7 @@ pub fn simulate(
     }
     let story = Story { job, traces, loose, moves: &all, bodies: &bodies };
     look_closer(&story, &mut simulation.effects, progress)?;
+    stock_at::settle(&story, &mut simulation.machine, progress)?;
     let gone = || simulation.raw_volume - simulation.stock.volume();
     simulation.engagement = engagement::measure(&story, gone, progress)?;
     simulation.uncertain = uncertain::look(&story, progress)?;

@@ -3,6 +3,7 @@
 use super::super::check::{Job, Uncertainty};
 use super::fixtures::moving;
 use super::noun::noun;
+use super::stock_at::StockThen;
 use super::{AS_NEAR, AT_ONCE, LOOK, changed_before, hundredths, is_worse, may_meet};
 use crate::base::{Code, Finding, Location, Progress, Result};
 use crate::contact::{
@@ -31,6 +32,8 @@ pub struct MachineContacts {
     pub without_length: Vec<ToolNumber>,
     /// Moves that were compared.
     pub compared: usize,
+    /// The stock by which contacts with the raw stock were settled; none where there were none, or where it is not known.
+    pub stock_then: Option<StockThen>,
 }
 
 /// A body that was compared.
@@ -53,6 +56,8 @@ pub enum BodyKind {
     Fixture(usize),
     /// The stock as it was before the first cut.
     Stock,
+    /// The stock as it is at the moment of a contact.
+    StockThen,
 }
 
 /// Name of a body of a machine in words.
@@ -77,17 +82,9 @@ pub(in crate::job) fn contacts(
             Some("where the part lies on the machine is not given (`position` of the setup)");
         return Ok(Some(contacts));
     }
-    let (bodies, compared) = bodies(job, machine, setup)?;
+    let (bodies, compared) = placed_bodies(job, machine, setup)?;
     contacts.bodies = compared;
-    let mut tools = Vec::new();
-    // Tools that have a length, by their index among all.
-    let mut index = Vec::new();
-    for tool in &job.tools {
-        index.push(tool.gauge_length.map(|length| (tools.len() as u32, length)));
-        if let Some(length) = tool.gauge_length {
-            tools.push(ToolInSpindle { tool: moving(tool)?, length });
-        }
-    }
+    let (tools, index) = moving_tools(job)?;
     let Some(parts) = MachineParts::new(machine, setup.part_on_table, bodies, tools) else {
         contacts.not_compared =
             Some("its axes are not three linear and some rotary ones with the letters X Y Z A B C");
@@ -125,8 +122,25 @@ pub(in crate::job) fn contacts(
     Ok(Some(contacts))
 }
 
-/// The bodies of a machine in a setup, in the machine's coordinates with all axes at zero.
-fn bodies(job: &Job, machine: &Machine, setup: &Setup) -> Result<(Vec<LinkBody>, Vec<ComparedBody>)> {
+/// The tools that have a length, and for each tool its index among them with its length [mm].
+#[expect(clippy::type_complexity, reason = "two lists that go together, taken apart at once")]
+pub(super) fn moving_tools(job: &Job) -> Result<(Vec<ToolInSpindle>, Vec<Option<(u32, f64)>>)> {
+    let (mut tools, mut index) = (Vec::new(), Vec::new());
+    for tool in &job.tools {
+        index.push(tool.gauge_length.map(|length| (tools.len() as u32, length)));
+        if let Some(length) = tool.gauge_length {
+            tools.push(ToolInSpindle { tool: moving(tool)?, length });
+        }
+    }
+    Ok((tools, index))
+}
+
+/// The bodies of a machine in a setup, in the machine's coordinates with all axes at zero; the raw stock is the last.
+pub(super) fn placed_bodies(
+    job: &Job,
+    machine: &Machine,
+    setup: &Setup,
+) -> Result<(Vec<LinkBody>, Vec<ComparedBody>)> {
     let (mut bodies, mut compared) = (Vec::new(), Vec::new());
     let off = job.uncertainty.unwrap_or_default();
     let tool_off = off.of_tool();
@@ -161,7 +175,7 @@ impl MachineContacts {
         match body.kind {
             BodyKind::Machine(_) => format!("`{}` of the machine", body.name),
             BodyKind::Fixture(_) => format!("`{}`", body.name),
-            BodyKind::Stock => body.name.clone(),
+            BodyKind::Stock | BodyKind::StockThen => body.name.clone(),
         }
     }
 
@@ -197,8 +211,14 @@ impl MachineContacts {
         own.max(self.bodies[meeting.standing as usize].near)
     }
 
-    fn with_stock(&self, meeting: &MachineMeeting) -> bool {
+    /// Whether a meeting is with the raw stock.
+    pub(super) fn is_with_stock(&self, meeting: &MachineMeeting) -> bool {
         self.bodies[meeting.standing as usize].kind == BodyKind::Stock
+    }
+
+    /// Whether something meets the raw stock.
+    pub(super) fn meets_stock(&self) -> bool {
+        self.met.meetings.iter().any(|m| m.contact.is_some() && self.is_with_stock(m))
     }
 }
 
@@ -296,7 +316,7 @@ fn contact(
     let higher = higher.map(|lift| format!("; {:.2} mm higher it clears", hundredths(lift + 0.005)));
     let higher = higher.unwrap_or_default();
     let certain = meeting.contact.is_some_and(|contact| contact.certain);
-    let finding = match contacts.with_stock(meeting) {
+    let finding = match contacts.is_with_stock(meeting) {
         true => {
             let what = format!("{one} comes where the stock was before the first cut{rapid}{alone}");
             let finding = match certain {

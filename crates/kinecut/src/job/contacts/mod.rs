@@ -3,6 +3,7 @@
 pub(super) mod fixtures;
 pub(super) mod machine;
 pub(super) mod noun;
+pub(super) mod stock_at;
 
 use super::check::{Job, JobSetup, Uncertainty};
 use crate::base::{Code, Finding};
@@ -26,7 +27,10 @@ pub(in crate::job) fn memory(job: &Job, traces: &[&Trace]) -> u64 {
         let machine = machine.map_or(0, |machine| {
             let all = bodies(&mut machine.bodies.iter().map(|body| &body.solid)) + Body::memory(&job.stock);
             // All moves with their numbers, and some once more.
-            fixtures + all + (moves + at_once) * (MachineMove::BYTES + size_of::<u64>() as u64)
+            fixtures
+                + all
+                + stock_at::memory(job)
+                + (moves + at_once) * (MachineMove::BYTES + size_of::<u64>() as u64)
         });
         // One after the other.
         tool.max(machine)

@@ -9,12 +9,12 @@ use crate::contact::{MachineMeeting, Party};
 use crate::geom::{Rigid, Solid};
 use crate::job::check::{Job, JobSetup};
 use crate::job::contacts::LOOK;
-use crate::job::contacts::machine::{BodyKind, MachineContacts};
+use crate::job::contacts::machine::{BodyKind, ComparedBody, MachineContacts};
 use crate::job::machine::write::link_name;
 use crate::job::{Outcome, SetupOutcome};
 use crate::machine::{Body, Joint, JointValues, Link, Machine};
 use crate::page::draw::{Cover, FacePiece, Facets, View, put_faces};
-use crate::page::{Cell, Colour, Ink, Picture, Row, Section, Table, Tint, Width};
+use crate::page::{Cell, Colour, Ink, Picture, Row, Section, Table, Tint, Width, fixed};
 use crate::program::Setup;
 use crate::tool::Tool;
 use crate::trace::Segment;
@@ -153,7 +153,12 @@ impl Shown<'_> {
 
     /// The answer for each body.
     fn table(&self, of: &str) -> Table {
-        let rows = (0..).zip(&self.contacts.bodies).map(|(body, compared)| {
+        // The stock at that moment is listed where it is met.
+        let listed = |(body, compared): &(u32, &ComparedBody)| {
+            compared.kind != BodyKind::StockThen
+                || self.contacts.met.meetings.iter().any(|m| m.standing == *body)
+        };
+        let rows = (0..).zip(&self.contacts.bodies).filter(listed).map(|(body, compared)| {
             let own = || {
                 let is_own = move |m: &&MachineMeeting| m.standing == body || m.moving == Party::Body(body);
                 self.contacts.met.meetings.iter().filter(is_own)
@@ -193,15 +198,30 @@ impl Shown<'_> {
             };
             let link = match compared.kind {
                 BodyKind::Machine(i) => link_name(self.machine, self.machine.bodies[i].link),
-                BodyKind::Fixture(_) | BodyKind::Stock => "work".to_owned(),
+                BodyKind::Fixture(_) | BodyKind::Stock | BodyKind::StockThen => "work".to_owned(),
             };
-            let row = Row::new(vec![Cell::new(compared.name.clone()), Cell::new(link), answer]);
+            let name = match compared.kind {
+                BodyKind::Stock if self.contacts.stock_then.is_some() => format!("{}, raw", compared.name),
+                BodyKind::StockThen => format!("{} at that moment", compared.name),
+                _ => compared.name.clone(),
+            };
+            let row = Row::new(vec![Cell::new(name), Cell::new(link), answer]);
             at.map_or(row.clone(), |line| row.at(line))
         });
         let caption = format!("Bodies that the axes move against one another{of}");
-        Table::new(caption, "Body; Carried by; Answer").rows(rows).note(
-            "Two bodies of the machine on neighbouring links are not compared, as one is guided by the other. The stock counts as before the first cut, and not against the tool.",
-        )
+        let stock = match self.contacts.stock_then {
+            None => "The stock counts as before the first cut, and not against the tool.".to_owned(),
+            Some(then) => {
+                let contacts = if then.cleared == 1 { "contact" } else { "contacts" };
+                format!(
+                    "The stock does not count against the tool. Where bodies come to the raw stock they are compared with the stock at that moment too, by lines {} mm apart: {} {contacts} with the raw stock cleared.",
+                    fixed(then.step, 2),
+                    then.cleared
+                )
+            }
+        };
+        let guided = "Two bodies of the machine on neighbouring links are not compared, as one is guided by the other.";
+        Table::new(caption, "Body; Carried by; Answer").rows(rows).note(format!("{guided} {stock}"))
     }
 
     /// All bodies at the moment at which two of them begin to touch.
@@ -214,7 +234,14 @@ impl Shown<'_> {
         let q = JointValues::new(&q);
         let mut drawn: Vec<(Facets, Tint)> = Vec::new();
         let (mut budget, mut left_out) = (MOST_TRIANGLES, 0);
-        let meets = |body: u32| body == meeting.standing || meeting.moving == Party::Body(body);
+        // The stock at that moment is drawn as the raw one.
+        let kind = |body: u32| self.contacts.bodies[body as usize].kind;
+        let of_stock = kind(meeting.standing) == BodyKind::StockThen;
+        let meets = |body: u32| {
+            body == meeting.standing
+                || meeting.moving == Party::Body(body)
+                || of_stock && kind(body) == BodyKind::Stock
+        };
         let at_work = self.machine.link(self.machine.work_link(), &q).after(&self.machine.work);
         for (body, compared) in (0..).zip(&self.contacts.bodies) {
             let (solid, place): (&Solid, Rigid) = match compared.kind {
@@ -227,12 +254,13 @@ impl Shown<'_> {
                     (&fixture.solid, at_work.after(&fixture.place))
                 }
                 BodyKind::Stock => (&self.job.stock, at_work.after(&self.setup.part_on_table)),
+                BodyKind::StockThen => continue,
             };
             let tint = match compared.kind {
                 _ if meets(body) => Tint::Rose,
                 BodyKind::Machine(_) => Tint::Grey,
                 BodyKind::Fixture(_) => Tint::Steel,
-                BodyKind::Stock => Tint::Sand,
+                BodyKind::Stock | BodyKind::StockThen => Tint::Sand,
             };
             if let (Solid::Mesh(mesh), false) = (solid, meets(body)) {
                 match budget.checked_sub(mesh.triangles.len()) {

@@ -159,7 +159,8 @@ fn passes(job: &Job, done: &SetupOutcome, simulation: &Simulation, setup: usize)
             let words = format!("{} and {}", name(*moving), name(*standing));
             Pass { tool: None, words, distance: 0.0, item: contacts.begins }
         });
-        let stock = |body: u32| contacts.bodies[body as usize].kind == BodyKind::Stock;
+        let stock =
+            |body: u32| matches!(contacts.bodies[body as usize].kind, BodyKind::Stock | BodyKind::StockThen);
         let met = contacts.met.meetings.iter().filter(move |m| !stock(m.standing)).map(move |m| {
             let segment = segment(m.watched);
             let tool = segment.tool.filter(|_| matches!(m.moving, Party::Tool(_)));

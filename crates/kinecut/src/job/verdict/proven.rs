@@ -165,7 +165,8 @@ pub(in crate::job) fn proven(
 fn machine_clear(contacts: &MachineContacts, file: &str, dog_legs: bool) -> (String, String) {
     let count = |is: &dyn Fn(&BodyKind) -> bool| contacts.bodies.iter().filter(|b| is(&b.kind)).count();
     let fixtures = count(&|kind| matches!(kind, BodyKind::Fixture(_)));
-    let others = if fixtures > 0 { "tools, fixtures, the raw stock" } else { "tools, the raw stock" };
+    let stock = if contacts.stock_then.is_some() { "the stock" } else { "the raw stock" };
+    let others = if fixtures > 0 { format!("tools, fixtures, {stock}") } else { format!("tools, {stock}") };
     let claim = match count(&|kind| matches!(kind, BodyKind::Machine(_))) {
         1 => format!("the body of the machine meets nothing in `{file}`: {others}"),
         n => format!("the {n} bodies of the machine meet nothing in `{file}`: {others}, one another"),
@@ -178,9 +179,16 @@ fn machine_clear(contacts: &MachineContacts, file: &str, dog_legs: bool) -> (Str
         0 => String::new(),
         n => format!("; {n} moves with sampled bounds on the way of their axes"),
     };
+    let then = contacts.stock_then.map_or(String::new(), |then| {
+        format!(
+            "; where bodies come to the raw stock, the stock at that moment is {:.2} mm away or more, by lines {:.2} mm apart: thinner spikes can be missed",
+            then.room(),
+            then.step
+        )
+    });
     let ways = if dog_legs { "rapids straight and axis by axis" } else { "rapids straight" };
     let bound = format!(
-        "motion of the axes swept, not sampled, {ways}; contacts within 0.01 mm count; bodies on neighbouring links not compared with each other{whole}{sampled}"
+        "motion of the axes swept, not sampled, {ways}; contacts within 0.01 mm count; bodies on neighbouring links not compared with each other{whole}{sampled}{then}"
     );
     (claim, bound)
 }

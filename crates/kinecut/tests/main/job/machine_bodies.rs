@@ -138,12 +138,24 @@ fn bodies_that_touch_from_the_start_are_one_error_and_not_compared() {
 }
 
 #[test]
-fn the_nose_where_the_stock_was_is_a_doubt() {
+fn a_nose_that_is_too_low_meets_the_stock() {
     // A nose that ends 2 mm above the tip is 3 mm below the top of the stock at Z -5.
     let short = text("", "", PLACED).replace("base = [0, 0, 0]", "base = [0, 0, -98]");
     let done = run_program(&short, GROOVE).unwrap();
     let met = found(&done, Code::MACHINE_MET);
-    assert!(!met.is_empty() && met.iter().all(|f| f.severity == Severity::Doubt), "{met:?}");
+    assert!(met.len() == 3 && met.iter().all(|f| f.severity == Severity::Error), "{met:?}");
+    assert_eq!((&met[0].message[..], line(met[0])), ("`nose` of the machine meets the stock", "G1 Z-5 F200"));
+    assert!(
+        (value(met[0]) - 3.0).abs() < 0.03 && met[0].help.ends_with("; 3.01 mm higher it clears"),
+        "{}",
+        met[0]
+    );
+    // Where zeros may be off the stock at that moment is not known.
+    let off =
+        short.replace("step = 0.5", "step = 0.5, uncertainty = { offset = 0.1, length = 0, stock = 0 }");
+    let done = run_program(&off, GROOVE).unwrap();
+    let met = found(&done, Code::MACHINE_MET);
+    assert!(met.len() == 3 && met.iter().all(|f| f.severity == Severity::Doubt), "{met:?}");
     assert_eq!(met[0].message, "`nose` of the machine comes where the stock was before the first cut");
 }
 
@@ -232,4 +244,96 @@ fn a_longer_tool_that_comes_into_the_spindle_above_a_body_meets_it_at_its_change
     let high = program.replace("X110\nT2", "Z90\nX110\nT2").replace("Z80", "Z100");
     let done = run_program(&text("", &format!("{longer}{block}"), PLACED), &high).unwrap();
     assert!(found(&done, Code::FIXTURE_MET).is_empty());
+}
+
+/// A job whose nose, 12 mm wide, ends 10 mm above the tip; a groove, 20 mm wide, is milled to Z -16 in the middle of a block that
+/// goes from Y -20 to 20, each pass 4 mm deep: from the third on the nose is below the top of the block.
+fn thin_nose(flutes: u32, program: &str) -> Outcome {
+    let text = format!(
+        r#"format = 1
+stock = {{ box = {{ min = [0, -20, -30], max = [60, 20, 0] }} }}
+post = {{ control = "fanuc" }}
+simulate = {{ step = 0.5 }}
+[machine]
+code = "1203"
+travel = {{ X = [-500, 500], Y = [-500, 500], Z = [-500, 500] }}
+dynamics = {{ rapid = 24000 }}
+[[machine.body]]
+name = "nose"
+link = "Z"
+cylinder = {{ base = [0, 0, -90], diameter = 12, height = 150 }}
+[[tool]]
+number = 1
+type = "end-mill"
+diameter = 20
+flute_length = {flutes}
+shank_diameter = 12
+stickout = 60
+gauge_length = 100
+[[setup]]
+offset = "G54"
+{PLACED}
+program = {{ file = "P.nc" }}
+"#
+    );
+    let program = format!(
+        "%\nO1\nG21 G17 G40 G80 G90 G94\nG54\nT1 M6\nS2000 M3\nG0 X-20 Y0\nG43 H1 Z50\n{program}\nG0 Z50\nM30\n%\n"
+    );
+    run_program(&text, &program).unwrap_or_else(|e| panic!("{e}"))
+}
+
+#[test]
+fn the_stock_is_there_or_not_at_the_moment() {
+    // Down the groove: the nose is 4 mm from its walls, and below the top of the raw stock in the last two passes.
+    let passes = "G1 Z-4 F900\nX80\nZ-8\nX-20\nZ-12\nX80\nZ-16\nX-20\n";
+    let right = thin_nose(9, passes);
+    assert!(found(&right, Code::MACHINE_MET).is_empty(), "{:?}", right.verdict.found);
+    let contacts = right.simulation.machine[0].as_ref().unwrap();
+    let then = contacts.stock_then.unwrap();
+    assert!(
+        then.cleared == 2 && then.step == 0.5 && contacts.met.meetings.iter().all(|m| m.contact.is_none())
+    );
+    let claim = right.verdict.proven.iter().find(|p| p.claim.contains("body of the machine")).unwrap();
+    assert!(claim.claim.ends_with("in `P.nc`: tools, the stock"), "{claim:?}");
+    assert!(
+        claim.bound.contains("the stock at that moment is 0.75 mm away or more, by lines 0.50 mm apart"),
+        "{claim:?}"
+    );
+    let text = format!("{:?}", kinecut::job::report::of_job(&right).sections);
+    assert!(text.contains("2 contacts with the raw stock cleared"), "{text}");
+
+    // To the depth at once the nose goes through the upper 6 mm of the stock with the tool: it is cut by the tool in the same
+    // block, right before the nose is there; that is not followed.
+    let at_once = thin_nose(30, "G1 Z-16 F900\nX80\n");
+    let all = found(&at_once, Code::MACHINE_MET);
+    assert!(all.len() == 1 && all[0].severity == Severity::Doubt, "{all:?}");
+    assert_eq!(line(all[0]), "X80");
+    assert_eq!(all[0].message, "`nose` of the machine comes where the stock was before the first cut");
+
+    // Out of the groove sideways the nose meets the wall, 4 mm away, that stays: an error at its line.
+    let aside = thin_nose(9, &format!("{passes}X30\nY5\nY0\n"));
+    let all = found(&aside, Code::MACHINE_MET);
+    assert_eq!(
+        all.iter().map(|f| (f.severity, line(f))).collect::<Vec<_>>(),
+        [(Severity::Error, "Y5"), (Severity::Error, "Y0")]
+    );
+    assert_eq!(all[0].message, "`nose` of the machine meets the stock");
+    // The last 1 mm of the way of 5 mm: the nose is at the wall from Y 4 on.
+    assert!((value(all[0]) - 1.0).abs() < 0.1, "{}", all[0]);
+}
+
+#[test]
+fn what_a_later_block_takes_away_was_there_before() {
+    // The nose meets the upper part of the wall, 4 mm away; in the end the groove is made wider there.
+    let program =
+        "G1 Z-4 F900\nX80\nZ-8\nX-20\nZ-12\nX80\nZ-16\nX-20\nX30\nY5\nY0\nZ-4\nX-20\nY8\nX80\nZ-8\nX-20\n";
+    let done = thin_nose(9, program);
+    let met = found(&done, Code::MACHINE_MET);
+    let all: Vec<_> = met.iter().map(|f| (f.severity, line(f))).collect();
+    assert_eq!(all, [(Severity::Error, "Y5"), (Severity::Error, "Y0")], "{met:?}");
+    // The other way round it is gone before.
+    let program = "G1 Z-4 F900\nX80\nZ-8\nX-20\nY8\nX80\nX-20\nY0\nZ-12\nX80\nZ-16\nX-20\nX30\nY5\nY0\n";
+    let done = thin_nose(9, program);
+    assert!(found(&done, Code::MACHINE_MET).is_empty(), "{:?}", done.verdict.found);
+    assert_eq!(done.simulation.machine[0].as_ref().unwrap().stock_then.map(|then| then.cleared), Some(6));
 }
