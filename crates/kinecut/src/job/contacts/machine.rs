@@ -217,7 +217,7 @@ impl MachineContacts {
     }
 
     /// Whether something meets the raw stock.
-    pub(super) fn meets_stock(&self) -> bool {
+    pub(in crate::job) fn meets_stock(&self) -> bool {
         self.met.meetings.iter().any(|m| m.contact.is_some() && self.is_with_stock(m))
     }
 }

@@ -4,13 +4,15 @@
 //! well, or what is left right behind the block; it is none if the stock right before the block, or before an earlier one, keeps
 //! away. In between, a contact stays a doubt.
 
+use std::collections::BTreeMap;
+
 use super::super::check::Job;
 use super::super::closer::Story;
 use super::super::raw::{drill, raw_stock, take_out};
 use super::super::replay::{Part, parts};
 use super::machine::{BodyKind, ComparedBody, MachineContacts, moving_tools, placed_bodies};
 use crate::base::{Progress, Result, Silent};
-use crate::contact::{Body, Contact, LinkBody, MachineMeeting, MachineMove, MachineParts};
+use crate::contact::{Body, Contact, LinkBody, MachineMeeting, MachineMove, MachineParts, Party};
 use crate::geom::{Mesh, Solid};
 use crate::stock::TriDexel;
 use crate::stock::cut::{CutOptions, cut};
@@ -20,8 +22,11 @@ use crate::stock::surface::{SurfaceOptions, surface};
 const MOST_LINES: u64 = 30_000;
 /// Triangles of a surface for each line of its stock, as bodies that are cut have them.
 const TRIANGLES: u64 = 6;
-/// Times that the stock of a setup is looked at between its moves.
+/// Times that the stock of a setup is looked at between its moves, and most contacts that are compared in them.
 const MOST_LOOKS: usize = 12;
+const MOST_COMPARED: usize = 40_000;
+/// Most contacts of a setup that are settled, the first of them; more than these are a program that has to be changed anyway.
+const MOST: usize = 20_000;
 /// Distance that the stock keeps from what is said not to meet it [steps].
 const ROOM: f64 = 1.5;
 /// A step is made so much coarser at a time.
@@ -76,8 +81,10 @@ pub(in crate::job) fn settle(
     if open(&setups) {
         let mut replay = Replay::new(story, step)?;
         for setup in &mut setups {
+            let mut compared = 0;
             for _ in 0..MOST_LOOKS {
-                let Some(first) = setup.first_open() else { break };
+                let Some(first) = setup.first_open().filter(|_| compared < MOST_COMPARED) else { break };
+                compared += setup.own.iter().filter(|(_, answer)| *answer == Answer::Open).count();
                 replay.to(setup.index, first as usize, progress)?;
                 let before = |_, found| if found == Found::Away { Answer::Clear } else { Answer::Open };
                 setup.meet(&replay.surface()?, before, step)?;
@@ -146,6 +153,9 @@ struct Setup<'a> {
     story: &'a Story<'a>,
     index: usize,
     contacts: &'a mut MachineContacts,
+    /// The bodies that meet the raw stock, with their numbers, and the raw stock.
+    moving: Vec<(u32, LinkBody)>,
+    raw: LinkBody,
     /// The contacts, with their answers and the meeting with the stock at that moment.
     own: Vec<(MachineMeeting, Answer)>,
 }
@@ -158,9 +168,15 @@ impl<'a> Setup<'a> {
     ) -> Result<Option<Setup<'a>>> {
         let own: Vec<_> = (contacts.met.meetings.iter())
             .filter(|m| m.contact.is_some() && contacts.is_with_stock(m))
+            .take(MOST)
             .map(|m| (m.clone(), Answer::Open))
             .collect();
-        Ok((!own.is_empty()).then_some(Setup { story, index, contacts, own }))
+        let is_own = |body: &u32| own.iter().any(|(m, _)| m.moving == Party::Body(*body));
+        let (Some(machine), false) = (&story.job.machine, own.is_empty()) else { return Ok(None) };
+        let (mut bodies, _) = placed_bodies(story.job, machine, &story.job.setups[index].setup)?;
+        let Some(raw) = bodies.pop() else { return Ok(None) };
+        let moving = (0..).zip(bodies).filter(|(body, _)| is_own(body)).collect();
+        Ok(Some(Setup { story, index, contacts, moving, raw, own }))
     }
 
     /// The first move whose contact is not settled.
@@ -194,12 +210,11 @@ impl<'a> Setup<'a> {
             }
             return Ok(());
         }
-        let (mut bodies, _) = placed_bodies(job, machine, setup)?;
-        let Some(raw) = bodies.pop() else { return Ok(()) };
         let place = machine.work.after(&setup.part_on_table);
-        let body = Body::new(raw.body.name.clone(), &Solid::Mesh(stock.clone()), place, 0.0)?;
-        bodies.push(LinkBody { body: body.off_by(ROOM * step), ..raw });
-        let standing = bodies.len() as u32 - 1;
+        let body = Body::new(self.raw.body.name.clone(), &Solid::Mesh(stock.clone()), place, 0.0)?;
+        let stock = LinkBody { body: body.off_by(ROOM * step), ..self.raw.clone() };
+        let bodies: Vec<LinkBody> = self.moving.iter().map(|(_, body)| body.clone()).chain([stock]).collect();
+        let standing = self.moving.len() as u32;
         let (tools, index) = moving_tools(job)?;
         let Some(parts) = MachineParts::new(machine, setup.part_on_table, bodies, tools) else {
             return Ok(());
@@ -216,14 +231,16 @@ impl<'a> Setup<'a> {
             return Ok(());
         }
         let met = parts.meetings(&moves, &[], &Silent)?;
+        let mut again: BTreeMap<(u32, u32), &MachineMeeting> = BTreeMap::new();
+        for m in met.meetings.iter().filter(|m| m.standing == standing && m.contact.is_some()) {
+            if let Party::Body(body) = m.moving {
+                again.insert((watched[m.watched as usize], self.moving[body as usize].0), m);
+            }
+        }
         for i in open {
             let (known, of) = &mut self.own[i];
-            let again = met.meetings.iter().find(|m| {
-                m.standing == standing
-                    && m.moving == known.moving
-                    && m.contact.is_some()
-                    && watched[m.watched as usize] == known.watched
-            });
+            let Party::Body(moving) = known.moving else { continue };
+            let again = again.get(&(known.watched, moving)).copied();
             let found = match again {
                 Some(again) if again.is_certain() => Found::Surely,
                 Some(_) => Found::Near,
@@ -234,7 +251,8 @@ impl<'a> Setup<'a> {
                 // What clears the raw stock clears this one.
                 let clears_by = known.contact.and_then(|contact| contact.clears_by);
                 let contact = again.contact.map(|contact| Contact { clears_by, ..contact });
-                *known = MachineMeeting { watched: known.watched, contact, ..again.clone() };
+                let place = again.place;
+                *known = MachineMeeting { place, distance: again.distance, contact, ..known.clone() };
             }
         }
         Ok(())

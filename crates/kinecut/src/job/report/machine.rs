@@ -153,10 +153,11 @@ impl Shown<'_> {
 
     /// The answer for each body.
     fn table(&self, of: &str) -> Table {
-        // The stock at that moment is listed where it is met.
+        // The stock at that moment is listed where it is met, or has cleared all.
         let listed = |(body, compared): &(u32, &ComparedBody)| {
-            compared.kind != BodyKind::StockThen
-                || self.contacts.met.meetings.iter().any(|m| m.standing == *body)
+            let meets = || self.contacts.met.meetings.iter().any(|m| m.standing == *body);
+            // Where a doubt is left the raw one says it.
+            compared.kind != BodyKind::StockThen || meets() || !self.contacts.meets_stock()
         };
         let rows = (0..).zip(&self.contacts.bodies).filter(listed).map(|(body, compared)| {
             let own = || {
@@ -169,6 +170,9 @@ impl Shown<'_> {
             may.dedup();
             let near = own().min_by(|a, b| a.distance.total_cmp(&b.distance));
             let touching = self.contacts.touching.iter().find(|pair| pair.contains(&body));
+            // What the stock at that moment has cleared is no pass of the raw one.
+            let then = self.contacts.stock_then.filter(|_| compared.kind == BodyKind::Stock);
+            let near = near.filter(|_| then.is_none() || !may.is_empty());
             let (answer, at) = match (lines.first(), touching, near) {
                 (Some(first), ..) => {
                     let blocks = if lines.len() == 1 { "block brings" } else { "blocks bring" };
@@ -191,8 +195,9 @@ impl Shown<'_> {
                 (None, None, Some(near)) => {
                     (Cell::new(format!("passed at {:.2} mm", near.distance)), self.line(near))
                 }
+                (None, None, None) if then.is_some() => (Cell::new("see the stock at that moment"), None),
                 (None, None, None) => {
-                    let stock = compared.kind == BodyKind::Stock;
+                    let stock = matches!(compared.kind, BodyKind::Stock | BodyKind::StockThen);
                     (free(stock, self.contacts.is_for_all_moves()), None)
                 }
             };

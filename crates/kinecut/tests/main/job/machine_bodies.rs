@@ -301,6 +301,7 @@ fn the_stock_is_there_or_not_at_the_moment() {
     );
     let text = format!("{:?}", kinecut::job::report::of_job(&right).sections);
     assert!(text.contains("2 contacts with the raw stock cleared"), "{text}");
+    assert!(text.contains("see the stock at that moment") && text.contains("nothing meets it"), "{text}");
 
     // To the depth at once the nose goes through the upper 6 mm of the stock with the tool: it is cut by the tool in the same
     // block, right before the nose is there; that is not followed.
