@@ -71,7 +71,7 @@ impl Outputs {
                 return Err(in_the_way(&path).into());
             }
         }
-        std::fs::create_dir_all(folder).map_err(|e| failed(folder, &e))?;
+        make_folder(folder)?;
         let turn = Turn::wait(folder, progress)?;
         if turn.is_held() {
             remove_leftovers(folder);
@@ -170,6 +170,13 @@ fn failed(path: &Path, e: &io::Error) -> Finding {
     Finding::error(Code::OUTPUT_NOT_WRITTEN, format!("cannot write `{}`: {e}", path.display()))
         .at(Location::whole_file(path.display().to_string()))
         .help("choose a folder that can be written, with --out")
+}
+
+/// Makes a folder, with those above it.
+fn make_folder(folder: &Path) -> Result<()> {
+    // Without a dot at its end (`new/.`), which no system makes.
+    let whole: PathBuf = folder.components().collect();
+    std::fs::create_dir_all(whole).map_err(|e| failed(folder, &e).into())
 }
 
 /// Removes the temporary files that killed runs have left; only the holder of the turn may.

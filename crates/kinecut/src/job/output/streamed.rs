@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use super::disk::{Disk as _, RealDisk};
 use super::turn::Turn;
-use super::{failed, in_the_way, remove_leftovers};
+use super::{failed, in_the_way, make_folder, remove_leftovers};
 use crate::base::{FilesRead, Progress, Result};
 
 /// A file that is being written under a temporary name beside its place; it is removed if it is not finished.
@@ -29,7 +29,7 @@ impl StreamedFile {
             return Err(in_the_way(place).into());
         }
         let folder = place.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
-        std::fs::create_dir_all(folder).map_err(|e| failed(folder, &e))?;
+        make_folder(folder)?;
         if place.file_name().is_none() || place.is_dir() {
             let e = std::io::Error::other("a folder of this name is in the way");
             return Err(failed(place, &e).into());

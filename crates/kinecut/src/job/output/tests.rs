@@ -323,3 +323,15 @@ fn the_folder_is_settled_between_the_files_and_their_verdict() {
     assert!(disk.log[..first].iter().any(|to| to == "settle"), "{:?}", disk.log);
     fs::remove_dir_all(folder).unwrap();
 }
+
+#[test]
+fn folders_are_made_however_they_are_written() {
+    let all = folder("made");
+    for name in ["new", "one/.", "two/", "three/four/./five/.", "six/../seven"] {
+        let folder = all.join(name);
+        let _ = fs::create_dir(all.join("six"));
+        outputs("new").write(&folder).unwrap();
+        assert_eq!(owner(&folder).as_deref(), Some("new"), "{name}");
+    }
+    fs::remove_dir_all(&all).unwrap();
+}
