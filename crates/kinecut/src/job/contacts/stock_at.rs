@@ -1,8 +1,9 @@
 //! Contacts of the machine's bodies with the raw stock, looked at again with the stock as it is at that moment.
 //!
-//! What the raw stock does not meet, the stock does not meet later. A contact with it is real if what a setup leaves is met as
-//! well, or what is left right behind the block; it is none if the stock right before the block, or before an earlier one, keeps
-//! away. In between, a contact stays a doubt.
+//! The stock only becomes less: a body that keeps away from it keeps away from then on, and one that meets it in the end has met it
+//! all along. So a contact with the raw stock is an error if the body meets the stock that the setup leaves, or the stock right
+//! behind the block, or that before it as the block begins; it is none if the body keeps away from the stock right before the block, or before an earlier one. Where neither
+//! is sure, the contact stays a doubt.
 
 use std::collections::BTreeMap;
 
@@ -11,7 +12,7 @@ use super::super::closer::Story;
 use super::super::raw::{drill, raw_stock, take_out};
 use super::super::replay::{Part, parts};
 use super::machine::{BodyKind, ComparedBody, MachineContacts, moving_tools, placed_bodies};
-use crate::base::{Progress, Result, Silent};
+use crate::base::{Progress, Result};
 use crate::contact::{Body, Contact, LinkBody, MachineMeeting, MachineMove, MachineParts, Party};
 use crate::geom::{Mesh, Solid};
 use crate::stock::TriDexel;
@@ -20,8 +21,8 @@ use crate::stock::surface::{SurfaceOptions, surface};
 
 /// Most lines of the stock that is looked at: its surface takes a hundred thousand triangles.
 const MOST_LINES: u64 = 30_000;
-/// Triangles of a surface for each line of its stock, as bodies that are cut have them.
-const TRIANGLES: u64 = 6;
+/// Triangles of a surface for each line of its stock: ground that is rough all over has 2.2, parts with flat faces less than one.
+const TRIANGLES: u64 = 4;
 /// Times that the stock of a setup is looked at between its moves, and most contacts that are compared in them.
 const MOST_LOOKS: usize = 12;
 const MOST_COMPARED: usize = 40_000;
@@ -74,8 +75,8 @@ pub(in crate::job) fn settle(
     let mut replay = Replay::new(story, step)?;
     for setup in &mut setups {
         replay.to(setup.index, usize::MAX, progress)?;
-        let left = |_, found| if found == Found::Surely { Answer::Met } else { Answer::Open };
-        setup.meet(&replay.surface()?, left, step)?;
+        let left = |_, found: Found| if found.is_sure() { Answer::Met } else { Answer::Open };
+        setup.meet(&replay.surface(progress)?, left, (step, progress))?;
     }
     let open = |setups: &[Setup<'_>]| setups.iter().any(|s| s.first_open().is_some());
     if open(&setups) {
@@ -86,17 +87,22 @@ pub(in crate::job) fn settle(
                 let Some(first) = setup.first_open().filter(|_| compared < MOST_COMPARED) else { break };
                 compared += setup.own.iter().filter(|(_, answer)| *answer == Answer::Open).count();
                 replay.to(setup.index, first as usize, progress)?;
-                let before = |_, found| if found == Found::Away { Answer::Clear } else { Answer::Open };
-                setup.meet(&replay.surface()?, before, step)?;
+                let before = |watched, found| match found {
+                    Found::Away => Answer::Clear,
+                    // As the block begins the stock is as it was before.
+                    Found::FromStart if watched == first => Answer::Met,
+                    _ => Answer::Open,
+                };
+                setup.meet(&replay.surface(progress)?, before, (step, progress))?;
                 // The same one may be open no longer.
                 if setup.first_open() == Some(first) {
                     replay.to(setup.index, first as usize + 1, progress)?;
                     let behind = |watched, found| match found {
-                        Found::Surely if watched == first => Answer::Met,
+                        _ if found.is_sure() && watched == first => Answer::Met,
                         Found::Away if watched > first => Answer::Clear,
                         _ => Answer::Open,
                     };
-                    setup.meet(&replay.surface()?, behind, step)?;
+                    setup.meet(&replay.surface(progress)?, behind, (step, progress))?;
                     setup.leave(first);
                 }
             }
@@ -140,12 +146,20 @@ enum Answer {
 /// A comparison with one stock.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Found {
-    /// The body meets it.
+    /// The body meets it as the move begins.
+    FromStart,
+    /// The body meets it later.
     Surely,
     /// The body comes nearer than is sure to be none.
     Near,
     /// The body keeps away.
     Away,
+}
+
+impl Found {
+    fn is_sure(self) -> bool {
+        matches!(self, Found::FromStart | Found::Surely)
+    }
 }
 
 /// The contacts of a setup with the raw stock.
@@ -184,7 +198,7 @@ impl<'a> Setup<'a> {
         self.own.iter().filter(|(_, a)| *a == Answer::Open).map(|(m, _)| m.watched).min()
     }
 
-    /// What has been looked at and is not settled stays a doubt.
+    /// The contacts of a move that has been looked at stay doubts where they are open.
     fn leave(&mut self, watched: u32) {
         for (m, answer) in &mut self.own {
             if m.watched == watched && *answer == Answer::Open {
@@ -194,7 +208,12 @@ impl<'a> Setup<'a> {
     }
 
     /// Compares all that is open with a stock; a function answers by the move and what was found.
-    fn meet(&mut self, stock: &Mesh, answer: impl Fn(u32, Found) -> Answer, step: f64) -> Result<()> {
+    fn meet(
+        &mut self,
+        stock: &Mesh,
+        answer: impl Fn(u32, Found) -> Answer,
+        (step, progress): (f64, &dyn Progress),
+    ) -> Result<()> {
         let open: Vec<usize> = (0..self.own.len()).filter(|i| self.own[*i].1 == Answer::Open).collect();
         if open.is_empty() {
             return Ok(());
@@ -230,7 +249,7 @@ impl<'a> Setup<'a> {
         if moves.len() < watched.len() {
             return Ok(());
         }
-        let met = parts.meetings(&moves, &[], &Silent)?;
+        let met = parts.meetings(&moves, &[], progress)?;
         let mut again: BTreeMap<(u32, u32), &MachineMeeting> = BTreeMap::new();
         for m in met.meetings.iter().filter(|m| m.standing == standing && m.contact.is_some()) {
             if let Party::Body(body) = m.moving {
@@ -242,7 +261,10 @@ impl<'a> Setup<'a> {
             let Party::Body(moving) = known.moving else { continue };
             let again = again.get(&(known.watched, moving)).copied();
             let found = match again {
-                Some(again) if again.is_certain() => Found::Surely,
+                Some(again) if again.is_certain() => {
+                    let begins = again.contact.is_some_and(|contact| contact.from == 0.0);
+                    if begins { Found::FromStart } else { Found::Surely }
+                }
                 Some(_) => Found::Near,
                 None => Found::Away,
             };
@@ -310,8 +332,7 @@ impl<'a> Replay<'a> {
                     let wanted = if *of < setup { moves.len() } else { index.saturating_sub(self.before) };
                     let to = wanted.min(moves.len()).max(self.at.1);
                     let some = &moves[self.at.1..to];
-                    cut(&mut self.stock, self.story.bodies, some, &CutOptions::default(), &Silent)?;
-                    progress.advance(some.len() as u64);
+                    cut(&mut self.stock, self.story.bodies, some, &CutOptions::default(), progress)?;
                     self.at.1 = to;
                     if to < moves.len() {
                         return Ok(());
@@ -327,7 +348,7 @@ impl<'a> Replay<'a> {
         Ok(())
     }
 
-    fn surface(&self) -> Result<Mesh> {
-        surface(&self.stock, &SurfaceOptions::default(), &Silent)
+    fn surface(&self, progress: &dyn Progress) -> Result<Mesh> {
+        surface(&self.stock, &SurfaceOptions::default(), progress)
     }
 }

@@ -45,14 +45,13 @@ pub(super) fn section(outcome: &Outcome, first_lines: &[u32]) -> Option<Section>
 /// The section on tools that come to the places where too much stock is left.
 pub(super) fn rest(outcome: &Outcome) -> Option<Section> {
     let reach = outcome.deviation.reach.as_ref()?;
-    // Not more than they are.
-    let percent = |count: usize| Cell::new((100 * count / reach.places.max(1)).to_string());
+    let part = |count: usize| Cell::new(reach.part(count));
     let name = |number| outcome.job.tools.iter().find(|t| t.number == number).map_or("", |t| t.name.as_str());
     let tools = reach.tools.iter().map(|own| {
         let cells = [format!("{} {}", own.tool, name(own.tool)).trim_end().to_owned()].map(Cell::new);
-        Row::new(cells.into_iter().chain([percent(own.free), percent(own.too_short)]).collect())
+        Row::new(cells.into_iter().chain([part(own.free), part(own.too_short)]).collect())
     });
-    let tools = Table::new("Milling tools of the job, at places with too much stock", "Tool; Comes there [%]; Too short [%]")
+    let tools = Table::new("Milling tools of the job, at places with too much stock", "Tool; Comes there []; Too short []")
         .rows(tools)
         .note(of_places(reach))
         .note(
@@ -64,13 +63,13 @@ pub(super) fn rest(outcome: &Outcome) -> Option<Section> {
         size.end_mill > before[0] || size.ball_nose > before[1]
     });
     let steps = steps.map(|(_, size)| {
-        Row::new(vec![Cell::new(size.diameter.to_string()), percent(size.end_mill), percent(size.ball_nose)])
+        Row::new(vec![Cell::new(size.diameter.to_string()), part(size.end_mill), part(size.ball_nose)])
     });
     let rows: Vec<Row> = steps.collect();
     let section = Section::new("Stock left on the design").with(tools);
     let [first, .., last] = &reach.sizes[..] else { return Some(section) };
     let sizes =
-        Table::new("Cutters of any length, at the same places", "Diameter [mm]; End mill [%]; Ball nose [%]");
+        Table::new("Cutters of any length, at the same places", "Diameter [mm]; End mill []; Ball nose []");
     let sizes = match rows.is_empty() {
         true => sizes.note(format!("No end mill or ball nose of {} mm or more comes there.", last.diameter)),
         false => sizes.rows(rows).note(format!(

@@ -74,35 +74,49 @@ pub struct SizeReach {
 impl RestReach {
     /// A tool that would take most of it away, in words.
     pub(super) fn advice(&self) -> String {
-        // Not more than they are.
-        let percent = |count: usize| 100 * count / self.places.max(1);
-        let last =
-            self.sizes.last().copied().unwrap_or(SizeReach { diameter: 0.0, end_mill: 0, ball_nose: 0 });
+        let part = |count: usize| self.part(count);
         let mut parts = Vec::new();
-        let of_job = self.tools.iter().max_by(|a, b| a.free.cmp(&b.free).then(b.tool.cmp(&a.tool)));
-        let known = of_job.map_or(0, |best| percent(best.free));
-        match of_job {
-            Some(best) if known > 0 => {
-                parts.push(format!("{} comes to {known} % of the places where too much is left", best.tool));
-            }
-            _ => parts.push("no milling tool of the job comes there".to_owned()),
-        }
-        let flat = last.end_mill >= last.ball_nose;
-        let count = |size: &SizeReach| if flat { size.end_mill } else { size.ball_nose };
-        // The largest that does nearly as well as the smallest.
-        let size = self.sizes.iter().find(|size| 10 * count(size) >= 9 * count(&last)).unwrap_or(&last);
-        let kind = if flat { "an end mill" } else { "a ball nose" };
-        match percent(count(size)) {
-            0 => parts.push(format!(
-                "an end mill or ball nose of {} mm neither, from where the programs cut",
-                last.diameter
+        let best = self.tools.iter().max_by(|a, b| a.free.cmp(&b.free).then(b.tool.cmp(&a.tool)));
+        let known = best.map_or(0, |best| best.free);
+        match best.filter(|best| best.free > 0) {
+            Some(best) => parts.push(format!(
+                "{} comes to {} of {} places where too much is left",
+                best.tool,
+                part(known),
+                self.places
             )),
-            most if most > known => {
-                parts.push(format!("{kind} of {} mm would come to {most} %", size.diameter))
+            None => parts.push("no milling tool of the job comes there".to_owned()),
+        }
+        let short = self.tools.iter().max_by(|a, b| a.too_short.cmp(&b.too_short).then(b.tool.cmp(&a.tool)));
+        if let Some(short) = short.filter(|short| short.too_short > known) {
+            parts.push(format!("{} is too short at {}", short.tool, part(short.too_short)));
+        }
+        if let Some(last) = self.sizes.last() {
+            let flat = last.end_mill >= last.ball_nose;
+            let count = |size: &SizeReach| if flat { size.end_mill } else { size.ball_nose };
+            // The largest that does nearly as well as the smallest.
+            let size = self.sizes.iter().find(|size| 10 * count(size) >= 9 * count(last)).unwrap_or(last);
+            let kind = if flat { "an end mill" } else { "a ball nose" };
+            match count(size) {
+                0 => parts.push(format!(
+                    "an end mill or ball nose of {} mm neither, from where the programs cut",
+                    last.diameter
+                )),
+                most if most > known => {
+                    parts.push(format!("{kind} of {} mm would come to {}", size.diameter, part(most)));
+                }
+                _ => {}
             }
-            _ => {}
         }
         parts.join("; ")
+    }
+
+    /// A number of places as a part of them, not more than it is: "84 %".
+    pub(in crate::job) fn part(&self, count: usize) -> String {
+        match 100 * count / self.places.max(1) {
+            0 if count > 0 => "under 1 %".to_owned(),
+            percent => format!("{percent} %"),
+        }
     }
 }
 

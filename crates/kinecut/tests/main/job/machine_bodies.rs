@@ -246,40 +246,28 @@ fn a_longer_tool_that_comes_into_the_spindle_above_a_body_meets_it_at_its_change
     assert!(found(&done, Code::FIXTURE_MET).is_empty());
 }
 
-/// A job whose nose, 12 mm wide, ends 10 mm above the tip; a groove, 20 mm wide, is milled to Z -16 in the middle of a block that
-/// goes from Y -20 to 20, each pass 4 mm deep: from the third on the nose is below the top of the block.
-fn thin_nose(flutes: u32, program: &str) -> Outcome {
-    let text = format!(
-        r#"format = 1
-stock = {{ box = {{ min = [0, -20, -30], max = [60, 20, 0] }} }}
-post = {{ control = "fanuc" }}
-simulate = {{ step = 0.5 }}
-[machine]
-code = "1203"
-travel = {{ X = [-500, 500], Y = [-500, 500], Z = [-500, 500] }}
-dynamics = {{ rapid = 24000 }}
-[[machine.body]]
-name = "nose"
-link = "Z"
-cylinder = {{ base = [0, 0, -90], diameter = 12, height = 150 }}
-[[tool]]
-number = 1
-type = "end-mill"
-diameter = 20
-flute_length = {flutes}
-shank_diameter = 12
-stickout = 60
-gauge_length = 100
-[[setup]]
-offset = "G54"
-{PLACED}
-program = {{ file = "P.nc" }}
-"#
-    );
-    let program = format!(
-        "%\nO1\nG21 G17 G40 G80 G90 G94\nG54\nT1 M6\nS2000 M3\nG0 X-20 Y0\nG43 H1 Z50\n{program}\nG0 Z50\nM30\n%\n"
-    );
-    run_program(&text, &program).unwrap_or_else(|e| panic!("{e}"))
+/// A job whose nose, 12 mm wide, ends 10 mm above the tip of a cutter of 20 mm, in a block that goes from Y -20 to 20 and from Z -30
+/// to 0.
+fn thin_nose_text(flutes: u32) -> String {
+    text("", "", PLACED)
+        .replace("min = [-10, -10, -20], max = [40, 10, 0]", "min = [0, -20, -30], max = [60, 20, 0]")
+        .replace(
+            "base = [0, 0, 0], diameter = 80, height = 60",
+            "base = [0, 0, -90], diameter = 12, height = 150",
+        )
+        .replace(
+            "diameter = 8\nflute_length = 20",
+            &format!("diameter = 20\nflute_length = {flutes}\nshank_diameter = 12"),
+        )
+}
+
+fn thin_nose_program(blocks: &str) -> String {
+    let head = "%\nO1\nG21 G17 G40 G80 G90 G94\nG54\nT1 M6\nS2000 M3\nG0 X-20 Y0\nG43 H1 Z50";
+    format!("{head}\n{blocks}\nG0 Z50\nM30\n%\n")
+}
+
+fn thin_nose(flutes: u32, blocks: &str) -> Outcome {
+    run_program(&thin_nose_text(flutes), &thin_nose_program(blocks)).unwrap_or_else(|e| panic!("{e}"))
 }
 
 #[test]
@@ -337,4 +325,30 @@ fn what_a_later_block_takes_away_was_there_before() {
     let done = thin_nose(9, program);
     assert!(found(&done, Code::MACHINE_MET).is_empty(), "{:?}", done.verdict.found);
     assert_eq!(done.simulation.machine[0].as_ref().unwrap().stock_then.map(|then| then.cleared), Some(6));
+}
+
+#[test]
+fn an_earlier_setup_has_cut_it_away() {
+    // The groove is made in the first setup; in the second the nose comes through it, and into the wall that it has left.
+    let groove = "G1 Z-4 F900\nX80\nZ-8\nX-20\nZ-12\nX80\nZ-16\nX-20";
+    let second = format!("\n[[setup]]\noffset = \"G54\"\n{PLACED}\nprogram = {{ file = \"Q.nc\" }}\n");
+    let run = |first: &str, blocks: &str| {
+        let loader = kinecut::base::MemoryLoader::default()
+            .with("P.nc", thin_nose_program(first))
+            .with("Q.nc", thin_nose_program(blocks));
+        let text = thin_nose_text(9) + &second;
+        kinecut::job::run("job.toml", &text, &loader, &kinecut::base::Silent)
+            .unwrap_or_else(|e| panic!("{e}"))
+    };
+    let through = "G1 Z-16 F900\nX80";
+    let done = run(groove, through);
+    assert!(found(&done, Code::MACHINE_MET).is_empty(), "{:?}", done.verdict.found);
+    let cleared = |i: usize| done.simulation.machine[i].as_ref().unwrap().stock_then.unwrap().cleared;
+    assert_eq!([cleared(0), cleared(1)], [2, 1]);
+    let done = run(groove, "G1 Z-16 F900\nX30\nY5");
+    let met: Vec<_> = found(&done, Code::MACHINE_MET).iter().map(|f| (f.severity, line(f))).collect();
+    assert_eq!(met, [(Severity::Error, "Y5"), (Severity::Error, "G0 Z50")]);
+    // Without the groove the second setup meets the stock.
+    let met = run("G0 X-20", through);
+    assert_eq!(found(&met, Code::MACHINE_MET).iter().map(|f| line(f)).collect::<Vec<_>>(), ["X80"]);
 }

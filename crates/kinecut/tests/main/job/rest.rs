@@ -108,7 +108,7 @@ fn a_corner_needs_a_cutter_of_its_radius() {
     // The finding tells it, and the report.
     let all = found(&done, Code::STOCK_LEFT);
     let help = all[0].help.clone();
-    assert_eq!(help, "T2 comes to 100 % of the places where too much is left");
+    assert_eq!(help, "T2 comes to 100 % of 300 places where too much is left");
     let section =
         report::of_job(&done).sections.into_iter().find(|s| s.title == "Stock left on the design").unwrap();
     let text = format!("{section:?}");

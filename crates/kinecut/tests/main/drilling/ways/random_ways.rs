@@ -28,7 +28,7 @@ fn is_beside_a_wall(way: &DrillWay, x: f64, y: f64) -> bool {
 }
 
 /// Half the width of strips that are not looked at [mm].
-const WIDE: f64 = 0.03;
+const WIDE: f64 = 0.015;
 
 /// The intervals of material over a point, from below, and whether the drill is to be looked at there: where it could cut,
 /// away from upright walls.
