@@ -348,6 +348,9 @@ fn an_earlier_setup_has_cut_it_away() {
     let done = run(groove, "G1 Z-16 F900\nX30\nY5");
     let met: Vec<_> = found(&done, Code::MACHINE_MET).iter().map(|f| (f.severity, line(f))).collect();
     assert_eq!(met, [(Severity::Error, "Y5"), (Severity::Error, "G0 Z50")]);
+    // What the second setup has cut by then counts as well: on its last pass the nose is 2 mm below the floor of the first.
+    let done = run(groove, "G1 Z-20 F900\nX80\nZ-24\nX-20\nZ-28\nX80");
+    assert!(found(&done, Code::MACHINE_MET).is_empty(), "{:?}", done.verdict.found);
     // Without the groove the second setup meets the stock.
     let met = run("G0 X-20", through);
     assert_eq!(found(&met, Code::MACHINE_MET).iter().map(|f| line(f)).collect::<Vec<_>>(), ["X80"]);
