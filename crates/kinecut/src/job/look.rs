@@ -151,7 +151,8 @@ impl Looks {
                 if let Some(body) = body {
                     let (tip, axis) = (stand.tip, stand.axis);
                     let most = top(stock.bounds(), axis) - tip.dot(axis);
-                    if most <= -TOUCH {
+                    let off = job.uncertainty.map_or(0.0, |off| off.of_stock());
+                    if most <= -(TOUCH + off) {
                         self.stands.push(StandContact { stand: index, touches: false, below: most });
                         return;
                     }

@@ -58,7 +58,8 @@ impl Uncertainty {
 
     /// The message of a contact as that of one that may be: "the holder may meet `clamp`, with zeros ±0.05 mm".
     pub(in crate::job) fn possible(&self, message: &str) -> String {
-        const VERBS: [[&str; 2]; 5] = [
+        const VERBS: [[&str; 2]; 6] = [
+            [" is ", " may be "],
             [" goes ", " may go "],
             [" turns ", " may turn "],
             [" cuts ", " may cut "],
@@ -74,6 +75,11 @@ impl Uncertainty {
             None => message.to_owned(),
         };
         format!("{text}, with {}", self.words())
+    }
+
+    /// The same against any face of the stock that is left [mm]: setups and tools before leave one as much off again.
+    pub fn of_stock(&self) -> f64 {
+        2.0 * self.of_tool() + self.stock
     }
 
     /// In words: "zeros ±0.05 mm, tool lengths ±0.02 mm, raw stock +0.5 mm".
@@ -106,6 +112,7 @@ mod tests {
                 "the tool cuts while the spindle stands still",
                 "the tool may cut while the spindle stands still",
             ),
+            ("T1 is changed for T2 inside the stock", "T1 may be changed for T2 inside the stock"),
             (
                 "`head` of the machine comes where the stock was",
                 "`head` of the machine may come where the stock was",

@@ -257,3 +257,27 @@ fn whatever_is_off_is_found_before() {
     }
     assert!(happened > 40 && only_then > 10, "{happened} {only_then}");
 }
+
+#[test]
+fn a_tool_change_close_to_the_stock_counts_all_that_may_be_off() {
+    // 1 mm above the stock, and 1 mm beside its side at X30 (the cutter has a radius of 3).
+    let change = |x: f64, z: f64| {
+        one(
+            &format!(
+                "{HEAD}G0 X{x} Y10 Z{z}\nM5\nT2 M6\nG43\nS3000 M3\nG0 Z30\nX15\nG1 Z-1 F300\nG0 Z30\nM2\n"
+            ),
+            [0.2, 0.1, 0.5],
+        )
+    };
+    let deep = |o: &Outcome| doubts(o, Code::CHANGE_IN_STOCK);
+    let above = deep(&change(15.0, 1.0));
+    // Both zeros and both lengths: 2 (0.2 + 0.1) + 0.5 - 1 of it.
+    assert_eq!(above.len(), 1, "{above:?}");
+    assert!(above[0].0.starts_with("T2 M6") && (above[0].1 - 0.1).abs() < 1e-9, "{above:?}");
+    assert!(deep(&change(15.0, 1.2)).is_empty());
+    assert_eq!(deep(&change(34.0, -2.0)).len(), 1);
+    assert!(deep(&change(34.2, -2.0)).is_empty());
+    let inside = change(32.0, -2.0);
+    assert!(found(&inside, Code::CHANGE_IN_STOCK).iter().all(|f| f.severity == Severity::Error));
+    assert!(deep(&inside).is_empty() && found(&inside, Code::CHANGE_IN_STOCK).len() == 1);
+}
