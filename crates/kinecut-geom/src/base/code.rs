@@ -226,6 +226,8 @@ codes! {
         "Two edges of an outline cross, touch or lie on one another. Which side is material cannot be told there.";
     OUTLINE_EDGE = "KC0805", "an edge of an outline is not valid",
         "An edge has no length, or numbers that are not finite.";
+    OFFSET = "KC0806", "an offset of an outline cannot be made",
+        "The path of a cutter runs at its radius from the outline. It was made in two ways, and neither has passed the check of its distance, its joints and its completeness: the drawing has details that are smaller than its accuracy. The message gives the place: simplify the drawing there, or take another cutter.";
 
     DRILL_CASE = "KC0901", "a drilling case contradicts itself",
         "A feed, speed, depth, length or diameter of a drilled hole is not usable, or two of its keys contradict each other. The message gives the bound.";

@@ -30,6 +30,7 @@ mod mesh_load;
 mod mesh_ply;
 mod mesh_section;
 mod mesh_stl;
+mod offset;
 mod outline;
 mod plane_curve;
 mod profile;
@@ -65,11 +66,12 @@ pub use mesh_load::load_mesh;
 pub use mesh_ply::write_ply;
 pub use mesh_section::SectionOutline;
 pub use mesh_stl::{read_stl, write_stl};
+pub use offset::{Offset, OffsetLoop, offset, offset_direct};
+pub use outline::{EdgeDistance, NearestEdge, loop_crossing, meetings};
 pub use outline::{
     LengthUnit, LoopEntry, LoopTable, Outline, OutlineEdge, OutlineFile, OutlineLoop, OutlineOptions,
     OutlinePoint, OutlineRead, PointEntry, SectionAxis, Turn, read_outline,
 };
-pub use outline::{loop_crossing, meetings};
 pub use plane_curve::PlaneCurve;
 pub use profile::{Profile, ProfileElement};
 pub use rigid::Rigid;

@@ -113,6 +113,10 @@ fn line_and_arc(line: &OutlineEdge, arc: &OutlineEdge, t: Turn, tolerance: f64) 
 }
 
 fn arcs(e: &OutlineEdge, t: Turn, f: &OutlineEdge, u: Turn, tolerance: f64) -> ([DVec2; 2], usize) {
+    if t.radius > u.radius {
+        // From the smaller circle the common chord is known to the rounding of the larger radius, not to its root.
+        return arcs(f, u, e, t, tolerance);
+    }
     let between = u.centre - t.centre;
     let apart = between.length();
     let near = apart >= (t.radius - u.radius).abs() - tolerance && apart <= t.radius + u.radius + tolerance;

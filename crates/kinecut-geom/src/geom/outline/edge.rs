@@ -219,7 +219,7 @@ impl OutlineEdge {
     }
 
     /// Twice the area between the edge and the origin, counter-clockwise positive [mm2].
-    pub(super) fn twice_area(&self) -> f64 {
+    pub(in crate::geom) fn twice_area(&self) -> f64 {
         let triangle = self.start.perp_dot(self.end);
         triangle + self.turn.map_or(0.0, |t| t.radius * t.radius * (t.sweep - t.sweep.sin()))
     }

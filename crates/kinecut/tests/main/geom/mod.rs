@@ -1,3 +1,4 @@
 //! Outlines, as they come from files.
 
+mod offset;
 mod outline_files;

@@ -1,0 +1,133 @@
+//! Whether loops are the offset of an outline.
+//!
+//! Looked at: three points of each edge, which lie at the distance from the outline and on its right side; the joints; the
+//! turning of each loop, once around; and points of the outline, each moved by the distance: one that keeps it from all of
+//! the outline belongs to the offset, and lies on one of its loops. So nothing is missing either.
+
+use std::f64::consts::TAU;
+
+use glam::DVec2;
+
+use super::failed;
+use crate::base::Result;
+use crate::geom::outline::NearestEdge;
+use crate::geom::{Outline, OutlineEdge};
+use crate::num::angle::wrap;
+
+/// Largest gap of a joint, and largest difference of a distance [mm].
+const LARGEST: f64 = 1e-6;
+
+/// An outline and a distance, ready to look at loops.
+pub(super) struct Check<'a> {
+    outline: &'a Outline,
+    distance: f64,
+    near: NearestEdge<'a>,
+}
+
+impl<'a> Check<'a> {
+    pub(super) fn new(outline: &'a Outline, distance: f64) -> Check<'a> {
+        Check { outline, distance, near: NearestEdge::new(outline.edges()) }
+    }
+
+    /// The edges of the outline.
+    pub(super) fn near(&self) -> &NearestEdge<'a> {
+        &self.near
+    }
+
+    /// Looks at loops.
+    ///
+    /// # Errors
+    /// `KC0806` with the first place that is wrong.
+    pub(super) fn of(&self, loops: &[Vec<OutlineEdge>]) -> Result<()> {
+        for edges in loops {
+            self.joints(edges)?;
+            self.turning(edges)?;
+            for edge in edges {
+                for share in [0.0, 0.25, 0.5] {
+                    self.point(edge.at(share))?;
+                }
+            }
+        }
+        self.whole(loops)
+    }
+
+    fn error(&self, what: &str, at: DVec2) -> Result<()> {
+        Err(failed(what, at, self.distance))
+    }
+
+    fn largest(&self) -> f64 {
+        LARGEST.max(self.near.rounding())
+    }
+
+    fn joints(&self, edges: &[OutlineEdge]) -> Result<()> {
+        for (i, edge) in edges.iter().enumerate() {
+            let next = &edges[(i + 1) % edges.len()];
+            if !(edge.end.distance(next.start) <= self.largest()) {
+                return self.error("has a gap", edge.end);
+            }
+        }
+        Ok(())
+    }
+
+    fn turning(&self, edges: &[OutlineEdge]) -> Result<()> {
+        let sweeps: f64 = edges.iter().filter_map(|e| e.turn).map(|t| t.sweep).sum();
+        let corner = |i: usize| {
+            let (edge, next) = (&edges[i], &edges[(i + 1) % edges.len()]);
+            wrap(next.heading(0.0) - edge.heading(1.0))
+        };
+        let corners: f64 = (0..edges.len()).map(corner).sum();
+        // A corner of half a turn, that of a loop without width, goes either way.
+        let off = ((sweeps + corners).abs() - TAU).abs();
+        let is_once = off < 1e-3 || (0..edges.len()).any(|i| corner(i).abs() > 3.14);
+        if is_once { Ok(()) } else { self.error("does not turn once", edges[0].start) }
+    }
+
+    /// A point of the offset.
+    fn point(&self, p: DVec2) -> Result<()> {
+        let wanted = -self.distance;
+        let largest = self.largest();
+        match self.near.at(p, wanted.abs() + largest) {
+            Some(nearest) if (nearest.distance - wanted).abs() <= largest => Ok(()),
+            _ => self.error("does not keep its distance", p),
+        }
+    }
+
+    /// Points that belong to the offset.
+    fn whole(&self, loops: &[Vec<OutlineEdge>]) -> Result<()> {
+        const SHARES: [f64; 5] = [0.03, 0.26, 0.5, 0.74, 0.97];
+        let edges: Vec<OutlineEdge> = loops.concat();
+        let found = NearestEdge::new(&edges);
+        let look = |p: DVec2| {
+            let least = self.distance.abs() - self.near.rounding();
+            let is_of_it = self.near.at(p, self.distance.abs()).is_none_or(|n| n.distance.abs() >= least);
+            // A loop may begin or end within the rounding of where its candidates meet.
+            if is_of_it && found.at(p, 10.0 * self.largest()).is_none() {
+                return self.error("lacks a loop", p);
+            }
+            Ok(())
+        };
+        for one in self.outline.loops() {
+            let edges = &self.outline.edges()[one.edges.clone()];
+            for (i, edge) in edges.iter().enumerate() {
+                // An arc that is too small for the distance leaves nothing.
+                let vanishes = edge
+                    .turn
+                    .is_some_and(|t| t.sweep * self.distance < 0.0 && t.radius <= self.distance.abs());
+                if !vanishes {
+                    for s in SHARES {
+                        look(edge.at(s) - self.distance * DVec2::from_angle(edge.outward(s)))?;
+                    }
+                }
+                let next = &edges[(i + 1) % edges.len()];
+                let turn = wrap(next.heading(0.0) - edge.heading(1.0));
+                if turn * self.distance > 0.0 && turn.abs() > 1e-6 {
+                    for s in SHARES {
+                        let out = DVec2::from_angle(edge.outward(1.0) + s * turn);
+                        look(edge.end - self.distance * out)?;
+                    }
+                }
+            }
+        }
+        Ok(())
+    }
+}
