@@ -108,6 +108,12 @@ codes! {
         "A helix along the outline of a through bore leaves the core standing; when the cutter breaks through, the core is a loose slug that can jam the cutter or be thrown. Hold it from below, or clear the bore by another strategy.";
     NOTHING_TO_MILL = "KC0406", "the stock to leave fills the bore",
         "With the stock to leave on its wall the bore is not larger than the cutter: nothing is milled, and the operation is left out of the program.";
+    LEAD_ROOM = "KC0407", "a lead finds no room",
+        "A contour is joined and left on arcs that are tangent to it, beside the material that stays. Beside no place of the loop, or the one that is asked for, is there room for the smallest arc. Give another start, a smaller lead_radius, or take a smaller cutter.";
+    TABS = "KC0408", "tabs do not fit",
+        "Tabs lie on straight pieces or wide arcs of a contour, off its corners and off the place where it begins. Fewer fit than are wanted. The report shows where they are.";
+    CORNERS_STAY = "KC0409", "inside corners stay",
+        "A cutter leaves a fillet of its own radius in inside corners that are sharper. They are not cut, and not compared with the outline. Finish them with a smaller cutter, or draw them as they will be.";
 
     RAPID_IN_STOCK = "KC0501", "a rapid move goes through stock",
         "The cutter meets material in a rapid move. On most machines this breaks the cutter, and at times the spindle.";

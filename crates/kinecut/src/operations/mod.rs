@@ -7,13 +7,16 @@
 #[macro_use]
 mod list;
 
+pub(crate) mod band;
 pub mod bore;
+pub mod contour;
 pub mod drill;
 pub mod face;
 pub(crate) mod kind;
 pub(crate) mod known;
 pub mod measured;
 mod milling;
+pub mod outlines;
 pub mod path;
 mod pen;
 pub mod places;
@@ -42,6 +45,8 @@ kinds! {
     /// Milling of an elliptic pocket.
     PocketEllipse "pocket-ellipse"
         (pocket_ellipse::EllipseTable, pocket_ellipse::EllipseOperation, pocket_ellipse::PlannedEllipse),
+    /// Milling along the edges of an outline.
+    Contour "contour" (contour::ContourTable, contour::ContourOperation, contour::PlannedContour),
     /// Drilling, centring, countersinking, reaming: what a tool does along its axis.
     Drill "drill" (drill::DrillTable, drill::DrillOperation, drill::PlannedDrilling),
     /// Threads by a tap.

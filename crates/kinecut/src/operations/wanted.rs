@@ -1,12 +1,17 @@
 //! The shape that an operation wants, in coordinates of its work offset or plane: walls, a plane, the outline that has to lie in
 //! the stock.
 
+use std::f64::consts::TAU;
+use std::sync::Arc;
+
 use glam::DVec2;
+
+use super::band::Band;
 
 use crate::geom::{Outline, ellipse_distance};
 
 /// A wall that an operation wants, with what it encloses.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug)]
 pub(crate) struct WantedWall {
     /// Centre in the plane of the work offset [mm].
     pub(crate) centre: DVec2,
@@ -63,7 +68,7 @@ pub(crate) struct PlannedOutline {
 }
 
 /// A wall about the operation's centre.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug)]
 pub(crate) enum Wall {
     /// A bore; conical when the radii differ.
     Round {
@@ -81,22 +86,41 @@ pub(crate) enum Wall {
         /// Stock left on it [mm].
         leave: f64,
     },
+    /// The wall along a contour, about the middle of its outline.
+    Band(Arc<Band>),
 }
 
 impl Wall {
     /// Distance from the wall in the plane, positive inside [mm]. `off` is counted from the centre.
     pub(crate) fn inside(&self, off: DVec2, height: f64) -> f64 {
-        match *self {
+        match self {
             Wall::Round { .. } => self.radius(height) - off.length(),
             Wall::Ellipse { half_axes, turned, leave } => {
-                ellipse_distance(half_axes, DVec2::from_angle(-turned).rotate(off)) - leave
+                ellipse_distance(*half_axes, DVec2::from_angle(-turned).rotate(off)) - leave
             }
+            Wall::Band(band) => band.inside(band.middle + off),
         }
     }
 
-    /// Radius of a round wall at a height, or half the longer axis [mm].
+    /// The same where the wall is compared; not a number where it is not.
+    pub(crate) fn compared(&self, off: DVec2, height: f64) -> f64 {
+        match self {
+            Wall::Band(band) => band.compared(band.middle + off, height),
+            _ => self.inside(off, height),
+        }
+    }
+
+    /// Whether a face with a normal looks to where is cut.
+    pub(crate) fn faces_cut(&self, off: DVec2, normal: DVec2) -> bool {
+        match self {
+            Wall::Band(band) => band.faces_cut(band.middle + off, normal),
+            _ => normal.dot(off) < 0.0,
+        }
+    }
+
+    /// Radius of a round wall at a height, half the longer axis, or what the strip along a contour stays within [mm].
     pub(crate) fn radius(&self, height: f64) -> f64 {
-        match *self {
+        match self {
             Wall::Round { radii: [top, bottom], heights: [upper, lower] } => {
                 let share = ((upper - height) / (upper - lower)).clamp(0.0, 1.0);
                 top + (bottom - top) * share
@@ -108,19 +132,21 @@ impl Wall {
                     b - leave
                 }
             }
+            Wall::Band(band) => band.reach,
         }
     }
 
     /// The point of the wall in a direction from the centre, at a height, counted from the centre.
     pub(crate) fn point(&self, angle: f64, height: f64) -> DVec2 {
-        match *self {
+        match self {
             Wall::Round { .. } => DVec2::from_angle(angle) * self.radius(height),
             Wall::Ellipse { half_axes: [a, b], turned, leave } => {
                 let (sin, cos) = angle.sin_cos();
                 // Stock left on the wall is counted along its normal.
                 let normal = DVec2::new(cos / a, sin / b).normalize_or_zero();
-                DVec2::from_angle(turned).rotate(DVec2::new(a * cos, b * sin) - normal * leave)
+                DVec2::from_angle(*turned).rotate(DVec2::new(a * cos, b * sin) - normal * leave)
             }
+            Wall::Band(band) => band.point(angle / TAU) - band.middle,
         }
     }
 }

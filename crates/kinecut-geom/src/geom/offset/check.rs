@@ -21,7 +21,7 @@ const LARGEST: f64 = 1e-6;
 pub(super) struct Check<'a> {
     outline: &'a Outline,
     distance: f64,
-    near: NearestEdge<'a>,
+    near: NearestEdge,
 }
 
 impl<'a> Check<'a> {
@@ -30,7 +30,7 @@ impl<'a> Check<'a> {
     }
 
     /// The edges of the outline.
-    pub(super) fn near(&self) -> &NearestEdge<'a> {
+    pub(super) fn near(&self) -> &NearestEdge {
         &self.near
     }
 

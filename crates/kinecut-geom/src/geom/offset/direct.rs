@@ -18,11 +18,7 @@ const JOINED: f64 = 10.0;
 const FINE: f64 = 1e-3;
 
 /// The loops, the face on their right.
-pub(super) fn loops(
-    outline: &Outline,
-    distance: f64,
-    near: &NearestEdge<'_>,
-) -> Result<Vec<Vec<OutlineEdge>>> {
+pub(super) fn loops(outline: &Outline, distance: f64, near: &NearestEdge) -> Result<Vec<Vec<OutlineEdge>>> {
     let (same, fine) = (near.rounding(), FINE * near.rounding());
     let all = candidates(outline, distance);
     let mut pieces = Vec::new();

@@ -21,8 +21,8 @@ use super::{EdgeBins, OutlineEdge};
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Debug)]
-pub struct NearestEdge<'a> {
-    edges: &'a [OutlineEdge],
+pub struct NearestEdge {
+    edges: Vec<OutlineEdge>,
     bins: EdgeBins,
     rounding: f64,
 }
@@ -38,11 +38,11 @@ pub struct EdgeDistance {
     pub distance: f64,
 }
 
-impl<'a> NearestEdge<'a> {
+impl NearestEdge {
     /// Of edges in loops, each beginning where the one before it ends.
-    pub fn new(edges: &'a [OutlineEdge]) -> NearestEdge<'a> {
+    pub fn new(edges: &[OutlineEdge]) -> NearestEdge {
         let bins = EdgeBins::new(edges);
-        NearestEdge { rounding: 1e-9 * (1.0 + bins.size()), bins, edges }
+        NearestEdge { rounding: 1e-9 * (1.0 + bins.size()), bins, edges: edges.to_vec() }
     }
 
     /// Distance below which two points may be one [mm].

@@ -151,6 +151,19 @@ impl Outline {
         mirrored
     }
 
+    /// The outline of some of its loops; an inner one without the one around it is an outline of its own, whose material
+    /// still lies on the right.
+    #[must_use]
+    pub fn with_loops(&self, keep: impl Fn(&OutlineLoop) -> bool) -> Outline {
+        let mut some = Outline { edges: Vec::new(), loops: Vec::new(), labels: self.labels.clone() };
+        for one in self.loops.iter().filter(|l| keep(l)) {
+            let first = some.edges.len();
+            some.edges.extend_from_slice(&self.edges[one.edges.clone()]);
+            some.loops.push(OutlineLoop { edges: first..some.edges.len(), outer: one.outer });
+        }
+        some
+    }
+
     /// The outline with other labels: of each edge, and the list of their meanings.
     pub(super) fn relabelled(mut self, label: impl Fn(u32) -> u32, labels: Vec<String>) -> Outline {
         for edge in &mut self.edges {

@@ -75,11 +75,11 @@ impl Wanted<'_> {
         }
         let claim = |side: Side, deviation: f64| Some(Claim { of, side, deviation: deviation as f32 });
         let normal = self.to_work.vector(end.normal.normal());
-        let depth = self.wall.inside(off, q.z);
+        let depth = self.wall.compared(off, q.z);
         let inside = depth > 0.0;
         // Above the floor, what ends on its border belongs to the wall: a step of a conical one.
         let over_floor =
-            |floor: f64| self.wall.inside(off, floor) > if q.z > floor + EDGE { EDGE } else { -EDGE };
+            |floor: f64| self.wall.compared(off, floor) > if q.z > floor + EDGE { EDGE } else { -EDGE };
         if let Some(floor) = self.floor
             && normal.z > FACES_UP
             && q.z < self.top - EDGE
@@ -95,7 +95,7 @@ impl Wanted<'_> {
             // Material above the floor inside the bore is stock left, whatever its face looks like.
             return if between && inside { claim(Side::Within, depth) } else { None };
         }
-        let wall = inside || own(end.cut) && normal.truncate().dot(off) < 0.0;
+        let wall = inside || own(end.cut) && self.wall.faces_cut(off, normal.truncate());
         if wall { claim(Side::Wall, depth) } else { None }
     }
 }

@@ -37,7 +37,8 @@ pub(super) fn planned(of: &Arc<BoreOperation>, setting: &Setting<'_>) -> Result<
     }
     if let Some(finish) = &of.table.finish {
         finish
-            .check_wear(setting, of.milling.tool.number, spec.finish.and_then(|f| f.wear))
+            .wear_keys()
+            .check(setting, of.milling.tool.number, spec.finish.and_then(|f| f.wear))
             .map_err(|e| e.under("finish"))?;
     }
     let plan = plan_bore(&spec).map_err(|mut e| {

@@ -3,16 +3,15 @@
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
-use glam::DVec2;
-
 use super::plan::{PlannedFace, plan_face};
-use super::{FacingTable, OutlineEntry, PsiSide, top_outline};
+use super::{FacingTable, PsiSide, top_outline};
 use crate::base::bounded::{MAX_LENGTH, bounded, length, positive};
 use crate::base::unit::in_degrees;
-use crate::base::{Code, Error, FileKind, Finding, Loader, Result};
+use crate::base::{Code, Finding, Loader, Result};
 use crate::facing::{BadSet, FaceCase, Thresholds};
-use crate::geom::{Outline, OutlineOptions, OutlineRead, read_outline};
+use crate::geom::{Outline, OutlineRead};
 use crate::operations::kind::{self, Attempt};
+use crate::operations::outlines::{Drawn, OutlineEntry};
 use crate::operations::{Around, Milling, Setting, StockOutline, milling_of, tool_of};
 use crate::tool::Tool;
 
@@ -243,34 +242,18 @@ fn feed(t: &FacingTable, spindle: f64, teeth: u32) -> Result<(f64, f64)> {
 }
 
 fn outline(t: &FacingTable, stock: &StockOutline<'_>, loader: &dyn Loader) -> Result<OutlineRead> {
-    let under = |e: Error| e.under("outline");
-    let options = OutlineOptions {
-        unit: t.unit,
-        layers: t.layers.clone().unwrap_or_default(),
-        snap: length("snap", t.snap.unwrap_or(OutlineOptions::default().snap), 0.0, 10.0)?,
-        ..OutlineOptions::default()
-    };
-    let read = match &t.outline {
+    match &t.outline {
         OutlineEntry::Name(name) if name == "top" => {
-            let outline = top_outline(stock, t.top).map_err(under)?;
+            let outline = top_outline(stock, t.top).map_err(|e| e.under("outline"))?;
             // It lies where the stock lies.
             let weights = vec![1.0; outline.edges().len()];
-            return Ok(OutlineRead { outline, weights, notes: Vec::new() });
+            Ok(OutlineRead { outline, weights, notes: Vec::new() })
         }
-        OutlineEntry::Name(name) => {
-            let bytes = loader.read_as(name, FileKind::of_outline(name)).map_err(under)?;
-            read_outline(name, &bytes, &options).map_err(under)?
+        outline => {
+            let (unit, layers) = (t.unit, t.layers.as_deref());
+            Drawn { outline, unit, layers, snap: t.snap, at: t.at, angle: t.angle }.read(loader)
         }
-        OutlineEntry::Loops(loops) => loops.outline(t.unit).map_err(under)?,
-    };
-    for (i, v) in t.at.into_iter().enumerate() {
-        length(&format!("at[{i}]"), v, -MAX_LENGTH, MAX_LENGTH)?;
     }
-    let angle = bounded("angle", t.angle, -360.0, 360.0, "deg")?.to_radians();
-    let [min, max] = read.outline.bounds();
-    let far = min.abs().max(max.abs()).max_element();
-    length("outline", far, 0.0, MAX_LENGTH)?;
-    Ok(OutlineRead { outline: read.outline.moved(angle, DVec2::from_array(t.at)), ..read })
 }
 
 /// The bad exit angles and the rule as a person reads it.

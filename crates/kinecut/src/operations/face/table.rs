@@ -6,7 +6,8 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::facing::{BadPart, PassesChoice, PlacementChoice};
-use crate::geom::{LengthUnit, OutlineFile};
+use crate::geom::LengthUnit;
+use crate::operations::outlines::OutlineEntry;
 use crate::program::Coolant;
 
 /// Milling of a plane face: placed, and milled in passes, so that its edges keep the least burr.
@@ -108,16 +109,6 @@ pub struct FacingTable {
     /// Distance between cutter and part where a pass begins and ends; default 5.
     #[serde(default)]
     pub clearance: Option<f64>,
-}
-
-/// The edges of a face.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(untagged)]
-pub enum OutlineEntry {
-    /// "top", or the name of a file.
-    Name(String),
-    /// The loops themselves.
-    Loops(OutlineFile),
 }
 
 /// Side of the velocity from which exit angles are given.

@@ -5,8 +5,10 @@ mod moves;
 mod paper;
 mod section;
 mod table;
+mod wear;
 
 pub(crate) use lead_figures::lead_drawings;
 pub(crate) use moves::{CLEARANCE, write_moves};
 pub(crate) use section::{ShownWall, sections};
 pub use table::*;
+pub(crate) use wear::WearKeys;

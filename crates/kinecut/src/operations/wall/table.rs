@@ -3,12 +3,11 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use super::WearKeys;
 use crate::base::unit::{Deg, MmPerMin};
-use crate::base::{Code, Error, Finding, Result};
+use crate::base::{Code, Finding, Result};
 use crate::geom::LensOrder;
-use crate::holes::{FeedAt, Finish, LeadEnd, Wear};
-use crate::operations::Setting;
-use crate::program::ToolNumber;
+use crate::holes::{FeedAt, Finish, LeadEnd};
 
 /// Finishing of a bore.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -81,15 +80,6 @@ impl FinishTable {
     /// # Errors
     /// `KC0102` for keys that exclude each other, `KC0103` for a name that is no wear register.
     pub(crate) fn finish(&self) -> Result<Finish> {
-        let wear = self.wear_offset.as_deref().map(|name| {
-            let number = name.strip_prefix(['D', 'd']).and_then(|n| n.parse().ok());
-            let register = number.filter(|n| (1..=MOST_REGISTER).contains(n)).ok_or_else(|| {
-                Finding::error(Code::JOB_VALUE, format!("`{}` is no wear register", name.escape_default()))
-                    .help("write the letter D and a number, such as \"D2\"")
-                    .key("wear_offset")
-            })?;
-            Ok::<_, Error>(Wear { register, largest: self.wear_largest.unwrap_or(USUAL_WEAR) })
-        });
         Ok(Finish {
             turns: self.turns.unwrap_or(2),
             lead: self.contact.order(),
@@ -103,69 +93,15 @@ impl FinishTable {
             touch_angle: self.touch_angle,
             end_touch_angle: self.end_touch_angle,
             spring_passes: self.spring_passes,
-            wear: wear.transpose()?,
+            wear: self.wear_keys().wear(USUAL_WEAR)?,
             stepdown: self.stepdown,
             ..Finish::new(self.feed)
         })
     }
 
-    /// Checks that the control offers the wear register, which no tool has as its length, and the value to simulate with.
-    ///
-    /// # Errors
-    /// `KC0102`, `KC0103`, `KC0301` with the key of the table.
-    pub(crate) fn check_wear(
-        &self,
-        setting: &Setting<'_>,
-        tool: ToolNumber,
-        wear: Option<Wear>,
-    ) -> Result<()> {
-        let Some(wear) = wear else {
-            if self.wear_value.is_some() || self.wear_largest.is_some() {
-                return Err(Finding::error(
-                    Code::JOB_SHAPE,
-                    "a value of the wear register needs the register",
-                )
-                .help("add wear_offset = \"D2\"")
-                .key("wear_value")
-                .into());
-            }
-            return Ok(());
-        };
-        let value = self.wear_value.unwrap_or(0.0);
-        if !(value.abs() <= wear.largest) {
-            return Err(Finding::error(Code::JOB_VALUE, "the wear exceeds what the pass is planned for")
-                .value_mm(value)
-                .bound_mm(wear.largest)
-                .help("raise `wear_largest`, or finish with another cutter")
-                .key("wear_value")
-                .into());
-        }
-        let control = setting.post.control;
-        if !control.has_compensation() {
-            return Err(Finding::error(
-                Code::POST_CONTROL,
-                format!("{} has no cutter compensation", control.title()),
-            )
-            .help("leave out `wear_offset`")
-            .key("wear_offset")
-            .into());
-        }
-        if wear.register == control.length_register(tool) {
-            return Err(Finding::error(
-                Code::JOB_VALUE,
-                format!(
-                    "the register D{} is that of {tool} itself and may hold its whole radius",
-                    wear.register
-                ),
-            )
-            .help(format!(
-                "use a register of its own that holds the wear only: D{}",
-                control.wear_register(tool)
-            ))
-            .key("wear_offset")
-            .into());
-        }
-        Ok(())
+    /// The keys of its wear register.
+    pub(crate) fn wear_keys(&self) -> WearKeys<'_> {
+        WearKeys { register: self.wear_offset.as_deref(), largest: self.wear_largest, value: self.wear_value }
     }
 }
 
@@ -220,6 +156,3 @@ impl ContactName {
 
 /// Largest wear that a register may get when the job says nothing [mm].
 const USUAL_WEAR: f64 = 0.1;
-
-/// Largest register that a control has.
-const MOST_REGISTER: u32 = 999;

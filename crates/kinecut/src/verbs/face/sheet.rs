@@ -9,7 +9,8 @@ use crate::facing::{
 use crate::job::file::{BoxTable, SetupTable, StockTable};
 use crate::job::{Job, check};
 use crate::nc;
-use crate::operations::face::{OutlineEntry, PlannedFace, options};
+use crate::operations::face::{PlannedFace, options};
+use crate::operations::outlines::OutlineEntry;
 use crate::operations::{OperationPlan, OperationTable};
 use crate::verbs::hole::{HoleTable, job_file, own_key};
 use crate::verbs::{safe_height, unknown_stock};

@@ -1,0 +1,89 @@
+//! Corners of the wall that the cutter does not reach: it leaves a fillet of its own radius.
+
+use glam::DVec2;
+
+use super::track::Track;
+use crate::geom::{NearestEdge, OutlineEdge, OutlineLoop};
+use crate::num::angle::wrap;
+
+/// A corner that stays.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct UncutCorner {
+    /// Centre of the cutter where it is deepest in the corner [mm].
+    pub at: DVec2,
+    /// Directions from there to where the fillet begins and ends on the wall.
+    pub between: [DVec2; 2],
+    /// Stock that stays, at its thickest [mm].
+    pub thickness: f64,
+}
+
+/// Least thickness that counts [mm].
+const LEAST: f64 = 1e-3;
+/// Least turn of a path that is a corner of it [rad].
+const TURN: f64 = 1e-6;
+
+/// Corners of a track that keeps the wall on its right or left; `wall`: distance of the wall [mm].
+pub(super) fn uncut(
+    track: &Track,
+    keeps_right: bool,
+    (edges, loops): (&[OutlineEdge], &[OutlineLoop]),
+    near: &NearestEdge,
+    wall: f64,
+) -> Vec<UncutCorner> {
+    let own = track.edges();
+    let side = if keeps_right { 1.0 } else { -1.0 };
+    let mut found = Vec::new();
+    for i in 0..own.len() {
+        let (edge, next) = (&own[i], &own[(i + 1) % own.len()]);
+        // Towards the wall the path of a convex part never turns sharply; away from it, it does in each inside corner.
+        let turn = side * wrap(next.heading(0.0) - edge.heading(1.0));
+        if turn < TURN {
+            continue;
+        }
+        let at = edge.end;
+        let to_wall = |heading: f64| -side * DVec2::from_angle(heading).perp();
+        let between = [to_wall(edge.heading(1.0)), to_wall(next.heading(0.0))];
+        let thickness = thickest(at, between, wall, (edges, loops), near);
+        if thickness > LEAST {
+            found.push(UncutCorner { at, between, thickness });
+        }
+    }
+    found
+}
+
+/// Greatest distance of the wall's corner beyond the cutter [mm].
+fn thickest(
+    at: DVec2,
+    between: [DVec2; 2],
+    wall: f64,
+    (edges, loops): (&[OutlineEdge], &[OutlineLoop]),
+    near: &NearestEdge,
+) -> f64 {
+    let foot = |towards: DVec2| near.at(at + wall * towards, 0.1 * wall + 1e-3).map(|n| n.edge);
+    let (Some(first), Some(last)) = (foot(between[0]), foot(between[1])) else { return f64::INFINITY };
+    let Some(one) = loops.iter().find(|l| l.edges.contains(&first) && l.edges.contains(&last)) else {
+        // Walls of two loops come too close: nothing is known of what is between.
+        return f64::INFINITY;
+    };
+    let step = |i: usize, on: bool| match on {
+        true if i + 1 == one.edges.end => one.edges.start,
+        true => i + 1,
+        false if i == one.edges.start => one.edges.end - 1,
+        false => i - 1,
+    };
+    // The shorter way along the loop from one foot to the other.
+    let ways = [true, false].map(|on| {
+        let (mut i, mut most, mut gone) = (first, 0.0_f64, 0.0);
+        while i != last {
+            let corner = if on { edges[i].end } else { edges[i].start };
+            most = most
+                .max(corner.distance(at))
+                .max(edges[step(i, on)].at(0.5).distance(at) * f64::from(u8::from(step(i, on) != last)));
+            i = step(i, on);
+            gone += edges[i].length();
+        }
+        (gone, most)
+    });
+    let shorter = if ways[0].0 <= ways[1].0 { ways[0].1 } else { ways[1].1 };
+    shorter - wall
+}

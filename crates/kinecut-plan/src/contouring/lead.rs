@@ -1,0 +1,78 @@
+//! The ways on and off the path: a straight line and an arc that is tangent to it, where there is room.
+
+use glam::DVec2;
+
+use crate::geom::OutlineEdge;
+
+/// A lead, by its shape before it is placed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Lead {
+    /// Radius of the arc [mm].
+    pub(super) radius: f64,
+    /// Angle of the arc [rad]: a quarter turn where there is room to the side.
+    pub(super) angle: f64,
+    /// Length of the line [mm].
+    pub(super) line: f64,
+}
+
+impl Lead {
+    /// A lead that comes from no farther aside than `room` [mm].
+    pub(super) fn within(radius: f64, line: f64, room: f64) -> Lead {
+        // The line at an angle, and the arc: line sin + radius (1 - cos) = room.
+        let (reach, back) = (line.hypot(radius), radius.atan2(line));
+        let angle = back + ((room - radius) / reach).clamp(-1.0, 1.0).asin();
+        Lead { radius, angle: angle.min(std::f64::consts::FRAC_PI_2), line }
+    }
+
+    /// The way on to a path at a point with its direction of travel, from its left side or its right: line, then arc.
+    pub(super) fn on(&self, at: DVec2, along: DVec2, from_left: bool) -> Vec<OutlineEdge> {
+        let off: Vec<OutlineEdge> = self.off(at, -along, !from_left);
+        off.iter().rev().map(OutlineEdge::reversed).collect()
+    }
+
+    /// The way off it: arc, then line.
+    pub(super) fn off(&self, at: DVec2, along: DVec2, to_left: bool) -> Vec<OutlineEdge> {
+        let side = if to_left { 1.0 } else { -1.0 };
+        let aside = side * along.perp();
+        let centre = at + self.radius * aside;
+        let from = (-aside).to_angle();
+        let arc = OutlineEdge::arc(centre, self.radius, from, side * self.angle);
+        let arc = OutlineEdge { start: at, ..arc };
+        let ahead = DVec2::from_angle(arc.heading(1.0));
+        let mut edges = vec![arc];
+        if self.line > 0.0 {
+            edges.push(OutlineEdge::line(arc.end, arc.end + self.line * ahead));
+        }
+        edges
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use glam::dvec2;
+
+    use super::*;
+
+    #[test]
+    fn leads_are_tangent_and_stay_within_their_room() {
+        for (room, line) in [(0.2, 0.3), (0.3, 0.0), (4.0, 1.0), (9.0, 1.0)] {
+            let lead = Lead::within(3.0, line, room);
+            for left in [true, false] {
+                let on = lead.on(dvec2(5.0, 2.0), DVec2::X, left);
+                let off = lead.off(dvec2(5.0, 2.0), DVec2::X, left);
+                let side = |p: DVec2| if left { p.y - 2.0 } else { 2.0 - p.y };
+                for (ends, free) in [(&on, on[0].start), (&off, off[off.len() - 1].end)] {
+                    let most = if room < 4.0 { room } else { 3.0 + line };
+                    assert!((side(free) - most).abs() < 1e-9, "{room} {line} {left} {}", side(free));
+                    assert!(ends.windows(2).all(|w| {
+                        w[0].end.distance(w[1].start) < 1e-12
+                            && crate::num::angle::wrap(w[1].heading(0.0) - w[0].heading(1.0)).abs() < 1e-9
+                    }));
+                }
+                let last = on[on.len() - 1];
+                assert!(last.end.distance(dvec2(5.0, 2.0)) < 1e-12 && last.heading(1.0).sin().abs() < 1e-9);
+                assert!(last.heading(1.0).cos() > 0.0 && off[0].heading(0.0).cos() > 1.0 - 1e-9);
+            }
+        }
+    }
+}

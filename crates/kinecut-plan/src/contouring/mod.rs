@@ -1,0 +1,25 @@
+//! Planner of contours: the cutter runs along the edges of a face, outside, inside or on them.
+//!
+//! The path of its centre is the exact offset of the outline ([`crate::geom::offset`]); it comes down along a ramp or
+//! straight, level after level, leaves tabs where the part is to be held, finishes what roughing has left, and joins and
+//! leaves the path on tangent arcs for which room is looked for.
+//!
+//! # Signs
+//! *Climb* with a clockwise spindle: the material that is kept lies on the right of the travel, so that the path runs
+//! clockwise around a part and counter-clockwise inside one. Feeds are those of the cutter's centre; where the feed at the
+//! wall is meant, that at each arc is `F (R - a) / R` inside and `F (R + a) / R` outside of a wall of radius `R`.
+
+mod corners;
+mod feed;
+mod lead;
+mod plan;
+mod spec;
+mod tabs;
+mod track;
+mod travel;
+
+pub use corners::UncutCorner;
+pub use feed::centre_feed;
+pub use plan::{ContourPlan, PlannedLoop, plan_contour};
+pub use spec::{ContourFinish, ContourLoops, ContourSide, ContourSpec, TabShape, Tabs};
+pub use tabs::PlacedTab;

@@ -1,0 +1,594 @@
+//! The plan of a contour: tracks, levels, leads, tabs, and the moves along them.
+
+use std::f64::consts::FRAC_PI_2;
+
+use glam::DVec2;
+
+use super::corners::{UncutCorner, uncut};
+use super::lead::Lead;
+use super::spec::{ContourFinish, ContourLoops, ContourSide, ContourSpec};
+use super::tabs::{PlacedTab, placed};
+use super::track::Track;
+use super::travel::{Stretch, Travel};
+use crate::base::{Code, Finding, Result};
+use crate::geom::{NearestEdge, OffsetLoop, OutlineEdge, offset};
+use crate::holes::levels::levels;
+use crate::holes::{PlannedMove, ToolpathPace, ToolpathRole};
+
+/// Height over the material at which a ramp begins [mm].
+const RAMP_ABOVE: f64 = 0.5;
+/// Steepest ramp [rad].
+const STEEPEST: f64 = std::f64::consts::FRAC_PI_4;
+/// Room of a lead beyond the wall that is rounding [mm].
+const ROUNDING: f64 = 1e-6;
+/// Least radius of a lead, in radii of the cutter.
+const LEAST_LEAD: f64 = 0.2;
+
+/// A planned contour.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ContourPlan {
+    /// Moves of the cutter's tip centre, in coordinates of the work offset.
+    pub moves: Vec<PlannedMove>,
+    /// The loops in the order of cutting, roughing first.
+    pub loops: Vec<PlannedLoop>,
+    /// Heights of the levels of roughing, the lowest last [mm].
+    pub levels: Vec<f64>,
+    /// Corners that the cutter does not reach.
+    pub uncut: Vec<UncutCorner>,
+    /// Advice and warnings.
+    pub findings: Vec<Finding>,
+}
+
+/// A loop of the path.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PlannedLoop {
+    /// Path of the cutter's centre, from its start.
+    pub edges: Vec<OutlineEdge>,
+    /// Whether it encloses the face, or a hole of it.
+    pub outer: bool,
+    /// Whether it belongs to finishing.
+    pub finishing: bool,
+    /// Tabs on it.
+    pub tabs: Vec<PlacedTab>,
+}
+
+impl PlannedLoop {
+    /// Length [mm].
+    pub fn length(&self) -> f64 {
+        self.edges.iter().map(OutlineEdge::length).sum()
+    }
+}
+
+/// Plans a contour.
+///
+/// # Errors
+/// `KC0401` where the cutter does not fit, `KC0403` where it cannot come down, `KC0404` for numbers out of range, `KC0407`
+/// where no lead finds room; those of offsets. Keys are those of the table of the operation.
+///
+/// ```
+/// # use kinecut_plan as kinecut;
+/// use glam::dvec2;
+/// use kinecut::contouring::{ContourSpec, plan_contour};
+/// use kinecut::geom::Outline;
+/// use kinecut::holes::CutterData;
+/// let corners = [dvec2(0.0, 0.0), dvec2(60.0, 0.0), dvec2(60.0, 40.0), dvec2(0.0, 40.0)];
+/// let cutter = CutterData { diameter: 10.0, centre_cutting: true, max_ramp_angle: None, flute_length: 22.0 };
+/// let spec = ContourSpec::new(Outline::polygon(&corners)?, 6.0, cutter, 10.0);
+/// let plan = plan_contour(&spec)?;
+/// // The outline, and an arc of 5 mm about each corner.
+/// let length = 200.0 + 10.0 * std::f64::consts::PI;
+/// assert!((plan.loops[0].length() - length).abs() < 1e-9);
+/// assert!(plan.moves.windows(2).all(|w| (w[1].curve.start() - w[0].curve.end()).length() < 1e-9));
+/// # Ok::<(), kinecut::base::Error>(())
+/// ```
+pub fn plan_contour(spec: &ContourSpec) -> Result<ContourPlan> {
+    check(spec)?;
+    let a = spec.radius();
+    let wall = match spec.side {
+        ContourSide::On => 0.0,
+        _ => a + spec.stock_to_leave,
+    };
+    let allowance = spec.finish.map_or(0.0, |f| f.allowance);
+    let step = spec.stepdown.unwrap_or(spec.cutter.flute_length);
+    let depth = spec.depth + spec.breakthrough;
+    let floors = levels(spec.top, depth, step, |_| Ok(a))?;
+    let near = NearestEdge::new(spec.outline.edges());
+    let mut planner =
+        Planner { spec, near: &near, travel: Travel::new(spec), findings: Vec::new(), loops: Vec::new() };
+    let rough = planner.tracks(wall + allowance)?;
+    let mut heights = vec![spec.top];
+    heights.extend(floors.iter().map(|l| l.floor));
+    let mut at = None;
+    for (track, outer) in planner.ordered(&rough) {
+        at = Some(planner.rough(track, outer, wall + allowance, &heights)?);
+    }
+    let mut corners = Vec::new();
+    let last = match spec.finish {
+        Some(finish) => {
+            let fine = planner.tracks(wall)?;
+            for (track, outer) in planner.ordered(&fine) {
+                at = Some(planner.finish(track, outer, &rough, wall, &finish)?);
+            }
+            fine
+        }
+        None => rough,
+    };
+    if spec.side != ContourSide::On {
+        let source = (spec.outline.edges(), spec.outline.loops());
+        for (track, _) in &last {
+            corners.extend(uncut(track, spec.keeps_right(), source, &near, wall));
+        }
+    }
+    if at.is_some() {
+        planner.travel.vertically(ToolpathRole::Retract, ToolpathPace::Rapid, spec.retract_z);
+    }
+    let mut findings = planner.findings;
+    findings.extend(remark(&corners, a));
+    Ok(ContourPlan {
+        moves: planner.travel.moves,
+        loops: planner.loops,
+        levels: heights[1..].to_vec(),
+        uncut: corners,
+        findings,
+    })
+}
+
+/// Corners that stay, in a sentence.
+fn remark(corners: &[UncutCorner], a: f64) -> Option<Finding> {
+    let worst = corners.iter().max_by(|x, y| x.thickness.total_cmp(&y.thickness))?;
+    let places = if corners.len() == 1 { "1 place".to_owned() } else { format!("{} places", corners.len()) };
+    let message = format!(
+        "inside corners stay at {places}: a cutter of radius {} leaves up to {:.3} mm",
+        (a * 1e3).round() / 1e3,
+        worst.thickness
+    );
+    let finding = Finding::warning(Code::CORNERS_STAY, message).point([worst.at.x, worst.at.y, 0.0]);
+    Some(finding.help("finish the corners with a smaller cutter, or give them its radius in the drawing"))
+}
+
+fn out_of_range(key: &str, what: &str, value: f64, bound: f64, unit: &str, help: &str) -> crate::base::Error {
+    Finding::error(Code::PLAN_VALUE, what).value(value, unit).bound(bound, unit).help(help).key(key).into()
+}
+
+fn check(spec: &ContourSpec) -> Result<()> {
+    let positive = [
+        ("depth", spec.depth),
+        ("feed", spec.feed),
+        ("plunge_feed", spec.plunge_feed),
+        ("stepdown", spec.stepdown.unwrap_or(1.0)),
+        ("tool", spec.cutter.diameter),
+        ("lead_radius", spec.lead_radius.unwrap_or(1.0)),
+        ("finish.feed", spec.finish.map_or(1.0, |f| f.feed)),
+        ("finish.allowance", spec.finish.map_or(1.0, |f| f.allowance)),
+        ("tabs.width", spec.tabs.as_ref().map_or(1.0, |t| t.width)),
+        ("tabs.height", spec.tabs.as_ref().map_or(1.0, |t| t.height)),
+    ];
+    for (key, value) in positive {
+        if !(value > 0.0 && value.is_finite()) {
+            return Err(out_of_range(
+                key,
+                "the value must be above 0",
+                value,
+                0.0,
+                "",
+                "write a number above 0",
+            ));
+        }
+    }
+    let zero = [
+        ("breakthrough", spec.breakthrough),
+        ("stock_to_leave", spec.stock_to_leave),
+        ("overlap", spec.overlap.unwrap_or(0.0)),
+    ];
+    for (key, value) in zero {
+        if !(value >= 0.0 && value.is_finite()) {
+            return Err(out_of_range(
+                key,
+                "the value must not be below 0",
+                value,
+                0.0,
+                "mm",
+                "write 0 or more",
+            ));
+        }
+    }
+    let flutes = spec.cutter.flute_length;
+    let steps = [("stepdown", spec.stepdown), ("finish.stepdown", spec.finish.and_then(|f| f.stepdown))];
+    for (key, step) in steps {
+        if step.is_some_and(|step| step > flutes + ROUNDING) {
+            let what = "a level is deeper than the flutes are long";
+            return Err(out_of_range(
+                key,
+                what,
+                step.unwrap_or(0.0),
+                flutes,
+                "mm",
+                "take a smaller step, or a longer tool",
+            ));
+        }
+    }
+    if let Some(tabs) = &spec.tabs
+        && tabs.height >= spec.depth
+    {
+        let what = "tabs are as high as the contour is deep";
+        return Err(out_of_range(
+            "tabs.height",
+            what,
+            tabs.height,
+            spec.depth,
+            "mm",
+            "write a smaller height",
+        ));
+    }
+    let Some(ramp) = spec.ramp else {
+        if spec.cutter.centre_cutting {
+            return Ok(());
+        }
+        let finding =
+            Finding::error(Code::ENTRY_IMPOSSIBLE, "the cutter does not cut at its centre and cannot plunge");
+        return Err(finding
+            .help("leave out `entry`, or give a ramp: entry = { ramp = 3 }")
+            .key("entry")
+            .into());
+    };
+    let most = spec.cutter.max_ramp_angle.map_or(STEEPEST, |most| most.min(STEEPEST));
+    if !(ramp > 0.0 && ramp <= most + 1e-9) {
+        let (ramp, most) = (ramp.to_degrees(), most.to_degrees());
+        let what = "the ramp is steeper than the cutter can follow, or none";
+        return Err(out_of_range("entry.ramp", what, ramp, most, "deg", "write a flatter ramp, above 0"));
+    }
+    Ok(())
+}
+
+/// A plan in the making.
+struct Planner<'a> {
+    spec: &'a ContourSpec,
+    near: &'a NearestEdge,
+    travel: Travel<'a>,
+    findings: Vec<Finding>,
+    loops: Vec<PlannedLoop>,
+}
+
+/// A beginning of a loop: the place along it, and the lead.
+struct Beginning {
+    at: f64,
+    lead: Lead,
+}
+
+impl Planner<'_> {
+    /// The tracks at a distance from the outline, as they are travelled, each with whether it is an outer one.
+    fn tracks(&self, distance: f64) -> Result<Vec<(Track, bool)>> {
+        let spec = self.spec;
+        let shrinks = if spec.side == ContourSide::Inside { distance } else { -distance };
+        let made = offset(&spec.outline, shrinks)?;
+        let wanted = |outer: bool| match spec.loops {
+            ContourLoops::All => true,
+            ContourLoops::Outer => outer,
+            ContourLoops::Inner => !outer,
+        };
+        let loops: Vec<&OffsetLoop> =
+            made.loops.iter().filter(|l| l.collapsed || wanted(l.area() > 0.0)).collect();
+        self.covered(&loops, wanted)?;
+        // Material of the face lies on the right of an offset's loops; inside of it, that is not the material kept.
+        let keeps_right = spec.side != ContourSide::Inside;
+        let tracks = loops.iter().map(|l| {
+            let track = Track::new(l.edges.clone());
+            let track = if keeps_right == spec.keeps_right() { track } else { track.reversed() };
+            (track, l.area() > 0.0)
+        });
+        Ok(tracks.collect())
+    }
+
+    /// Every loop of the outline that is to be cut has a path.
+    fn covered(&self, loops: &[&OffsetLoop], wanted: impl Fn(bool) -> bool) -> Result<()> {
+        let outline = &self.spec.outline;
+        let fits = |what: String, at: DVec2, widest: f64| {
+            Err(Finding::error(Code::CUTTER_TOO_LARGE, what)
+                .value_mm(self.spec.cutter.diameter)
+                .bound_mm(widest)
+                .point([at.x, at.y, 0.0])
+                .help("take a smaller cutter, or leave the loop out: loops = \"outer\", or by layer")
+                .key("tool")
+                .into())
+        };
+        if let Some(line) = loops.iter().find(|l| l.collapsed) {
+            let at = line.edges[0].start;
+            let what = format!("the cutter is as wide as the contour at ({:.3}, {:.3})", at.x, at.y);
+            return fits(what, at, self.spec.cutter.diameter);
+        }
+        let mut found = vec![false; outline.loops().len()];
+        for edge in loops.iter().flat_map(|l| &l.edges) {
+            let nearest = self.near.at(edge.at(0.5), f64::INFINITY);
+            let own = nearest.and_then(|n| outline.loops().iter().position(|l| l.edges.contains(&n.edge)));
+            if let Some(own) = own {
+                found[own] = true;
+            }
+        }
+        for (one, found) in outline.loops().iter().zip(found) {
+            // Islands of an inside contour may lie in one another's way, and have one path.
+            let needed = wanted(one.outer) && (one.outer || self.spec.side != ContourSide::Inside);
+            if needed && !found {
+                let edges = &outline.edges()[one.edges.clone()];
+                let size = [DVec2::X, DVec2::Y].map(|axis| {
+                    let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
+                    for [l, h] in edges.iter().map(|e| e.extent(axis)) {
+                        (low, high) = (low.min(l), high.max(h));
+                    }
+                    high - low
+                });
+                let at = edges[0].start;
+                let what = format!("the cutter does not go along the contour at ({:.3}, {:.3})", at.x, at.y);
+                return fits(what, at, size[0].min(size[1]));
+            }
+        }
+        Ok(())
+    }
+
+    /// Tracks in the order of cutting: those of holes first, each time the nearest one.
+    fn ordered<'t>(&self, tracks: &'t [(Track, bool)]) -> Vec<(&'t Track, bool)> {
+        let mut left: Vec<&(Track, bool)> = tracks.iter().collect();
+        let mut at = DVec2::ZERO;
+        let mut order = Vec::with_capacity(left.len());
+        while !left.is_empty() {
+            let inner = left.iter().any(|(_, outer)| !outer);
+            let far = |t: &&(Track, bool)| t.0.at(t.0.nearest(at)).0.distance(at);
+            let next = (0..left.len())
+                .filter(|&i| left[i].1 != inner)
+                .min_by(|&a, &b| far(&left[a]).total_cmp(&far(&left[b])));
+            let Some(next) = next else { break };
+            let (track, outer) = left.remove(next);
+            at = track.at(track.nearest(at)).0;
+            order.push((track, *outer));
+        }
+        order
+    }
+
+    /// Whether the cutter's centre may be at a point with the wall at least so far away [mm].
+    fn is_free(&self, p: DVec2, wall: f64) -> bool {
+        let signed = self.near.at(p, wall).map(|n| n.distance);
+        match (self.spec.side, signed) {
+            (ContourSide::On, _) => true,
+            (ContourSide::Outside, None) => !self.spec.outline.contains(p),
+            (ContourSide::Inside, None) => self.spec.outline.contains(p),
+            (ContourSide::Outside, Some(d)) => d >= wall - ROUNDING,
+            (ContourSide::Inside, Some(d)) => -d >= wall - ROUNDING,
+        }
+    }
+
+    /// The place at which a loop begins, and a lead for which there is room; `free`: whether its free end is usable.
+    fn begin(
+        &self,
+        track: &Track,
+        wall: f64,
+        lead: impl Fn(f64) -> Lead,
+        free: impl Fn(DVec2) -> bool,
+    ) -> Result<Beginning> {
+        let spec = self.spec;
+        let a = spec.radius();
+        let usual = spec.lead_radius.unwrap_or(if a > 2.0 { 0.5 * a } else { 1.0 });
+        let left = spec.keeps_right();
+        let fits = |at: f64, radius: f64| {
+            let lead = lead(radius);
+            let (p, along) = track.at(at);
+            let (on, off) = (lead.on(p, along, left), lead.off(p, along, left));
+            let open = |edges: &[OutlineEdge]| {
+                edges.iter().all(|e| (0..=8).all(|i| self.is_free(e.at(f64::from(i) / 8.0), wall)))
+            };
+            (open(&on) && open(&off) && free(on[0].start)).then_some(Beginning { at, lead })
+        };
+        for place in self.beginnings(track) {
+            let mut radius = usual;
+            loop {
+                if let Some(found) = fits(place, radius) {
+                    return Ok(found);
+                }
+                // A radius that is given is kept.
+                if spec.lead_radius.is_some() || radius <= LEAST_LEAD * a {
+                    break;
+                }
+                radius = (0.5 * radius).max(LEAST_LEAD * a);
+            }
+        }
+        let (p, _) = track.at(0.0);
+        let what = "no lead finds room beside the contour";
+        let key = if spec.lead_radius.is_some() { "lead_radius" } else { "start" };
+        Err(Finding::error(Code::LEAD_ROOM, what)
+            .value_mm(usual)
+            .bound_mm(LEAST_LEAD * a)
+            .point([p.x, p.y, 0.0])
+            .help("give another start, a smaller lead_radius, or take a smaller cutter")
+            .key(key)
+            .into())
+    }
+
+    /// Places at which a loop may begin, the best first: the one asked for, or middles of edges, lines first, the longest
+    /// first.
+    fn beginnings(&self, track: &Track) -> Vec<f64> {
+        if let Some(start) = self.spec.start {
+            return vec![track.nearest(start)];
+        }
+        let left = self.spec.keeps_right();
+        let mut edges: Vec<usize> = (0..track.edges().len()).collect();
+        let rank = |i: usize| {
+            let edge = &track.edges()[i];
+            // Inside arcs last.
+            let kind = match edge.turn {
+                None => 0,
+                Some(t) if (t.sweep > 0.0) == left => 2,
+                Some(_) => 1,
+            };
+            let middle = edge.at(0.5);
+            // Rounded, so that equal edges of a turned drawing stay equal.
+            let coarse = |v: f64| (v * 1e6).round();
+            (kind, -coarse(edge.length()), coarse(middle.y), coarse(middle.x))
+        };
+        edges.sort_by(|&x, &y| {
+            let ((k, l, y0, x0), (m, n, y1, x1)) = (rank(x), rank(y));
+            k.cmp(&m).then(l.total_cmp(&n)).then(y0.total_cmp(&y1)).then(x0.total_cmp(&x1))
+        });
+        edges
+            .into_iter()
+            .map(|i| {
+                let [from, to] = track.stretch(i);
+                0.5 * (from + to)
+            })
+            .collect()
+    }
+
+    fn tabs(&mut self, track: &Track, start: f64, outer: bool) -> Vec<PlacedTab> {
+        let Some(tabs) = &self.spec.tabs else { return Vec::new() };
+        let found = placed(track, tabs, start, self.spec.cutter.diameter);
+        let wanted = if tabs.places.is_empty() { tabs.count as usize } else { tabs.places.len() };
+        if found.len() < wanted {
+            let which = if outer { "outer" } else { "inner" };
+            let message = format!(
+                "tabs: {wanted} wanted, {} fit on the {which} loop (corners, small arcs and leads are in the way)",
+                found.len()
+            );
+            let help = "take fewer or narrower tabs, or give their places: tabs = { places = [[x, y], ..] }";
+            self.findings.push(Finding::warning(Code::TABS, message).help(help).key("tabs"));
+        }
+        found
+    }
+
+    fn keep(&mut self, track: &Track, outer: bool, start: f64, tabs: &[PlacedTab]) {
+        let edges = track.part(start, start + track.length());
+        let finishing = self.travel.finishing;
+        self.loops.push(PlannedLoop { edges, outer, finishing, tabs: tabs.to_vec() });
+    }
+
+    fn overlap(&self) -> f64 {
+        let usual = 0.5 * self.spec.radius();
+        self.spec.overlap.unwrap_or(if usual < 2.0 { usual } else { 2.0 })
+    }
+
+    /// Roughs a loop level by level, `heights` from the top down.
+    fn rough(&mut self, track: &Track, outer: bool, wall: f64, heights: &[f64]) -> Result<DVec2> {
+        let spec = self.spec;
+        let start =
+            self.begin(track, wall, |radius| Lead { radius, angle: FRAC_PI_2, line: 0.0 }, |_| true)?;
+        let tabs = self.tabs(track, start.at, outer);
+        self.travel.finishing = false;
+        self.keep(track, outer, start.at, &tabs);
+        let left = spec.keeps_right();
+        let (p, along) = track.at(start.at);
+        let on = start.lead.on(p, along, left);
+        let role = ToolpathRole::Circle;
+        let feed = spec.feed;
+        let mut s = start.at;
+        for (k, pair) in heights.windows(2).enumerate() {
+            let (above, floor) = (pair[0], pair[1]);
+            self.travel.level = k as u32;
+            let whole = track.length();
+            if let Some(angle) = spec.ramp {
+                let mut from = above;
+                if k == 0 {
+                    from = (above + RAMP_ABOVE).min(spec.approach_z);
+                    self.travel.over(on[0].start);
+                    self.travel.vertically(ToolpathRole::Entry, ToolpathPace::Feed(spec.plunge_feed), from);
+                    self.travel.edges(ToolpathRole::LeadIn, feed, &on)?;
+                }
+                let end = s + (from - floor) / angle.tan();
+                let ramp = Stretch { along: [s, end], heights: [from, floor], feed };
+                self.travel.follow(ToolpathRole::Entry, track, &tabs, ramp)?;
+                let lap = Stretch { along: [end, end + whole], heights: [floor, floor], feed };
+                self.travel.follow(role, track, &tabs, lap)?;
+                s = end + whole;
+            } else {
+                self.travel.over(on[0].start);
+                if above < spec.approach_z {
+                    // What a level above has cut is open; the first one feeds down from over the material.
+                    let open =
+                        if k == 0 { spec.approach_z } else { (above + RAMP_ABOVE).min(spec.approach_z) };
+                    self.travel.vertically(ToolpathRole::Entry, ToolpathPace::Feed(feed), open);
+                }
+                self.travel.vertically(ToolpathRole::Entry, ToolpathPace::Feed(spec.plunge_feed), floor);
+                self.travel.edges(ToolpathRole::LeadIn, feed, &on)?;
+                let end = start.at + whole + self.overlap();
+                let lap = Stretch { along: [start.at, end], heights: [floor, floor], feed };
+                self.travel.follow(role, track, &tabs, lap)?;
+                s = end;
+                if k + 2 < heights.len() {
+                    let (p, along) = track.at(s);
+                    let off = start.lead.off(p, along, left);
+                    self.travel.edges(ToolpathRole::LeadOut, feed, &off)?;
+                }
+            }
+        }
+        // Off the path at its start, for which there is room, a little beyond it.
+        if let Some(floor) = heights.last().filter(|_| spec.ramp.is_some()) {
+            let end = start.at + self.overlap();
+            let end = end + ((s - end) / track.length()).ceil() * track.length();
+            let rest = Stretch { along: [s, end], heights: [*floor, *floor], feed };
+            self.travel.follow(role, track, &tabs, rest)?;
+            s = end;
+        }
+        let (p, along) = track.at(s);
+        let off = start.lead.off(p, along, left);
+        self.travel.edges(ToolpathRole::LeadOut, feed, &off)?;
+        Ok(p)
+    }
+
+    /// Finishes a loop; `rough`: the tracks that roughing has run.
+    fn finish(
+        &mut self,
+        track: &Track,
+        outer: bool,
+        rough: &[(Track, bool)],
+        wall: f64,
+        finish: &ContourFinish,
+    ) -> Result<DVec2> {
+        /// Length of the line of a lead on which the control switches its compensation, in largest wears.
+        const SWITCH: f64 = 1.1;
+        let spec = self.spec;
+        let wear = finish.wear.map_or(0.0, |w| w.largest);
+        let line = if finish.wear.is_some() { SWITCH * wear + 0.1 } else { 0.0 };
+        let open =
+            |p: DVec2| rough.iter().any(|(t, _)| t.at(t.nearest(p)).0.distance(p) <= 0.1 * finish.allowance);
+        let start = self.begin(track, wall, |radius| Lead::within(radius, line, finish.allowance), open)?;
+        if finish.wear.is_some() && start.lead.radius <= wear + 0.01 {
+            let what = "the lead-in is too tight for this wear correction";
+            let help = "allow a smaller wear_largest, or a larger lead_radius";
+            return Err(out_of_range(
+                "finish.wear_largest",
+                what,
+                wear,
+                start.lead.radius - 0.01,
+                "mm",
+                help,
+            ));
+        }
+        self.travel.finishing = true;
+        let tabs = match &spec.tabs {
+            Some(t) if t.finish => self.tabs(track, start.at, outer),
+            _ => Vec::new(),
+        };
+        self.keep(track, outer, start.at, &tabs);
+        let depth = spec.depth + spec.breakthrough;
+        let step = finish.stepdown.unwrap_or(spec.cutter.flute_length);
+        let floors = levels(spec.top, depth, step, |_| Ok(0.0))?;
+        let left = spec.keeps_right();
+        let (p, along) = track.at(start.at);
+        let on = start.lead.on(p, along, left);
+        let laps = f64::from(finish.spring_passes + 1);
+        let mut last = p;
+        for level in &floors {
+            self.travel.level = level.index;
+            self.travel.over(on[0].start);
+            // Roughing has opened the way down.
+            self.travel.vertically(ToolpathRole::Entry, ToolpathPace::Feed(finish.feed), level.floor);
+            self.travel.comp = finish.wear.is_some();
+            self.travel.edges(ToolpathRole::LeadIn, finish.feed, &on)?;
+            let end = start.at + laps * track.length() + self.overlap();
+            let lap = Stretch { along: [start.at, end], heights: [level.floor; 2], feed: finish.feed };
+            self.travel.follow(ToolpathRole::Finish, track, &tabs, lap)?;
+            let (p, along) = track.at(end);
+            let off = start.lead.off(p, along, left);
+            self.travel.edges(ToolpathRole::LeadOut, finish.feed, &off[..1])?;
+            self.travel.comp = false;
+            self.travel.edges(ToolpathRole::LeadOut, finish.feed, &off[1..])?;
+            last = p;
+        }
+        Ok(last)
+    }
+}

@@ -1,0 +1,178 @@
+//! A contour in the planner's words.
+
+use glam::DVec2;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use crate::geom::Outline;
+use crate::holes::{CutterData, FeedAt, Sense, Wear};
+
+/// Side of the outline on which the cutter runs.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum ContourSide {
+    /// Outside: the face stays, its holes are cut from within.
+    #[default]
+    Outside,
+    /// Inside: what is around the face stays, and so do its islands.
+    Inside,
+    /// With the cutter's centre on the outline: an engraving, or a path that was offset elsewhere.
+    On,
+}
+
+/// Loops of the outline that are cut.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum ContourLoops {
+    /// All.
+    #[default]
+    All,
+    /// Those around the face.
+    Outer,
+    /// Those of its holes.
+    Inner,
+}
+
+/// Form of tabs.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum TabShape {
+    /// Upright ends.
+    #[default]
+    Flat,
+    /// Ends that rise at 30 degrees.
+    Ramp,
+}
+
+/// Tabs that hold the part.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Tabs {
+    /// Number for each loop; ignored where places are given.
+    pub count: u32,
+    /// Width of what remains, at its thinnest [mm].
+    pub width: f64,
+    /// Height over the bottom of the cut [mm].
+    pub height: f64,
+    /// Form.
+    pub shape: TabShape,
+    /// Whether finishing leaves them too.
+    pub finish: bool,
+    /// Places near which they are wanted [mm].
+    pub places: Vec<DVec2>,
+}
+
+/// Finishing of a contour.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ContourFinish {
+    /// Stock that roughing leaves for it on the wall [mm].
+    pub allowance: f64,
+    /// Feed [mm/s].
+    pub feed: f64,
+    /// Largest depth of a level [mm]; `None`: the length of the flutes.
+    pub stepdown: Option<f64>,
+    /// Further laps without infeed.
+    pub spring_passes: u32,
+    /// Wear register of the control.
+    pub wear: Option<Wear>,
+}
+
+/// A contour to be milled [mm, mm/s, rad].
+#[derive(Clone, Debug, PartialEq)]
+pub struct ContourSpec {
+    /// The outline, in coordinates of the work offset.
+    pub outline: Outline,
+    /// Side on which the cutter runs.
+    pub side: ContourSide,
+    /// Loops that are cut.
+    pub loops: ContourLoops,
+    /// The cutter.
+    pub cutter: CutterData,
+    /// Whether the spindle turns counter-clockwise: climb and conventional change sides.
+    pub left_hand: bool,
+    /// Climb or conventional.
+    pub sense: Sense,
+    /// Height of the material's upper face.
+    pub top: f64,
+    /// Depth below it.
+    pub depth: f64,
+    /// Depth that the cutter goes below `depth`, for a cut that goes through.
+    pub breakthrough: f64,
+    /// Stock to leave on the wall when all is done.
+    pub stock_to_leave: f64,
+    /// Largest depth of a level; `None`: the length of the flutes.
+    pub stepdown: Option<f64>,
+    /// Feed along the contour.
+    pub feed: f64,
+    /// Place for which the feeds are meant.
+    pub feed_at: FeedAt,
+    /// Feed straight down and along ramps.
+    pub plunge_feed: f64,
+    /// Angle of the ramp along the contour; `None`: straight down.
+    pub ramp: Option<f64>,
+    /// Finishing.
+    pub finish: Option<ContourFinish>,
+    /// Radius of the lead arcs; `None`: half the cutter's radius, 1 mm at least.
+    pub lead_radius: Option<f64>,
+    /// A point near which the contour begins.
+    pub start: Option<DVec2>,
+    /// Way beyond the start that is cut twice; `None`: a quarter of the cutter's diameter, 2 mm at most.
+    pub overlap: Option<f64>,
+    /// Tabs.
+    pub tabs: Option<Tabs>,
+    /// Height of the moves between loops.
+    pub retract_z: f64,
+    /// Height at which rapids down end.
+    pub approach_z: f64,
+}
+
+impl ContourSpec {
+    /// Radius of the cutter [mm].
+    pub fn radius(&self) -> f64 {
+        0.5 * self.cutter.diameter
+    }
+
+    /// Height of the lowest level [mm].
+    pub fn bottom(&self) -> f64 {
+        self.top - self.depth - self.breakthrough
+    }
+
+    /// Height at which tabs end; as low as nothing without tabs [mm].
+    pub(super) fn tab_top(&self) -> f64 {
+        self.tabs.as_ref().map_or(f64::NEG_INFINITY, |t| self.top - self.depth + t.height)
+    }
+
+    /// Whether the material that is kept lies on the right of the travel.
+    pub fn keeps_right(&self) -> bool {
+        (self.sense == Sense::Climb) != self.left_hand
+    }
+}
+
+impl ContourSpec {
+    /// A contour outside of an outline with usual values, at a feed [mm/s]: a ramp of 3 degrees, nothing left, no tabs.
+    pub fn new(outline: Outline, depth: f64, cutter: CutterData, feed: f64) -> ContourSpec {
+        ContourSpec {
+            outline,
+            side: ContourSide::Outside,
+            loops: ContourLoops::All,
+            cutter,
+            left_hand: false,
+            sense: Sense::Climb,
+            top: 0.0,
+            depth,
+            breakthrough: 0.0,
+            stock_to_leave: 0.0,
+            stepdown: None,
+            feed,
+            feed_at: FeedAt::Centre,
+            plunge_feed: 0.5 * feed,
+            ramp: Some(3.0_f64.to_radians()),
+            finish: None,
+            lead_radius: None,
+            start: None,
+            overlap: None,
+            tabs: None,
+            retract_z: 20.0,
+            approach_z: 2.0,
+        }
+    }
+}

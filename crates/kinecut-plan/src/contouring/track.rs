@@ -1,0 +1,122 @@
+//! A closed path of the cutter's centre, measured along its length.
+
+use glam::DVec2;
+
+use crate::geom::{OutlineEdge, Turn};
+
+/// A closed path.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Track {
+    edges: Vec<OutlineEdge>,
+    /// Lengths up to the beginning of each edge, and last that of all [mm].
+    begins: Vec<f64>,
+}
+
+/// Pieces shorter than this are dropped [mm].
+const NOTHING: f64 = 1e-9;
+
+impl Track {
+    pub(super) fn new(edges: Vec<OutlineEdge>) -> Track {
+        let mut begins = vec![0.0];
+        for edge in &edges {
+            begins.push(begins[begins.len() - 1] + edge.length());
+        }
+        Track { edges, begins }
+    }
+
+    /// Travelled the other way.
+    pub(super) fn reversed(&self) -> Track {
+        Track::new(self.edges.iter().rev().map(OutlineEdge::reversed).collect())
+    }
+
+    pub(super) fn edges(&self) -> &[OutlineEdge] {
+        &self.edges
+    }
+
+    /// Length [mm].
+    pub(super) fn length(&self) -> f64 {
+        self.begins[self.edges.len()]
+    }
+
+    /// The stretch of an edge along the length [mm].
+    pub(super) fn stretch(&self, edge: usize) -> [f64; 2] {
+        [self.begins[edge], self.begins[edge + 1]]
+    }
+
+    /// The edge at a place along the length, and the share of it.
+    pub(super) fn locate(&self, s: f64) -> (usize, f64) {
+        let s = s.rem_euclid(self.length());
+        let edge = (self.begins.partition_point(|b| *b <= s) - 1).min(self.edges.len() - 1);
+        let length = self.begins[edge + 1] - self.begins[edge];
+        (edge, ((s - self.begins[edge]) / length).clamp(0.0, 1.0))
+    }
+
+    /// The point at a place along the length, and the direction of travel.
+    pub(super) fn at(&self, s: f64) -> (DVec2, DVec2) {
+        let (edge, share) = self.locate(s);
+        let e = &self.edges[edge];
+        (e.at(share), DVec2::from_angle(e.heading(share)))
+    }
+
+    /// The place that is nearest to a point, along the length.
+    pub(super) fn nearest(&self, p: DVec2) -> f64 {
+        let place = |i: usize| {
+            let (share, distance) = self.edges[i].nearest(p);
+            (self.begins[i] + share * (self.begins[i + 1] - self.begins[i]), distance)
+        };
+        let best = (0..self.edges.len()).map(place).min_by(|a, b| a.1.total_cmp(&b.1));
+        best.map_or(0.0, |(s, _)| s)
+    }
+
+    /// The edges between two places along the length, the second beyond the first; both may lie beyond the end.
+    pub(super) fn part(&self, from: f64, to: f64) -> Vec<OutlineEdge> {
+        let (mut parts, whole) = (Vec::new(), self.length());
+        let mut turn = (from / whole).floor();
+        let (mut edge, _) = self.locate(from);
+        loop {
+            let base = turn * whole;
+            let (a, b) = (base + self.begins[edge], base + self.begins[edge + 1]);
+            let share = |s: f64| ((s - a) / (b - a)).clamp(0.0, 1.0);
+            let (low, high) = (share(from), share(to));
+            if (high - low) * (b - a) > NOTHING {
+                parts.push(piece(&self.edges[edge], low, high));
+            }
+            if b >= to {
+                return parts;
+            }
+            edge += 1;
+            if edge == self.edges.len() {
+                (edge, turn) = (0, turn + 1.0);
+            }
+        }
+    }
+}
+
+/// A part of an edge, by shares of its length.
+fn piece(edge: &OutlineEdge, from: f64, to: f64) -> OutlineEdge {
+    let turn = edge.turn.map(|t| Turn { from: t.from + from * t.sweep, sweep: (to - from) * t.sweep, ..t });
+    OutlineEdge { start: edge.at(from), end: edge.at(to), turn, label: edge.label }
+}
+
+#[cfg(test)]
+mod tests {
+    use glam::dvec2;
+
+    use super::*;
+    use crate::geom::Outline;
+
+    #[test]
+    fn parts_run_over_the_end_and_join() {
+        let square = [dvec2(0.0, 0.0), dvec2(0.0, 10.0), dvec2(10.0, 10.0), dvec2(10.0, 0.0)];
+        let track = Track::new(Outline::polygon(&square).expect("a square").edges().to_vec());
+        assert!((track.length() - 40.0).abs() < 1e-12);
+        for (from, to) in [(3.0, 7.0), (35.0, 48.0), (0.0, 40.0), (39.0, 81.0), (-5.0, 5.0), (10.0, 10.5)] {
+            let parts = track.part(from, to);
+            let length: f64 = parts.iter().map(OutlineEdge::length).sum();
+            assert!((length - (to - from)).abs() < 1e-9, "{from} {to} {length}");
+            assert!(parts.windows(2).all(|w| w[0].end.distance(w[1].start) < 1e-12));
+            assert!(parts[0].start.distance(track.at(from).0) < 1e-12);
+        }
+        assert!((track.nearest(dvec2(-3.0, 4.0)) - 4.0).abs() < 1e-12);
+    }
+}

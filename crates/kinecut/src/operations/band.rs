@@ -1,0 +1,183 @@
+//! The strip along a contour that a cutter takes away, with the wall at one side of it: what an operation along a contour wants.
+
+use glam::DVec2;
+
+use crate::geom::{NearestEdge, Outline};
+
+/// A strip along an outline, in coordinates of the work offset [mm].
+#[derive(Clone, Debug)]
+pub(crate) struct Band {
+    outline: Outline,
+    near: NearestEdge,
+    /// Whether the face stays, or what is around it.
+    keeps_face: bool,
+    /// Stock left on the wall.
+    leave: f64,
+    /// Width of the strip.
+    width: f64,
+    /// The middle of the outline.
+    pub(crate) middle: DVec2,
+    /// Distance from the middle that the strip stays within.
+    pub(crate) reach: f64,
+    /// Corners that the cutter does not reach.
+    pub(crate) corners: Vec<Fillet>,
+    /// Tabs.
+    pub(crate) tabs: Vec<TabPlace>,
+}
+
+/// A fillet that a cutter leaves in a corner.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Fillet {
+    /// Its centre.
+    pub(crate) centre: DVec2,
+    /// Its radius.
+    pub(crate) radius: f64,
+    /// Directions from the centre to its ends.
+    pub(crate) between: [DVec2; 2],
+}
+
+/// A place at which a tab stays.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct TabPlace {
+    /// Its middle.
+    pub(crate) at: DVec2,
+    /// Distance from it within which it may reach.
+    pub(crate) radius: f64,
+    /// Height of its upper side.
+    pub(crate) top: f64,
+}
+
+/// Distance beyond a fillet that still belongs to it [mm].
+const FILLET: f64 = 1e-3;
+
+impl Fillet {
+    /// Distance of a point on the corner's side from the fillet, positive on the side of its centre.
+    fn inside(&self, p: DVec2) -> Option<f64> {
+        let off = p - self.centre;
+        let [from, to] = self.between;
+        let turn = from.perp_dot(to);
+        let within =
+            from.perp_dot(off) * turn >= 0.0 && off.perp_dot(to) * turn >= 0.0 && off.dot(from + to) > 0.0;
+        within.then(|| self.radius - off.length())
+    }
+}
+
+impl Band {
+    pub(crate) fn new(outline: &Outline, keeps_face: bool, leave: f64, width: f64) -> Band {
+        let near = NearestEdge::new(outline.edges());
+        let [min, max] = outline.bounds();
+        Band {
+            outline: outline.clone(),
+            near,
+            keeps_face,
+            leave,
+            width,
+            middle: 0.5 * (min + max),
+            reach: 0.5 * min.distance(max) + width + leave,
+            corners: Vec::new(),
+            tabs: Vec::new(),
+        }
+    }
+
+    /// Distance of a point from the wall, positive where it is cut; `None` far away.
+    fn from_wall(&self, p: DVec2) -> Option<f64> {
+        let nearest = self.near.at(p, self.width + self.leave)?;
+        let away = if self.keeps_face { nearest.distance } else { -nearest.distance };
+        Some(away - self.leave)
+    }
+
+    /// Distance from the border of the strip, positive inside.
+    pub(crate) fn inside(&self, p: DVec2) -> f64 {
+        match self.from_wall(p) {
+            None => -self.width,
+            Some(d) if 2.0 * d > self.width => self.width - d,
+            Some(d) => d,
+        }
+    }
+
+    /// The same on the half beside the wall, which alone is compared, from the fillets in its corners where the cutter leaves
+    /// them; not a number elsewhere, beyond fillets, and at tabs.
+    pub(crate) fn compared(&self, p: DVec2, z: f64) -> f64 {
+        let d = self.from_wall(p).unwrap_or(f64::NAN);
+        let at_tab = |t: &TabPlace| z < t.top && p.distance(t.at) < t.radius;
+        let is_free = 2.0 * d > self.width;
+        if is_free || self.tabs.iter().any(at_tab) {
+            return f64::NAN;
+        }
+        let fillet =
+            self.corners.iter().filter_map(|f| f.inside(p)).filter(|_| d > 0.0).min_by(f64::total_cmp);
+        match fillet {
+            // Beyond the fillet stock stays, and what else cuts there is no matter of this wall.
+            Some(inside) if inside < -FILLET => f64::NAN,
+            Some(inside) => inside,
+            None => d,
+        }
+    }
+
+    /// Whether a face with a normal looks away from the material that stays.
+    pub(crate) fn faces_cut(&self, p: DVec2, normal: DVec2) -> bool {
+        self.near.at(p, self.width + self.leave).is_some_and(|nearest| {
+            let edge = &self.outline.edges()[nearest.edge];
+            let out = DVec2::from_angle(edge.outward(nearest.share));
+            (normal.dot(out) > 0.0) == self.keeps_face
+        })
+    }
+
+    /// The point of the wall at a share of its length.
+    pub(crate) fn point(&self, share: f64) -> DVec2 {
+        let edges = self.outline.edges();
+        let mut left = share.rem_euclid(1.0) * self.outline.perimeter();
+        for edge in edges {
+            if left <= edge.length() {
+                return edge.at(left / edge.length());
+            }
+            left -= edge.length();
+        }
+        edges[0].start
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use glam::dvec2;
+
+    use super::*;
+
+    fn square() -> Outline {
+        Outline::polygon(&[dvec2(0.0, 0.0), dvec2(40.0, 0.0), dvec2(40.0, 40.0), dvec2(0.0, 40.0)]).unwrap()
+    }
+
+    #[test]
+    fn a_strip_lies_on_one_side_of_the_wall() {
+        for (keeps, sign) in [(true, 1.0), (false, -1.0)] {
+            let band = Band::new(&square(), keeps, 0.0, 10.0);
+            for (aside, inside) in [(0.5, 0.5), (-0.5, -0.5), (4.0, 4.0), (7.0, 3.0), (11.0, -1.0)] {
+                let p = dvec2(20.0, -sign * aside);
+                assert!(
+                    (band.inside(p) - inside).abs() < 1e-12 || aside > 10.0 && band.inside(p) < 0.0,
+                    "{aside}"
+                );
+            }
+            assert!(band.compared(dvec2(20.0, -sign * 0.5), 0.0) > 0.0);
+            assert!(band.compared(dvec2(20.0, -sign * 6.0), 0.0).is_nan());
+            assert!(band.faces_cut(dvec2(20.0, 0.1), dvec2(0.0, -sign)));
+        }
+    }
+
+    #[test]
+    fn corners_and_tabs_are_not_compared() {
+        let mut band = Band::new(&square(), false, 0.0, 10.0);
+        let corner = dvec2(0.5, 0.5);
+        assert!(band.compared(corner, 0.0) > 0.4);
+        let between = [dvec2(-1.0, 0.0), dvec2(0.0, -1.0)];
+        band.corners.push(Fillet { centre: dvec2(5.0, 5.0), radius: 5.0, between });
+        assert!(band.compared(corner, 0.0).is_nan());
+        assert!((band.compared(dvec2(2.0, 2.0), 0.0) - (5.0 - 18.0_f64.sqrt())).abs() < 1e-12);
+        // Beside the fillet all counts, and what is cut too deep counts everywhere.
+        assert!(band.compared(dvec2(6.0, 0.01), 0.0) > 0.0 && band.compared(dvec2(-0.2, 0.5), 0.0) < 0.0);
+        band.tabs.push(TabPlace { at: dvec2(20.0, 5.0), radius: 8.0, top: -3.0 });
+        assert!(
+            band.compared(dvec2(20.0, 0.1), -4.0).is_nan() && band.compared(dvec2(20.0, 0.1), -2.0) > 0.0
+        );
+    }
+}

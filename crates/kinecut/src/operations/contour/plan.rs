@@ -1,0 +1,236 @@
+//! A planned contour: its table in the planner's words, its moves, its wall.
+
+use std::sync::Arc;
+
+use glam::DVec2;
+
+use super::ContourOperation;
+use super::json::ContourJson;
+use super::section::section;
+use crate::base::{Code, Finding, Result};
+use crate::contouring::{ContourFinish, ContourPlan, ContourSide, ContourSpec, plan_contour};
+use crate::geom::Aabb;
+use crate::holes::CutterData;
+use crate::operations::band::{Band, Fillet, TabPlace};
+use crate::operations::kind::{self, Attempt, Checked as _};
+use crate::operations::wall::{CLEARANCE, WearKeys, write_moves};
+use crate::operations::wanted::{Wall, WantedWall};
+use crate::operations::{Found, Judged, Pen, PostedPlan, Setting, Shown, WearRegister};
+use crate::page::Section;
+use crate::program::Comp;
+
+/// Largest wear of a register where the job does not say [mm].
+const USUAL_WEAR: f64 = 0.05;
+
+/// A planned contour.
+#[derive(Clone, Debug)]
+pub struct PlannedContour {
+    /// The operation.
+    pub of: Arc<ContourOperation>,
+    /// Its contour in the planner's words.
+    pub spec: ContourSpec,
+    /// The plan.
+    pub plan: ContourPlan,
+    /// The wear register of the finish.
+    wear: Option<WearRegister>,
+}
+
+/// Plans a contour.
+pub(super) fn planned(of: &Arc<ContourOperation>, setting: &Setting<'_>) -> Result<Attempt<PlannedContour>> {
+    let spec = spec(setting, of)?;
+    let plan = plan_contour(&spec)?;
+    let value = of.table.finish.as_ref().and_then(|f| f.wear_value).unwrap_or(0.0);
+    let wear = spec.finish.and_then(|f| f.wear).map(|w| WearRegister { number: w.register, value });
+    let mut findings = plan.findings.clone();
+    findings.extend(loose(of, setting, &spec));
+    Ok(Attempt::SetupPlan(PlannedContour { of: Arc::clone(of), spec, plan, wear }, findings))
+}
+
+/// The operation in the planner's words.
+fn spec(setting: &Setting<'_>, of: &ContourOperation) -> Result<ContourSpec> {
+    let t = &of.table;
+    let keys = t.finish.as_ref().map(|f| WearKeys {
+        register: f.wear_offset.as_deref(),
+        largest: f.wear_largest,
+        value: f.wear_value,
+    });
+    let wear = keys.map(|keys| keys.wear(USUAL_WEAR)).transpose().map_err(|e| e.under("finish"))?.flatten();
+    if let Some(keys) = keys {
+        keys.check(setting, of.milling.tool.number, wear).map_err(|e| e.under("finish"))?;
+    }
+    let safe = setting.clamping.safe_height;
+    Ok(ContourSpec {
+        side: t.side,
+        loops: t.loops,
+        left_hand: of.left_hand(),
+        sense: t.direction,
+        top: t.top,
+        breakthrough: t.breakthrough,
+        stock_to_leave: t.stock_to_leave,
+        stepdown: t.stepdown,
+        feed_at: t.feed_at,
+        plunge_feed: of.plunge_feed,
+        ramp: of.ramp,
+        finish: t.finish.as_ref().map(|f| ContourFinish {
+            allowance: f.allowance,
+            feed: of.finish_feed,
+            stepdown: f.stepdown,
+            spring_passes: f.spring_passes,
+            wear,
+        }),
+        lead_radius: t.lead_radius,
+        start: t.start.map(DVec2::from_array),
+        overlap: t.overlap,
+        tabs: of.tabs.clone(),
+        retract_z: safe,
+        approach_z: (t.top + CLEARANCE).clamp(f64::NEG_INFINITY, safe),
+        ..ContourSpec::new(of.outline.clone(), t.depth, CutterData::of(&of.milling.tool), of.feed)
+    })
+}
+
+/// A warning where a part, or what is cut out of one, comes loose with the tool beside it.
+fn loose(of: &ContourOperation, setting: &Setting<'_>, spec: &ContourSpec) -> Option<Finding> {
+    if spec.tabs.is_some() || spec.side == ContourSide::On {
+        return None;
+    }
+    let to_work = setting.clamping.to_operation(&of.milling);
+    let Aabb { min, max } = setting.stock.bounds();
+    let corners = super::super::setting::corners(&Aabb { min, max }, &to_work);
+    let low = corners.iter().fold(f64::INFINITY, |low, c| if c.z < low { c.z } else { low });
+    let is_through = spec.bottom() <= low + 1e-6;
+    // Inside of the stock all round: what is beside the contour cannot be chips.
+    let a = spec.cutter.diameter;
+    let [from, to] = of.outline.bounds();
+    let wide = corners
+        .iter()
+        .fold([DVec2::INFINITY, DVec2::NEG_INFINITY], |[l, h], c| [l.min(c.truncate()), h.max(c.truncate())]);
+    let around = (from - wide[0]).min_element() > a && (wide[1] - to).min_element() > a;
+    let inside = spec.side == ContourSide::Inside || of.outline.loops().iter().any(|l| !l.outer);
+    (is_through && (around || inside)).then(|| {
+        Finding::warning(Code::SLUG, format!("{}: what it cuts out comes loose", of.name()))
+            .help("leave tabs, for example tabs = { width = 4, height = 1 }, or hold it from below")
+    })
+}
+
+impl kind::Plan for PlannedContour {
+    type Json = ContourJson;
+
+    const LIST: &'static str = "contours";
+
+    fn wear(&self) -> Option<WearRegister> {
+        self.wear
+    }
+
+    fn write(&mut self, pen: &mut Pen<'_>) -> Result<()> {
+        let milling = &self.of.milling;
+        if let Some(wear) = self.wear {
+            pen.text(pen.setting.post.control.wear_note(milling.tool.number, wear.number));
+            pen.text("0 AS PLANNED, POSITIVE LEAVES STOCK ON THE WALL");
+        }
+        let comp = self.wear.map(|w| match self.spec.keeps_right() {
+            true => Comp::Left(w.number),
+            false => Comp::Right(w.number),
+        });
+        write_moves(pen, &self.plan.moves, milling.coolant, comp);
+        Ok(())
+    }
+
+    fn breakthrough(&self) -> f64 {
+        self.of.table.breakthrough
+    }
+
+    fn walls(&self) -> Vec<WantedWall> {
+        let (spec, t) = (&self.spec, &self.of.table);
+        if spec.side == ContourSide::On {
+            return Vec::new();
+        }
+        let outline = self.cut_outline();
+        // A wear register moves the wall: positive values leave stock.
+        let leave = spec.stock_to_leave + self.wear.map_or(0.0, |w| w.value);
+        let mut band = Band::new(&outline, spec.side == ContourSide::Outside, leave, spec.cutter.diameter);
+        let radius = spec.radius() + spec.stock_to_leave;
+        band.corners =
+            self.plan.uncut.iter().map(|c| Fillet { centre: c.at, radius, between: c.between }).collect();
+        band.tabs = self.tabs();
+        let through = t.breakthrough > 0.0;
+        let bottom = spec.top - spec.depth + if through { 0.0 } else { self.of.corner() };
+        let wall = WantedWall {
+            centre: band.middle,
+            top: spec.top,
+            floor: (!through).then_some(bottom),
+            bottom,
+            slug: 0.0,
+            wall: Wall::Band(Arc::new(band)),
+        };
+        vec![wall]
+    }
+
+    fn judge(&mut self, name: &str, _posted: &PostedPlan<'_>, _found: &Found<'_>) -> Judged {
+        let unchecked = self.not_looked_at().map(|what| format!("{name}: {what}"));
+        Judged { unchecked, ..Judged::default() }
+    }
+
+    fn sections(all: &[(&PlannedContour, &Shown<'_>)]) -> Vec<Section> {
+        all.iter().map(|(plan, shown)| section(plan, shown)).collect()
+    }
+
+    fn json(&self, shown: &Shown<'_>) -> Option<ContourJson> {
+        Some(ContourJson::new(self, shown.number))
+    }
+}
+
+impl PlannedContour {
+    /// The loops of the outline that are cut, as an outline.
+    fn cut_outline(&self) -> crate::geom::Outline {
+        use crate::contouring::ContourLoops;
+        let outline = &self.of.outline;
+        let wanted = |outer: bool| match self.spec.loops {
+            ContourLoops::All => true,
+            ContourLoops::Outer => outer,
+            ContourLoops::Inner => !outer,
+        };
+        outline.with_loops(|l| wanted(l.outer))
+    }
+
+    /// Parts of the wall that are not compared, in words.
+    pub(super) fn not_looked_at(&self) -> Option<String> {
+        let corners = self.plan.uncut.len();
+        let tabs = self.tabs();
+        let mut parts = Vec::new();
+        if corners > 0 {
+            let corners = if corners == 1 { "1 corner".to_owned() } else { format!("{corners} corners") };
+            parts.push(format!("{corners} beyond the cutter's fillet"));
+        }
+        if let Some(tab) = tabs.first() {
+            // Roughing and finishing have their tabs at one place.
+            let count = self.plan.loops.iter().filter(|l| !l.finishing).map(|l| l.tabs.len()).sum::<usize>();
+            let count = if count == 1 { "1 tab".to_owned() } else { format!("{count} tabs") };
+            let width = crate::page::trimmed(2.0 * tab.radius, 1);
+            let top = crate::page::trimmed(tab.top, 2);
+            parts.push(format!("the wall at {count}, {width} mm below Z {top}"));
+        }
+        (!parts.is_empty()).then(|| parts.join("; "))
+    }
+
+    /// The places of all tabs, and how far they may reach.
+    fn tabs(&self) -> Vec<TabPlace> {
+        let Some(tabs) = &self.spec.tabs else { return Vec::new() };
+        let top = self.spec.top - self.spec.depth + tabs.height;
+        let loops = self.plan.loops.iter().flat_map(|l| &l.tabs);
+        // The cutter is lifted on this length, comes down beyond it, and cuts its radius farther.
+        loops
+            .map(|tab| {
+                let slope = if self.spec.cutter.centre_cutting {
+                    0.0
+                } else {
+                    tabs.height / self.spec.ramp.map_or(1.0, f64::tan)
+                };
+                TabPlace {
+                    at: tab.at,
+                    radius: 0.5 * tab.lifted() + slope + 2.0 * self.spec.radius(),
+                    top: top + 1e-3,
+                }
+            })
+            .collect()
+    }
+}

@@ -1,0 +1,185 @@
+//! Milling along a contour as written in the job file.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use crate::contouring::{ContourLoops, ContourSide, TabShape};
+use crate::geom::LengthUnit;
+use crate::holes::{FeedAt, Sense};
+use crate::operations::PlaneTable;
+use crate::operations::outlines::{CircleTable, OutlineEntry, RectangleTable};
+use crate::program::Coolant;
+
+/// Milling along the edges of an outline: outside of it, inside, or on it.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct ContourTable {
+    /// A tilted plane of the work: the tool is along its Z; default: along the Z of the work offset. Needs a machine
+    /// with rotary axes.
+    #[serde(default)]
+    pub plane: Option<PlaneTable>,
+    /// Number of the tool, one with a cylindrical edge.
+    pub tool: u32,
+    /// The outline as a rectangle; or give `circle`, `polygon` or `outline`.
+    #[serde(default)]
+    pub rectangle: Option<RectangleTable>,
+    /// The outline as a circle.
+    #[serde(default)]
+    pub circle: Option<CircleTable>,
+    /// The outline as a closed polygon: its corners, in coordinates of the work offset.
+    #[serde(default)]
+    pub polygon: Option<Vec<[f64; 2]>>,
+    /// The outline as a drawing ("plate.dxf", .svg, .json, or the top face of an .stl), or a table with the loops themselves.
+    #[serde(default)]
+    pub outline: Option<OutlineEntry>,
+    /// Unit of the drawing where it does not say: "mm", "cm", "m", "in".
+    #[serde(default)]
+    pub unit: Option<LengthUnit>,
+    /// Layers of the drawing that hold the outline; default: all.
+    #[serde(default)]
+    pub layers: Option<Vec<String>>,
+    /// Widest gap in a drawing that is closed; default 0.01.
+    #[serde(default)]
+    pub snap: Option<f64>,
+    /// Zero of the drawing, in coordinates of the work offset; default [0, 0].
+    #[serde(default)]
+    pub at: [f64; 2],
+    /// Angle by which the drawing is turned there, degrees, counter-clockwise; default 0.
+    #[serde(default)]
+    pub angle: f64,
+    /// Side on which the cutter runs: "outside" keeps the face and cuts its holes from within, "inside" keeps what is around
+    /// it, "on" runs on the line; default outside.
+    #[serde(default)]
+    pub side: ContourSide,
+    /// Loops that are cut: "all", "outer", "inner"; default all.
+    #[serde(default)]
+    pub loops: ContourLoops,
+    /// Height of the material's upper face, in coordinates of the work offset; default 0.
+    #[serde(default)]
+    pub top: f64,
+    /// Depth below it.
+    pub depth: f64,
+    /// Depth that the tool goes below `depth`, for a cut that goes through; default 0.
+    #[serde(default)]
+    pub breakthrough: f64,
+    /// Largest depth of a level; default: the length of the flutes.
+    #[serde(default, alias = "axial_step")]
+    pub stepdown: Option<f64>,
+    /// Stock to leave on the wall when all is done; default 0.
+    #[serde(default, alias = "leave")]
+    pub stock_to_leave: f64,
+    /// Largest allowed deviation of the wall and the floor; default 0.02.
+    #[serde(default)]
+    pub tolerance: Option<f64>,
+    /// Climb or conventional milling; default climb.
+    #[serde(default)]
+    pub direction: Sense,
+    /// The way down: "plunge", or { ramp = 3 } along the contour at an angle, degrees; default a ramp of 3 degrees, or of what
+    /// the tool can.
+    #[serde(default)]
+    pub entry: Option<ContourEntry>,
+    /// Radius of the arcs on which the contour is joined and left; default: half the cutter's radius, 1 at least, smaller where
+    /// there is no room.
+    #[serde(default)]
+    pub lead_radius: Option<f64>,
+    /// Point near which the contour begins, in coordinates of the work offset; default: the middle of its longest line.
+    #[serde(default)]
+    pub start: Option<[f64; 2]>,
+    /// Way beyond the start that is cut twice; default: a quarter of the cutter's diameter, 2 at most.
+    #[serde(default)]
+    pub overlap: Option<f64>,
+    /// Tabs that hold the part.
+    #[serde(default)]
+    pub tabs: Option<TabsTable>,
+    /// Spindle speed, rev/min; or give `cutting_speed`.
+    #[serde(default)]
+    pub speed: Option<f64>,
+    /// Cutting speed, m/min.
+    #[serde(default)]
+    pub cutting_speed: Option<f64>,
+    /// Feed along the contour, mm/min; or give `feed_per_tooth`.
+    #[serde(default)]
+    pub feed: Option<f64>,
+    /// Feed per tooth.
+    #[serde(default)]
+    pub feed_per_tooth: Option<f64>,
+    /// Feed straight down and along ramps, mm/min; default: half the feed.
+    #[serde(default)]
+    pub plunge_feed: Option<f64>,
+    /// Whether the feeds are those of the cutter's centre or those of its edge at the wall; default centre.
+    #[serde(default)]
+    pub feed_at: FeedAt,
+    /// Coolant; default flood.
+    #[serde(default)]
+    pub coolant: Coolant,
+    /// Finishing of the wall after all levels; left out, the wall is cut to size level by level.
+    #[serde(default)]
+    pub finish: Option<ContourFinishTable>,
+}
+
+/// The way down to a level of a contour.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case", deny_unknown_fields)]
+pub enum ContourEntry {
+    /// Straight down beside the contour; needs a cutter that cuts at its centre.
+    Plunge,
+    /// Down along the contour, at an angle, degrees.
+    Ramp(f64),
+}
+
+/// Tabs that hold the part until it is taken out.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct TabsTable {
+    /// Number of tabs of each loop; default: one for 150 mm, three at least. Not with `places`.
+    #[serde(default)]
+    pub count: Option<u32>,
+    /// Points near which tabs are wanted, in coordinates of the work offset.
+    #[serde(default)]
+    pub places: Option<Vec<[f64; 2]>>,
+    /// Width of what remains, at its thinnest.
+    pub width: f64,
+    /// Height over the depth of the contour.
+    pub height: f64,
+    /// Form: "flat", or "ramp" with ends that rise at 30 degrees; default flat.
+    #[serde(default)]
+    pub shape: TabShape,
+    /// Whether finishing leaves them too; default true.
+    #[serde(default = "yes")]
+    pub finish: bool,
+}
+
+fn yes() -> bool {
+    true
+}
+
+/// Finishing of a contour.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct ContourFinishTable {
+    /// Stock that roughing leaves for it on the wall; default 0.2.
+    #[serde(default = "fifth")]
+    pub allowance: f64,
+    /// Feed, mm/min; default that of the contour.
+    #[serde(default)]
+    pub feed: Option<f64>,
+    /// Further laps without infeed; default 0.
+    #[serde(default)]
+    pub spring_passes: u32,
+    /// Largest depth of a level; default: the length of the flutes.
+    #[serde(default, alias = "axial_step")]
+    pub stepdown: Option<f64>,
+    /// Register of the control by whose value the wall is moved at the machine: "D2".
+    #[serde(default)]
+    pub wear_offset: Option<String>,
+    /// Largest value, of either sign, that the register may get; default 0.05.
+    #[serde(default)]
+    pub wear_largest: Option<f64>,
+    /// Value of the register with which the program is simulated; default 0.
+    #[serde(default)]
+    pub wear_value: Option<f64>,
+}
+
+fn fifth() -> f64 {
+    0.2
+}

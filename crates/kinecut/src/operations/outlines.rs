@@ -1,0 +1,228 @@
+//! Outlines as tables of operations give them: a rectangle, a circle, a polygon, a drawing, or the loops themselves.
+
+use std::f64::consts::{FRAC_PI_2, TAU};
+
+use glam::DVec2;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use crate::base::bounded::{MAX_LENGTH, bounded, length, positive};
+use crate::base::{Code, Error, FileKind, Finding, Loader, Result};
+use crate::geom::{LengthUnit, Outline, OutlineEdge, OutlineFile, OutlineOptions, OutlineRead, read_outline};
+
+/// The edges of a face.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(untagged)]
+pub enum OutlineEntry {
+    /// "top", or the name of a file.
+    Name(String),
+    /// The loops themselves.
+    Loops(OutlineFile),
+}
+
+/// A rectangle.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct RectangleTable {
+    /// Its middle, in coordinates of the work offset; default [0, 0].
+    #[serde(default)]
+    pub at: [f64; 2],
+    /// Lengths of its sides.
+    pub size: [f64; 2],
+    /// Radius of its corners; default 0.
+    #[serde(default)]
+    pub corner: f64,
+    /// Angle by which it is turned about its middle, degrees, counter-clockwise; default 0.
+    #[serde(default)]
+    pub angle: f64,
+}
+
+/// A circle.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct CircleTable {
+    /// Its centre, in coordinates of the work offset; default [0, 0].
+    #[serde(default)]
+    pub at: [f64; 2],
+    /// Its diameter.
+    pub diameter: f64,
+}
+
+/// The keys of a table that say its outline.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct OutlineKeys<'a> {
+    pub(crate) rectangle: Option<&'a RectangleTable>,
+    pub(crate) circle: Option<&'a CircleTable>,
+    pub(crate) polygon: Option<&'a [[f64; 2]]>,
+    pub(crate) drawing: Option<Drawn<'a>>,
+}
+
+/// A drawing, with the keys that say how it is read and where it lies.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Drawn<'a> {
+    pub(crate) outline: &'a OutlineEntry,
+    pub(crate) unit: Option<LengthUnit>,
+    pub(crate) layers: Option<&'a [String]>,
+    pub(crate) snap: Option<f64>,
+    pub(crate) at: [f64; 2],
+    /// Degrees.
+    pub(crate) angle: f64,
+}
+
+impl OutlineKeys<'_> {
+    /// The outline, in coordinates of the work offset.
+    ///
+    /// # Errors
+    /// One finding with the key of the first wrong value; those of the drawing's reader.
+    pub(crate) fn read(self, loader: &dyn Loader) -> Result<OutlineRead> {
+        let forms = [
+            ("rectangle", self.rectangle.is_some()),
+            ("circle", self.circle.is_some()),
+            ("polygon", self.polygon.is_some()),
+            ("outline", self.drawing.is_some()),
+        ];
+        let mut given = forms.iter().filter(|(_, given)| *given);
+        let (Some((key, _)), None) = (given.next(), given.next()) else {
+            let finding = Finding::error(Code::JOB_SHAPE, "the operation needs one outline");
+            let help = "give one of rectangle, circle, polygon, outline: for example rectangle = { size = [40, 30], corner = 6 }";
+            return Err(finding.help(help).key("outline").into());
+        };
+        let under = |e: Error| e.under(key);
+        let outline = match (self.rectangle, self.circle, self.polygon, self.drawing) {
+            (Some(rectangle), ..) => rectangle.outline().map_err(under)?,
+            (_, Some(circle), ..) => circle.outline().map_err(under)?,
+            (_, _, Some(points), _) => polygon(points).map_err(under)?,
+            (_, _, _, Some(drawn)) => return drawn.read(loader),
+            _ => return Err(Finding::error(Code::JOB_SHAPE, "the operation needs an outline").into()),
+        };
+        let weights = vec![1.0; outline.edges().len()];
+        Ok(OutlineRead { outline, weights, notes: Vec::new() })
+    }
+}
+
+impl Drawn<'_> {
+    /// The outline, turned and moved to its place.
+    ///
+    /// # Errors
+    /// Those of the drawing's reader; `KC0103` for a place or angle out of range.
+    pub(crate) fn read(self, loader: &dyn Loader) -> Result<OutlineRead> {
+        let under = |e: Error| e.under("outline");
+        let options = OutlineOptions {
+            unit: self.unit,
+            layers: self.layers.unwrap_or_default().to_vec(),
+            snap: length("snap", self.snap.unwrap_or(OutlineOptions::default().snap), 0.0, 10.0)?,
+            ..OutlineOptions::default()
+        };
+        let read = match self.outline {
+            OutlineEntry::Name(name) => {
+                let bytes = loader.read_as(name, FileKind::of_outline(name)).map_err(under)?;
+                read_outline(name, &bytes, &options).map_err(under)?
+            }
+            OutlineEntry::Loops(loops) => loops.outline(self.unit).map_err(under)?,
+        };
+        for (i, v) in self.at.into_iter().enumerate() {
+            length(&format!("at[{i}]"), v, -MAX_LENGTH, MAX_LENGTH)?;
+        }
+        let angle = bounded("angle", self.angle, -360.0, 360.0, "deg")?.to_radians();
+        let [min, max] = read.outline.bounds();
+        let far = min.abs().max(max.abs()).max_element();
+        length("outline", far, 0.0, MAX_LENGTH)?;
+        Ok(OutlineRead { outline: read.outline.moved(angle, DVec2::from_array(self.at)), ..read })
+    }
+}
+
+impl RectangleTable {
+    fn outline(&self) -> Result<Outline> {
+        let [x, y] = self.size;
+        for (i, side) in self.size.into_iter().enumerate() {
+            positive(&format!("size[{i}]"), side, MAX_LENGTH, "mm")?;
+        }
+        place(self.at)?;
+        let least = if x < y { x } else { y };
+        let r = length("corner", self.corner, 0.0, 0.5 * least)?;
+        let angle = bounded("angle", self.angle, -360.0, 360.0, "deg")?.to_radians();
+        let half = DVec2::new(0.5 * x, 0.5 * y);
+        // Counter-clockwise from the lower left corner on.
+        let signs = [DVec2::new(-1.0, -1.0), DVec2::new(1.0, -1.0), DVec2::ONE, DVec2::new(-1.0, 1.0)];
+        let centre = |i: usize| (half - DVec2::splat(r)) * signs[i % 4];
+        let mut edges = Vec::with_capacity(8);
+        for i in 0..4 {
+            let from = (i as f64 + 2.0) * FRAC_PI_2;
+            let out = |angle: f64| {
+                let (sin, cos) = angle.sin_cos();
+                DVec2::new(cos.round(), sin.round())
+            };
+            if r > 0.0 {
+                let arc = OutlineEdge::arc(centre(i), r, from, FRAC_PI_2);
+                let ends = [from, from + FRAC_PI_2].map(|a| centre(i) + r * out(a));
+                edges.push(OutlineEdge { start: ends[0], end: ends[1], ..arc });
+            }
+            let aside = r * out(from + FRAC_PI_2);
+            let (start, end) = (centre(i) + aside, centre(i + 1) + aside);
+            if start.distance(end) > 1e-9 * least {
+                edges.push(OutlineEdge::line(start, end));
+            }
+        }
+        Ok(Outline::new(vec![edges], Vec::new())?.moved(angle, DVec2::from_array(self.at)))
+    }
+}
+
+impl CircleTable {
+    fn outline(&self) -> Result<Outline> {
+        let diameter = positive("diameter", self.diameter, MAX_LENGTH, "mm")?;
+        place(self.at)?;
+        let circle = OutlineEdge::arc(DVec2::from_array(self.at), 0.5 * diameter, -FRAC_PI_2, TAU);
+        Outline::new(vec![vec![circle]], Vec::new())
+    }
+}
+
+fn polygon(points: &[[f64; 2]]) -> Result<Outline> {
+    for (i, p) in points.iter().enumerate() {
+        place(*p).map_err(|mut e| {
+            e.0.key = Some(format!("[{i}]"));
+            e
+        })?;
+    }
+    if points.len() < 3 {
+        let finding = Finding::error(Code::JOB_VALUE, "a polygon has three corners at least");
+        return Err(finding.value(points.len() as f64, "corners").bound(3.0, "corners").into());
+    }
+    Outline::polygon(&points.iter().map(|p| DVec2::from_array(*p)).collect::<Vec<_>>())
+}
+
+fn place(at: [f64; 2]) -> Result<()> {
+    for (i, v) in at.into_iter().enumerate() {
+        length(&format!("at[{i}]"), v, -MAX_LENGTH, MAX_LENGTH)?;
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn rectangles_and_circles_have_their_areas() {
+        let of =
+            |size, corner, angle| RectangleTable { at: [7.0, -3.0], size, corner, angle }.outline().unwrap();
+        assert!((of([40.0, 30.0], 6.0, 0.0).area() - (1200.0 - (4.0 - FRAC_PI_2 * 2.0) * 36.0)).abs() < 1e-9);
+        assert_eq!(of([40.0, 30.0], 0.0, 30.0).edges().len(), 4);
+        // An obround, and a circle that is a rectangle's.
+        assert_eq!(of([40.0, 30.0], 15.0, 10.0).edges().len(), 6);
+        assert!((of([30.0, 30.0], 15.0, 0.0).area() - FRAC_PI_2 * 450.0).abs() < 1e-9);
+        let circle = CircleTable { at: [1.0, 1.0], diameter: 10.0 }.outline().unwrap();
+        assert!((circle.area() - FRAC_PI_2 * 50.0).abs() < 1e-9);
+        let [min, max] = of([40.0, 30.0], 6.0, 0.0).bounds();
+        assert!(
+            (min - DVec2::new(-13.0, -18.0)).length() < 1e-12
+                && (max - DVec2::new(27.0, 12.0)).length() < 1e-12
+        );
+    }
+
+    #[test]
+    fn corners_that_do_not_fit_are_refused() {
+        let table = RectangleTable { at: [0.0; 2], size: [40.0, 10.0], corner: 6.0, angle: 0.0 };
+        let error = table.outline().unwrap_err();
+        assert!(error.0.key.as_deref() == Some("corner") && error.0.bound.unwrap().value == 5.0);
+    }
+}
