@@ -9,6 +9,7 @@ mod common;
 
 // What a job is made of.
 mod contour;
+mod contouring;
 mod geom;
 mod machine;
 

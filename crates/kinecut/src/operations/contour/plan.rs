@@ -98,13 +98,13 @@ fn loose(of: &ContourOperation, setting: &Setting<'_>, spec: &ContourSpec) -> Op
     let corners = super::super::setting::corners(&Aabb { min, max }, &to_work);
     let low = corners.iter().fold(f64::INFINITY, |low, c| if c.z < low { c.z } else { low });
     let is_through = spec.bottom() <= low + 1e-6;
-    // Inside of the stock all round: what is beside the contour cannot be chips.
+    // Stock that stays beside the contour may be what is held.
     let a = spec.cutter.diameter;
     let [from, to] = of.outline.bounds();
     let wide = corners
         .iter()
         .fold([DVec2::INFINITY, DVec2::NEG_INFINITY], |[l, h], c| [l.min(c.truncate()), h.max(c.truncate())]);
-    let around = (from - wide[0]).min_element() > a && (wide[1] - to).min_element() > a;
+    let around = (from - wide[0]).max(wide[1] - to).max_element() > a;
     let inside = spec.side == ContourSide::Inside || of.outline.loops().iter().any(|l| !l.outer);
     (is_through && (around || inside)).then(|| {
         Finding::warning(Code::SLUG, format!("{}: what it cuts out comes loose", of.name()))

@@ -1,0 +1,356 @@
+//! Contours as planned: the path against dense points, its heights, its tabs, its leads, its feeds; turned and mirrored.
+
+use std::f64::consts::{PI, TAU};
+
+use glam::{DVec2, dvec2};
+use kinecut::base::{Code, Severity};
+use kinecut::contouring::{
+    ContourFinish, ContourLoops, ContourPlan, ContourSide, ContourSpec, TabShape, Tabs, centre_feed,
+    plan_contour,
+};
+use kinecut::geom::{Outline, OutlineEdge};
+use kinecut::holes::{CutterData, FeedAt, PlannedMove, Sense, ToolpathPace, ToolpathRole, Wear};
+
+use crate::common::golden::{file, number};
+use crate::common::random::Random;
+
+const CUTTER: CutterData =
+    CutterData { diameter: 6.0, centre_cutting: true, max_ramp_angle: None, flute_length: 20.0 };
+
+fn rectangle(x: f64, y: f64) -> Outline {
+    Outline::polygon(&[dvec2(0.0, 0.0), dvec2(x, 0.0), dvec2(x, y), dvec2(0.0, y)]).unwrap()
+}
+
+fn spec(outline: Outline) -> ContourSpec {
+    ContourSpec { stepdown: Some(4.0), ..ContourSpec::new(outline, 10.0, CUTTER, 20.0) }
+}
+
+/// Signed distance of a point from the outline by all of its edges: positive outside of the face.
+fn signed(outline: &Outline, p: DVec2) -> f64 {
+    let far = outline.edges().iter().map(|e| e.nearest(p).1).fold(f64::INFINITY, f64::min);
+    if outline.contains(p) { -far } else { far }
+}
+
+fn is_feed(m: &PlannedMove) -> bool {
+    matches!(m.pace, ToolpathPace::Feed(_))
+}
+
+/// Moves join, rapids down end above the material, and no move below the top comes nearer to what stays than it may.
+#[track_caller]
+fn sound(spec: &ContourSpec, plan: &ContourPlan) {
+    let allowance = spec.finish.map_or(0.0, |f| f.allowance);
+    let side = if spec.side == ContourSide::Inside { -1.0 } else { 1.0 };
+    for pair in plan.moves.windows(2) {
+        assert!((pair[1].curve.start() - pair[0].curve.end()).length() < 1e-6, "{pair:?}");
+    }
+    for m in &plan.moves {
+        let (a, b) = (m.curve.start(), m.curve.end());
+        if !is_feed(m) {
+            let level = (a - b).truncate().length() < 1e-9;
+            assert!(level || a.z.min(b.z) >= spec.retract_z - 1e-9, "{m:?}");
+            assert!(b.z >= spec.approach_z - 1e-9, "{m:?}");
+        }
+        let wall = spec.radius() + spec.stock_to_leave + if m.finishing { 0.0 } else { allowance };
+        for i in 0..=12 {
+            let p = m.curve.at(m.curve.length() * f64::from(i) / 12.0).p;
+            if p.z < spec.top {
+                let away = side * signed(&spec.outline, p.truncate());
+                assert!(away >= wall - 1e-6, "{away} at {p} of {m:?}");
+            }
+        }
+    }
+}
+
+/// All places at which the wall is to be cut are reached at full depth: points beside the outline lie within a radius of the
+/// lowest path, but in corners.
+#[track_caller]
+fn reaches_bottom(spec: &ContourSpec, plan: &ContourPlan) {
+    let low: Vec<&PlannedMove> = plan
+        .moves
+        .iter()
+        .filter(|m| {
+            let ends = [m.curve.start().z, m.curve.end().z];
+            ends.iter().all(|z| (z - spec.bottom()).abs() < 1e-9) && m.finishing == spec.finish.is_some()
+        })
+        .collect();
+    let outward = if spec.side == ContourSide::Inside { -1.0 } else { 1.0 };
+    for edge in spec.outline.edges() {
+        for i in 1..10 {
+            let s = f64::from(i) / 10.0;
+            let p = edge.at(s)
+                + outward * (spec.radius() + spec.stock_to_leave) * DVec2::from_angle(edge.outward(s));
+            if outward * signed(&spec.outline, p) < spec.radius() + spec.stock_to_leave - 1e-6 {
+                continue;
+            }
+            let near = low.iter().any(|m| {
+                (0..=200).any(|k| {
+                    m.curve.at(m.curve.length() * f64::from(k) / 200.0).p.truncate().distance(p) < 0.4
+                })
+            });
+            assert!(near, "{p} is not reached");
+        }
+    }
+}
+
+#[test]
+fn golden_feeds_at_arcs() {
+    let mut seen = 0;
+    for case in file("contour")["cases"].as_array().unwrap().iter().filter(|c| c["kind"] == "corner feed") {
+        let (input, want) = (&case["input"], &case["expected"]);
+        let of = |inside| {
+            centre_feed(number(input, "wall_feed"), number(input, "wall_radius"), number(input, "a"), inside)
+        };
+        assert!((of(true) - number(want, "inside")).abs() < 1e-9);
+        assert!((of(false) - number(want, "outside")).abs() < 1e-9);
+        seen += 1;
+    }
+    assert_eq!(seen, 2);
+}
+
+#[test]
+fn random_outlines_are_cut_whole_and_not_gouged() {
+    let mut random = Random(5);
+    let mut planned = 0;
+    for round in 0..120 {
+        let count = 3 + random.below(7);
+        let star: Vec<DVec2> = (0..count)
+            .map(|i| {
+                DVec2::from_angle(TAU * (i as f64 + 0.5 * random.share()) / count as f64)
+                    * random.between(25.0, 50.0)
+            })
+            .collect();
+        let bulge = |r: &mut Random| if r.share() < 0.5 { 0.0 } else { r.between(-0.3, 0.3) };
+        let edges = (0..count)
+            .map(|i| OutlineEdge::bulge(star[i], star[(i + 1) % count], bulge(&mut random)))
+            .collect();
+        let mut loops = vec![edges];
+        if random.share() < 0.5 {
+            loops.push(vec![OutlineEdge::arc(dvec2(2.0, -1.0), random.between(6.0, 9.0), 0.3, TAU)]);
+        }
+        let Ok(outline) = Outline::new(loops, vec![]) else { continue };
+        let sides = [ContourSide::Outside, ContourSide::Inside];
+        let wear = (random.share() < 0.5).then_some(Wear { register: 2, largest: 0.05 });
+        let finish = ContourFinish { allowance: 0.3, feed: 15.0, stepdown: None, spring_passes: 1, wear };
+        let spec = ContourSpec {
+            side: sides[random.below(2)],
+            sense: if random.share() < 0.5 { Sense::Climb } else { Sense::Conventional },
+            left_hand: random.share() < 0.3,
+            breakthrough: if random.share() < 0.5 { 0.5 } else { 0.0 },
+            stock_to_leave: if random.share() < 0.5 { 0.1 } else { 0.0 },
+            ramp: (random.share() < 0.7).then_some(0.05),
+            finish: (random.share() < 0.6).then_some(finish),
+            ..spec(outline)
+        };
+        let plan = match plan_contour(&spec) {
+            Ok(plan) => plan,
+            Err(e) if [Code::CUTTER_TOO_LARGE, Code::LEAD_ROOM].contains(&e.code()) => continue,
+            Err(e) => panic!("{round}: {e}"),
+        };
+        planned += 1;
+        sound(&spec, &plan);
+        reaches_bottom(&spec, &plan);
+        // Climb keeps the material on the right of a clockwise spindle's travel.
+        let right = (spec.sense == Sense::Climb) != spec.left_hand;
+        let kept = if spec.side == ContourSide::Inside { -1.0 } else { 1.0 };
+        for m in
+            plan.moves.iter().filter(|m| m.role == ToolpathRole::Circle || m.role == ToolpathRole::Finish)
+        {
+            let middle = m.curve.at(0.5 * m.curve.length());
+            let aside = middle.d1.truncate().perp() * if right { -1.0 } else { 1.0 };
+            let step = 0.1 * aside;
+            let nearer = kept
+                * (signed(&spec.outline, middle.p.truncate() + step)
+                    - signed(&spec.outline, middle.p.truncate()));
+            assert!(m.curve.length() < 0.2 || nearer < -0.09, "{round}: {nearer}");
+        }
+    }
+    assert!(planned > 80, "{planned}");
+}
+
+#[test]
+fn turned_and_mirrored_contours_are_as_long() {
+    let corners = [
+        dvec2(0.0, 0.0),
+        dvec2(70.0, 0.0),
+        dvec2(70.0, 25.0),
+        dvec2(30.0, 25.0),
+        dvec2(30.0, 60.0),
+        dvec2(0.0, 60.0),
+    ];
+    let outline = Outline::polygon(&corners).unwrap();
+    let length = |spec: &ContourSpec| {
+        let plan = plan_contour(spec).unwrap();
+        sound(spec, &plan);
+        plan.moves.iter().filter(|m| is_feed(m)).map(|m| m.curve.length()).sum::<f64>()
+    };
+    let plain = length(&spec(outline.clone()));
+    for other in
+        [outline.moved(0.7, dvec2(11.0, 5.0)), outline.moved(PI, dvec2(-300.0, 0.0)), outline.mirrored()]
+    {
+        assert!((length(&spec(other)) - plain).abs() < 1e-6);
+    }
+    let other = ContourSpec { sense: Sense::Conventional, left_hand: true, ..spec(outline) };
+    assert!((length(&other) - plain).abs() < 1e-6);
+}
+
+#[test]
+fn tabs_stand_where_they_are_told_and_as_high() {
+    for (shape, centre_cutting, ramp) in [
+        (TabShape::Flat, true, Some(0.05)),
+        (TabShape::Flat, true, None),
+        (TabShape::Ramp, true, Some(0.05)),
+        (TabShape::Flat, false, Some(0.05)),
+    ] {
+        let tabs = Tabs { count: 3, width: 5.0, height: 2.0, shape, finish: true, places: vec![] };
+        let finish =
+            ContourFinish { allowance: 0.2, feed: 15.0, stepdown: None, spring_passes: 0, wear: None };
+        let spec = ContourSpec {
+            tabs: Some(tabs),
+            ramp,
+            finish: Some(finish),
+            cutter: CutterData { centre_cutting, ..CUTTER },
+            breakthrough: 0.5,
+            ..spec(rectangle(120.0, 80.0))
+        };
+        let plan = plan_contour(&spec).unwrap();
+        sound(&spec, &plan);
+        assert!(plan.findings.is_empty(), "{:?}", plan.findings);
+        for one in &plan.loops {
+            assert_eq!(one.tabs.len(), 3);
+            for tab in &one.tabs {
+                assert!((tab.lifted() - 11.0).abs() < 1e-9);
+                // No move comes below the tab's top over its thinnest width.
+                let low = plan
+                    .moves
+                    .iter()
+                    .flat_map(|m| {
+                        (0..=400).map(move |k| m.curve.at(m.curve.length() * f64::from(k) / 400.0).p)
+                    })
+                    .filter(|p| {
+                        p.truncate().distance(tab.at) < if shape == TabShape::Flat { 5.4 } else { 1.1 }
+                    })
+                    .map(|p| p.z)
+                    .fold(f64::INFINITY, f64::min);
+                assert!((low - -8.0).abs() < 1e-9, "{shape:?} {centre_cutting} {low}");
+            }
+        }
+        if !centre_cutting {
+            // Down from a tab it goes along the ramp.
+            for m in plan.moves.iter().filter(|m| is_feed(m) && m.curve.start().z < 0.0) {
+                let fall = m.curve.start().z - m.curve.end().z;
+                assert!(fall < 1e-9 || (fall / m.curve.length()).asin() < 0.0501, "{m:?}");
+            }
+        }
+    }
+}
+
+#[test]
+fn the_feed_at_the_wall_is_the_one_asked_for() {
+    let arcs = |side: ContourSide| {
+        let corner = |centre: DVec2, from: f64| OutlineEdge::arc(centre, 8.0, from, 0.5 * PI);
+        let (a, b, c, d) = (dvec2(8.0, 8.0), dvec2(52.0, 8.0), dvec2(52.0, 32.0), dvec2(8.0, 32.0));
+        let edges = vec![
+            corner(a, PI),
+            OutlineEdge::line(dvec2(8.0, 0.0), dvec2(52.0, 0.0)),
+            corner(b, 1.5 * PI),
+            OutlineEdge::line(dvec2(60.0, 8.0), dvec2(60.0, 32.0)),
+            corner(c, 0.0),
+            OutlineEdge::line(dvec2(52.0, 40.0), dvec2(8.0, 40.0)),
+            corner(d, 0.5 * PI),
+            OutlineEdge::line(dvec2(0.0, 32.0), dvec2(0.0, 8.0)),
+        ];
+        let outline = Outline::new(vec![edges], vec![]).unwrap();
+        let spec = ContourSpec { side, feed_at: FeedAt::Wall, ..spec(outline) };
+        let plan = plan_contour(&spec).unwrap();
+        let flat = |m: &&PlannedMove| m.role == ToolpathRole::Circle && m.curve.length() < 20.0;
+        let feeds: Vec<f64> = plan
+            .moves
+            .iter()
+            .filter(flat)
+            .filter(|m| m.curve.at(0.0).d2.length() > 1e-6)
+            .map(|m| if let ToolpathPace::Feed(f) = m.pace { f } else { f64::NAN })
+            .collect();
+        assert!(feeds.len() >= 8);
+        feeds
+    };
+    assert!(arcs(ContourSide::Outside).iter().all(|f| (f - 20.0 * 11.0 / 8.0).abs() < 1e-9));
+    assert!(arcs(ContourSide::Inside).iter().all(|f| (f - 20.0 * 5.0 / 8.0).abs() < 1e-9));
+}
+
+#[test]
+fn only_the_loops_that_are_asked_for_are_cut() {
+    let plate = rectangle(80.0, 50.0).edges().to_vec();
+    let hole = |r: f64| vec![OutlineEdge::arc(dvec2(40.0, 25.0), r, 0.0, TAU)];
+    let outline = |r: f64| Outline::new(vec![plate.clone(), hole(r)], vec![]).unwrap();
+    let cut = |r: f64, loops| plan_contour(&ContourSpec { loops, ..spec(outline(r)) });
+    assert_eq!(cut(10.0, ContourLoops::All).unwrap().loops.len(), 2);
+    // Holes come first: what they are in is then still held.
+    assert!(!cut(10.0, ContourLoops::All).unwrap().loops[0].outer);
+    assert!(cut(2.0, ContourLoops::Outer).unwrap().loops[0].outer);
+    assert_eq!(cut(10.0, ContourLoops::Inner).unwrap().loops.len(), 1);
+    let error = cut(2.0, ContourLoops::All).unwrap_err();
+    assert!(error.code() == Code::CUTTER_TOO_LARGE && error.0.bound.unwrap().value == 4.0);
+    let wide = cut(3.0, ContourLoops::All).unwrap_err();
+    assert!(wide.code() == Code::CUTTER_TOO_LARGE, "{wide}");
+}
+
+#[test]
+fn corners_that_stay_are_as_thick_as_they_are() {
+    let inside = |outline: Outline| {
+        let spec = ContourSpec { side: ContourSide::Inside, ..spec(outline) };
+        plan_contour(&spec).unwrap()
+    };
+    let square = inside(rectangle(40.0, 30.0));
+    assert_eq!(square.uncut.len(), 4);
+    for corner in &square.uncut {
+        assert!((corner.thickness - 3.0 * (2.0_f64.sqrt() - 1.0)).abs() < 1e-9);
+    }
+    assert!(square.findings.iter().any(|f| f.code == Code::CORNERS_STAY && f.severity == Severity::Warning));
+    // A corner of 60 degrees, and one with a radius of 1.
+    let triangle = inside(
+        Outline::polygon(&[dvec2(0.0, 0.0), dvec2(60.0, 0.0), dvec2(30.0, 30.0 * 3f64.sqrt())]).unwrap(),
+    );
+    assert!(triangle.uncut.len() == 3 && (triangle.uncut[0].thickness - 3.0).abs() < 1e-9);
+    let round = |r: f64| {
+        let edges = vec![
+            OutlineEdge::line(dvec2(r, 0.0), dvec2(40.0, 0.0)),
+            OutlineEdge::line(dvec2(40.0, 0.0), dvec2(40.0, 30.0)),
+            OutlineEdge::line(dvec2(40.0, 30.0), dvec2(0.0, 30.0)),
+            OutlineEdge::line(dvec2(0.0, 30.0), dvec2(0.0, r)),
+            OutlineEdge::arc(dvec2(r, r), r, PI, 0.5 * PI),
+        ];
+        inside(Outline::new(vec![edges], vec![]).unwrap())
+    };
+    let thin = round(1.0).uncut.iter().map(|c| c.thickness).fold(f64::INFINITY, f64::min);
+    assert!((thin - 2.0 * (2.0_f64.sqrt() - 1.0)).abs() < 1e-9, "{thin}");
+    assert_eq!(round(3.5).uncut.len(), 3);
+}
+
+#[test]
+fn numbers_that_make_no_contour_are_refused_with_their_key() {
+    let refused = |change: &dyn Fn(&mut ContourSpec)| {
+        let mut one = spec(rectangle(60.0, 40.0));
+        change(&mut one);
+        plan_contour(&one).unwrap_err().0
+    };
+    let key = |f: &kinecut::base::Finding| f.key.clone().unwrap_or_default();
+    assert_eq!(key(&refused(&|s| s.depth = 0.0)), "depth");
+    assert_eq!(key(&refused(&|s| s.stepdown = Some(25.0))), "stepdown");
+    assert_eq!(key(&refused(&|s| s.feed = f64::NAN)), "feed");
+    let steep = refused(&|s| {
+        s.cutter.max_ramp_angle = Some(0.04);
+        s.ramp = Some(0.05);
+    });
+    assert_eq!(key(&steep), "entry.ramp");
+    let plunge = refused(&|s| (s.ramp, s.cutter.centre_cutting) = (None, false));
+    assert_eq!((plunge.code, key(&plunge).as_str()), (Code::ENTRY_IMPOSSIBLE, "entry"));
+    let room = refused(&|s| (s.side, s.lead_radius) = (ContourSide::Inside, Some(40.0)));
+    assert_eq!((room.code, key(&room).as_str()), (Code::LEAD_ROOM, "lead_radius"));
+    let tabs =
+        Tabs { count: 3, width: 5.0, height: 11.0, shape: TabShape::Flat, finish: true, places: vec![] };
+    assert_eq!(key(&refused(&|s| s.tabs = Some(tabs.clone()))), "tabs.height");
+    assert_eq!(
+        refused(&|s| (s.side, s.cutter.diameter) = (ContourSide::Inside, 45.0)).code,
+        Code::CUTTER_TOO_LARGE
+    );
+}

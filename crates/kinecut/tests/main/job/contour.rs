@@ -1,0 +1,193 @@
+//! Contours through the whole: posted for each control, read back, cut, and their walls measured.
+
+use kinecut::base::{Code, MemoryLoader, Severity, Silent};
+use kinecut::job::{Outcome, run};
+
+fn job(control: &str, operation: &str) -> String {
+    format!(
+        r#"format = 1
+post = {{ control = "{control}" }}
+stock = {{ box = {{ min = [-80, -50, -20], max = [80, 50, 0] }} }}
+simulate = {{ step = 0.5, engagement = false }}
+[[tool]]
+number = 1
+type = "end-mill"
+diameter = 10
+teeth = 4
+flute_length = 26
+stickout = 40
+gauge_length = 120
+[[setup]]
+offset = "G54"
+[[setup.operation]]
+type = "contour"
+tool = 1
+speed = 6000
+feed = 1200
+stepdown = 5
+{operation}
+"#
+    )
+}
+
+fn done(job: &str, loader: &MemoryLoader) -> Outcome {
+    run("job.toml", job, loader, &Silent).unwrap_or_else(|e| panic!("{e}"))
+}
+
+fn cut(control: &str, operation: &str) -> Outcome {
+    done(&job(control, operation), &MemoryLoader::default())
+}
+
+fn refused(operation: &str) -> kinecut::base::Error {
+    run("job.toml", &job("fanuc", operation), &MemoryLoader::default(), &Silent).unwrap_err()
+}
+
+const PLATE: &str = "rectangle = { size = [120, 70], corner = 6 }\ndepth = 20\nbreakthrough = 0.5\n";
+const TABS: &str = "tabs = { count = 4, width = 6, height = 1.5 }\n";
+
+fn removed(outcome: &Outcome) -> f64 {
+    outcome.simulation.raw_volume - outcome.simulation.stock.volume()
+}
+
+/// Area of the slot of 10 mm around the plate, without leads [mm2].
+fn slot() -> f64 {
+    let around = 2.0 * (108.0 + 58.0);
+    10.0 * around + std::f64::consts::PI * (16.0_f64.powi(2) - 6.0_f64.powi(2))
+}
+
+#[test]
+fn a_plate_with_tabs_is_safe_on_every_control() {
+    for control in ["sinumerik-840d", "heidenhain", "linuxcnc", "fanuc", "grbl"] {
+        let outcome =
+            cut(control, &format!("{PLATE}{TABS}finish = {{ allowance = 0.2, spring_passes = 1 }}"));
+        assert!(outcome.verdict.is_safe(), "{control}: {:?}", outcome.verdict.found);
+        assert!(outcome.verdict.found.is_empty(), "{control}: {:?}", outcome.verdict.found);
+        let claim = outcome.verdict.proven.iter().find(|p| p.claim.contains("wall and floor lie within"));
+        assert!(claim.is_some(), "{control}");
+    }
+}
+
+#[test]
+fn tabs_keep_the_volume_that_they_say() {
+    let whole = cut("fanuc", PLATE);
+    // The lead-out, and nothing else, is beside the slot.
+    let leads = removed(&whole) - 20.0 * slot();
+    assert!(leads > 0.0 && leads < 20.0 * 30.0, "{leads}");
+    let held = cut("fanuc", &format!("{PLATE}{TABS}"));
+    // Of each tab the slot's width, as long as the cutter is lifted, less the half discs that it cuts into both ends.
+    let tab = (16.0 * 10.0 - std::f64::consts::PI * 25.0) * 1.5;
+    let kept = removed(&whole) - removed(&held);
+    assert!((kept - 4.0 * tab).abs() < 0.02 * kept, "{kept}, not {}", 4.0 * tab);
+    // Without tabs the part comes loose.
+    let loose =
+        |o: &Outcome| o.verdict.found.iter().any(|f| f.code == Code::SLUG && f.severity == Severity::Warning);
+    assert!(loose(&whole) && !loose(&held));
+}
+
+#[test]
+fn walls_of_all_sides_are_measured() {
+    let pocket = "side = \"inside\"\npolygon = [[-40, -30], [40, -30], [40, 30], [10, 30], [10, 5], [-10, 5], [-10, 30], [-40, 30]]\ndepth = 8\n";
+    for (operation, corners) in [
+        ("circle = { at = [10, 5], diameter = 60 }\ndepth = 8\n", 0),
+        ("side = \"inside\"\ncircle = { diameter = 60 }\ndepth = 8\nentry = \"plunge\"\n", 0),
+        (
+            "rectangle = { size = [60, 40], corner = 4, angle = 25 }\ndepth = 8\ndirection = \"conventional\"\nfeed_at = \"wall\"\n",
+            0,
+        ),
+        (pocket, 6),
+    ] {
+        let outcome = cut("linuxcnc", operation);
+        assert!(outcome.verdict.is_safe(), "{operation}: {:?}", outcome.verdict.found);
+        let wall = &outcome.deviation.bores[0];
+        assert!(wall.ends > 3000 && wall.worst() < 1e-3, "{operation}: {wall:?}");
+        assert!(wall.floor.is_some_and(|f| f[0].abs() < 1e-3 && f[1].abs() < 1e-3), "{operation}: {wall:?}");
+        let warned = outcome.verdict.found.iter().filter(|f| f.code == Code::CORNERS_STAY).count();
+        assert_eq!(warned, usize::from(corners > 0), "{operation}");
+        let told = outcome
+            .verdict
+            .unchecked()
+            .any(|item| format!("{item:?}").contains("beyond the cutter's fillet"));
+        assert_eq!(told, corners > 0, "{operation}");
+    }
+}
+
+#[test]
+fn stock_is_left_and_the_wear_register_moves_the_wall() {
+    let left = cut("linuxcnc", &format!("{PLATE}{TABS}stock_to_leave = 0.4\n"));
+    assert!(left.verdict.is_safe() && left.deviation.bores[0].worst() < 1e-3);
+    let more = removed(&left) - removed(&cut("linuxcnc", &format!("{PLATE}{TABS}")));
+    // The slot moves outwards by 0.4, and is as much longer; volumes are known to half a line at each wall.
+    assert!((more - std::f64::consts::TAU * 0.4 * 10.0 * 20.0).abs() < 250.0, "{more}");
+    for (control, register) in
+        [("linuxcnc", "D7"), ("sinumerik-840d", "D2"), ("fanuc", "D101"), ("heidenhain", "D2")]
+    {
+        let finish = |value: f64| {
+            let tabs = "tabs = { count = 4, width = 6, height = 1.5, shape = \"ramp\" }\n";
+            let finish = format!("finish = {{ wear_offset = \"{register}\", wear_value = {value} }}");
+            cut(control, &format!("{PLATE}{tabs}{finish}"))
+        };
+        let (plain, worn) = (finish(0.0), finish(0.03));
+        // Against the wall where the register's value has it.
+        for outcome in [&plain, &worn] {
+            assert!(outcome.verdict.is_safe(), "{control}: {:?}", outcome.verdict.found);
+            let wall = &outcome.deviation.bores[0];
+            assert!(wall.ends > 3000 && wall.worst() < 2e-3, "{control}: {wall:?}");
+        }
+    }
+    let grbl = run(
+        "job.toml",
+        &job("grbl", &format!("{PLATE}{TABS}finish = {{ wear_offset = \"D2\" }}")),
+        &MemoryLoader::default(),
+        &Silent,
+    );
+    assert_eq!(grbl.unwrap_err().0.key.as_deref(), Some("setup[0].operation[0].finish.wear_offset"));
+}
+
+#[test]
+fn a_drawing_is_cut_by_its_layers() {
+    let drawing = "0\nSECTION\n2\nHEADER\n9\n$INSUNITS\n70\n4\n0\nENDSEC\n0\nSECTION\n2\nENTITIES\n\
+        0\nLWPOLYLINE\n8\nPART\n90\n4\n70\n1\n10\n0\n20\n0\n10\n90\n20\n0\n42\n0.2\n10\n90\n20\n50\n10\n0\n20\n50\n\
+        0\nCIRCLE\n8\nHOLES\n10\n20\n20\n25\n40\n9\n0\nENDSEC\n0\nEOF\n";
+    let loader = MemoryLoader::default().with("plate.dxf", drawing);
+    let of = |more: &str| {
+        let operation = format!("outline = \"plate.dxf\"\nat = [-45, -25]\ndepth = 6\n{more}");
+        done(&job("fanuc", &operation), &loader)
+    };
+    for (more, outer, loops) in
+        [("", true, 2), ("layers = [\"PART\"]\n", true, 1), ("loops = \"inner\"\n", false, 1)]
+    {
+        let outcome = of(more);
+        assert!(outcome.verdict.is_safe(), "{more}: {:?}", outcome.verdict.found);
+        assert!(outcome.deviation.bores[0].worst() < 1e-3, "{more}");
+        let json: serde_json::Value = serde_json::from_str(&kinecut::job::plan_json(&outcome)).unwrap();
+        let contour = &json["setups"][0]["contours"][0];
+        let own = contour["loops"].as_array().unwrap();
+        assert_eq!(own.len(), loops, "{more}");
+        assert_eq!(own[loops - 1]["outer"], outer, "{more}");
+    }
+}
+
+#[test]
+fn what_makes_no_contour_is_refused_with_a_cure() {
+    let key = |e: &kinecut::base::Error| e.0.key.clone().unwrap_or_default();
+    let under = |key: &str| format!("setup[0].operation[0].{key}");
+    let none = refused("depth = 3");
+    assert!(none.code() == Code::JOB_SHAPE && none.0.help.contains("rectangle = {"), "{none}");
+    let two = refused("circle = { diameter = 40 }\nrectangle = { size = [40, 30] }\ndepth = 3");
+    assert_eq!((two.code(), key(&two)), (Code::JOB_SHAPE, under("outline")));
+    let corner = refused("rectangle = { size = [40, 30], corner = 16 }\ndepth = 3");
+    assert_eq!(key(&corner), under("rectangle.corner"));
+    let narrow = refused("side = \"inside\"\nrectangle = { size = [40, 9] }\ndepth = 3");
+    assert!(
+        narrow.code() == Code::CUTTER_TOO_LARGE && narrow.0.bound.as_ref().unwrap().value == 9.0,
+        "{narrow}"
+    );
+    let tabs = refused(
+        "circle = { diameter = 40 }\ndepth = 3\ntabs = { count = 3, places = [[0, 0]], width = 3, height = 1 }",
+    );
+    assert_eq!(key(&tabs), under("tabs.count"));
+    let feeds = refused("circle = { diameter = 40 }\ndepth = 3\nfeed_per_tooth = 0.05");
+    assert_eq!(key(&feeds), under("feed"));
+    let open = refused("polygon = [[0, 0], [40, 0], [0, 30], [40, 30]]\ndepth = 3");
+    assert_eq!((open.code(), key(&open)), (Code::OUTLINE_CROSSES, under("polygon")));
+}
