@@ -6,7 +6,7 @@ use glam::DVec2;
 
 use super::corners::{UncutCorner, uncut};
 use super::lead::Lead;
-use super::spec::{ContourFinish, ContourLoops, ContourSide, ContourSpec};
+use super::spec::{ContourFinish, ContourLoops, ContourSide, ContourSpec, Tabs};
 use super::tabs::{PlacedTab, placed};
 use super::track::Track;
 use super::travel::{Stretch, Travel};
@@ -100,7 +100,7 @@ pub fn plan_contour(spec: &ContourSpec) -> Result<ContourPlan> {
     heights.extend(floors.iter().map(|l| l.floor));
     let mut at = None;
     for (track, outer) in planner.ordered(&rough) {
-        at = Some(planner.rough(track, outer, wall + allowance, &heights)?);
+        at = Some(planner.rough(track, outer, &rough, wall + allowance, &heights)?);
     }
     let mut corners = Vec::new();
     let last = match spec.finish {
@@ -360,23 +360,24 @@ impl Planner<'_> {
         &self,
         track: &Track,
         wall: f64,
-        lead: impl Fn(f64) -> Lead,
+        lead: impl Fn(f64, DVec2, DVec2) -> Lead,
         free: impl Fn(DVec2) -> bool,
+        may: impl Fn(f64) -> bool,
     ) -> Result<Beginning> {
         let spec = self.spec;
         let a = spec.radius();
         let usual = spec.lead_radius.unwrap_or(if a > 2.0 { 0.5 * a } else { 1.0 });
         let left = spec.keeps_right();
         let fits = |at: f64, radius: f64| {
-            let lead = lead(radius);
             let (p, along) = track.at(at);
+            let lead = lead(radius, p, along);
             let (on, off) = (lead.on(p, along, left), lead.off(p, along, left));
             let open = |edges: &[OutlineEdge]| {
                 edges.iter().all(|e| (0..=8).all(|i| self.is_free(e.at(f64::from(i) / 8.0), wall)))
             };
             (open(&on) && open(&off) && free(on[0].start)).then_some(Beginning { at, lead })
         };
-        for place in self.beginnings(track) {
+        for place in self.beginnings(track).into_iter().filter(|place| may(*place)) {
             let mut radius = usual;
             loop {
                 if let Some(found) = fits(place, radius) {
@@ -399,6 +400,33 @@ impl Planner<'_> {
             .help("give another start, a smaller lead_radius, or take a smaller cutter")
             .key(key)
             .into())
+    }
+
+    /// A lead whose free end lies so far from a wall [mm] and so much farther: where roughing has run.
+    fn beside(&self, lead: Lead, (p, along): (DVec2, DVec2), wall: f64, farther: f64) -> Lead {
+        let straight = Lead::within(lead.radius, lead.line, farther);
+        if self.spec.side == ContourSide::On {
+            return straight;
+        }
+        // Beside a curved wall the angle differs from that beside a straight one.
+        let far = wall + farther;
+        let is_far = |angle: f64| {
+            let free = Lead { angle, ..lead }.on(p, along, self.spec.keeps_right())[0].start;
+            self.near.at(free, far).is_none()
+        };
+        let (mut low, mut high) = (0.0, FRAC_PI_2);
+        if !is_far(high) {
+            return straight;
+        }
+        for _ in 0..50 {
+            let middle = 0.5 * (low + high);
+            if is_far(middle) {
+                high = middle;
+            } else {
+                low = middle;
+            }
+        }
+        Lead { angle: high, ..lead }
     }
 
     /// Places at which a loop may begin, the best first: the one asked for, or middles of edges, lines first, the longest
@@ -435,18 +463,43 @@ impl Planner<'_> {
             .collect()
     }
 
-    fn tabs(&mut self, track: &Track, start: f64, outer: bool) -> Vec<PlacedTab> {
+    /// Tabs of a loop that is roughed; places that are given belong to the nearest of all tracks.
+    fn tabs(&mut self, track: &Track, start: f64, all: &[(Track, bool)]) -> Vec<PlacedTab> {
         let Some(tabs) = &self.spec.tabs else { return Vec::new() };
-        let found = placed(track, tabs, start, self.spec.cutter.diameter);
-        let wanted = if tabs.places.is_empty() { tabs.count as usize } else { tabs.places.len() };
+        let far = |t: &Track, p: DVec2| t.at(t.nearest(p)).0.distance(p);
+        let is_own = |p: &DVec2| all.iter().all(|(t, _)| far(track, *p) <= far(t, *p));
+        let given = !tabs.places.is_empty();
+        let own = Tabs { places: tabs.places.iter().copied().filter(is_own).collect(), ..tabs.clone() };
+        if given && own.places.is_empty() {
+            return Vec::new();
+        }
+        let found = placed(track, &own, start, self.spec.cutter.diameter);
+        let wanted = if given { own.places.len() } else { own.count as usize };
         if found.len() < wanted {
-            let which = if outer { "outer" } else { "inner" };
+            let (at, _) = track.at(start);
             let message = format!(
-                "tabs: {wanted} wanted, {} fit on the {which} loop (corners, small arcs and leads are in the way)",
-                found.len()
+                "tabs: {wanted} wanted, {} fit on the loop that begins at ({:.3}, {:.3}): corners, small arcs and the leads are in the way",
+                found.len(),
+                at.x,
+                at.y
             );
             let help = "take fewer or narrower tabs, or give their places: tabs = { places = [[x, y], ..] }";
             self.findings.push(Finding::warning(Code::TABS, message).help(help).key("tabs"));
+        }
+        found
+    }
+
+    /// The tabs that roughing has left beside a track that is finished.
+    fn left_tabs(&self, track: &Track, allowance: f64) -> Vec<PlacedTab> {
+        let mut found = Vec::new();
+        for one in self.loops.iter().filter(|l| !l.finishing) {
+            for tab in &one.tabs {
+                let s = track.nearest(tab.at);
+                if track.at(s).0.distance(tab.at) <= 2.0 * allowance {
+                    let half = 0.5 * tab.lifted();
+                    found.push(PlacedTab { at: track.at(s).0, along: [s - half, s + half] });
+                }
+            }
         }
         found
     }
@@ -463,11 +516,23 @@ impl Planner<'_> {
     }
 
     /// Roughs a loop level by level, `heights` from the top down.
-    fn rough(&mut self, track: &Track, outer: bool, wall: f64, heights: &[f64]) -> Result<DVec2> {
+    fn rough(
+        &mut self,
+        track: &Track,
+        outer: bool,
+        all: &[(Track, bool)],
+        wall: f64,
+        heights: &[f64],
+    ) -> Result<DVec2> {
         let spec = self.spec;
-        let start =
-            self.begin(track, wall, |radius| Lead { radius, angle: FRAC_PI_2, line: 0.0 }, |_| true)?;
-        let tabs = self.tabs(track, start.at, outer);
+        let start = self.begin(
+            track,
+            wall,
+            |radius, _, _| Lead { radius, angle: FRAC_PI_2, line: 0.0 },
+            |_| true,
+            |_| true,
+        )?;
+        let tabs = self.tabs(track, start.at, all);
         self.travel.finishing = false;
         self.keep(track, outer, start.at, &tabs);
         let left = spec.keeps_right();
@@ -543,9 +608,31 @@ impl Planner<'_> {
         let spec = self.spec;
         let wear = finish.wear.map_or(0.0, |w| w.largest);
         let line = if finish.wear.is_some() { SWITCH * wear + 0.1 } else { 0.0 };
+        let tabs = match &spec.tabs {
+            Some(t) if t.finish => self.left_tabs(track, finish.allowance),
+            _ => Vec::new(),
+        };
+        // Off the tabs by a diameter.
+        let clear = |s: f64| {
+            let whole = track.length();
+            tabs.iter().all(|tab| {
+                let middle = 0.5 * (tab.along[0] + tab.along[1]);
+                let apart = (s - middle).rem_euclid(whole);
+                let apart = if apart < whole - apart { apart } else { whole - apart };
+                apart > 0.5 * tab.lifted() + spec.cutter.diameter
+            })
+        };
         let open =
             |p: DVec2| rough.iter().any(|(t, _)| t.at(t.nearest(p)).0.distance(p) <= 0.1 * finish.allowance);
-        let start = self.begin(track, wall, |radius| Lead::within(radius, line, finish.allowance), open)?;
+        let start = self.begin(
+            track,
+            wall,
+            |radius, p, along| {
+                self.beside(Lead { radius, angle: 0.0, line }, (p, along), wall, finish.allowance)
+            },
+            open,
+            clear,
+        )?;
         if finish.wear.is_some() && start.lead.radius <= wear + 0.01 {
             let what = "the lead-in is too tight for this wear correction";
             let help = "allow a smaller wear_largest, or a larger lead_radius";
@@ -559,10 +646,6 @@ impl Planner<'_> {
             ));
         }
         self.travel.finishing = true;
-        let tabs = match &spec.tabs {
-            Some(t) if t.finish => self.tabs(track, start.at, outer),
-            _ => Vec::new(),
-        };
         self.keep(track, outer, start.at, &tabs);
         let depth = spec.depth + spec.breakthrough;
         let step = finish.stepdown.unwrap_or(spec.cutter.flute_length);

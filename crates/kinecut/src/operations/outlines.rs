@@ -23,7 +23,7 @@ pub enum OutlineEntry {
 /// A rectangle.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct RectangleTable {
+pub struct OutlineRectangle {
     /// Its middle, in coordinates of the work offset; default [0, 0].
     #[serde(default)]
     pub at: [f64; 2],
@@ -40,7 +40,7 @@ pub struct RectangleTable {
 /// A circle.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct CircleTable {
+pub struct OutlineCircle {
     /// Its centre, in coordinates of the work offset; default [0, 0].
     #[serde(default)]
     pub at: [f64; 2],
@@ -51,8 +51,8 @@ pub struct CircleTable {
 /// The keys of a table that say its outline.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct OutlineKeys<'a> {
-    pub(crate) rectangle: Option<&'a RectangleTable>,
-    pub(crate) circle: Option<&'a CircleTable>,
+    pub(crate) rectangle: Option<&'a OutlineRectangle>,
+    pub(crate) circle: Option<&'a OutlineCircle>,
     pub(crate) polygon: Option<&'a [[f64; 2]]>,
     pub(crate) drawing: Option<Drawn<'a>>,
 }
@@ -131,7 +131,7 @@ impl Drawn<'_> {
     }
 }
 
-impl RectangleTable {
+impl OutlineRectangle {
     fn outline(&self) -> Result<Outline> {
         let [x, y] = self.size;
         for (i, side) in self.size.into_iter().enumerate() {
@@ -167,7 +167,7 @@ impl RectangleTable {
     }
 }
 
-impl CircleTable {
+impl OutlineCircle {
     fn outline(&self) -> Result<Outline> {
         let diameter = positive("diameter", self.diameter, MAX_LENGTH, "mm")?;
         place(self.at)?;
@@ -203,14 +203,15 @@ mod tests {
 
     #[test]
     fn rectangles_and_circles_have_their_areas() {
-        let of =
-            |size, corner, angle| RectangleTable { at: [7.0, -3.0], size, corner, angle }.outline().unwrap();
+        let of = |size, corner, angle| {
+            OutlineRectangle { at: [7.0, -3.0], size, corner, angle }.outline().unwrap()
+        };
         assert!((of([40.0, 30.0], 6.0, 0.0).area() - (1200.0 - (4.0 - FRAC_PI_2 * 2.0) * 36.0)).abs() < 1e-9);
         assert_eq!(of([40.0, 30.0], 0.0, 30.0).edges().len(), 4);
         // An obround, and a circle that is a rectangle's.
         assert_eq!(of([40.0, 30.0], 15.0, 10.0).edges().len(), 6);
         assert!((of([30.0, 30.0], 15.0, 0.0).area() - FRAC_PI_2 * 450.0).abs() < 1e-9);
-        let circle = CircleTable { at: [1.0, 1.0], diameter: 10.0 }.outline().unwrap();
+        let circle = OutlineCircle { at: [1.0, 1.0], diameter: 10.0 }.outline().unwrap();
         assert!((circle.area() - FRAC_PI_2 * 50.0).abs() < 1e-9);
         let [min, max] = of([40.0, 30.0], 6.0, 0.0).bounds();
         assert!(
@@ -221,7 +222,7 @@ mod tests {
 
     #[test]
     fn corners_that_do_not_fit_are_refused() {
-        let table = RectangleTable { at: [0.0; 2], size: [40.0, 10.0], corner: 6.0, angle: 0.0 };
+        let table = OutlineRectangle { at: [0.0; 2], size: [40.0, 10.0], corner: 6.0, angle: 0.0 };
         let error = table.outline().unwrap_err();
         assert!(error.0.key.as_deref() == Some("corner") && error.0.bound.unwrap().value == 5.0);
     }

@@ -7,7 +7,7 @@ use crate::contouring::{ContourLoops, ContourSide, TabShape};
 use crate::geom::LengthUnit;
 use crate::holes::{FeedAt, Sense};
 use crate::operations::PlaneTable;
-use crate::operations::outlines::{CircleTable, OutlineEntry, RectangleTable};
+use crate::operations::outlines::{OutlineCircle, OutlineEntry, OutlineRectangle};
 use crate::program::Coolant;
 
 /// Milling along the edges of an outline: outside of it, inside, or on it.
@@ -22,10 +22,10 @@ pub struct ContourTable {
     pub tool: u32,
     /// The outline as a rectangle; or give `circle`, `polygon` or `outline`.
     #[serde(default)]
-    pub rectangle: Option<RectangleTable>,
+    pub rectangle: Option<OutlineRectangle>,
     /// The outline as a circle.
     #[serde(default)]
-    pub circle: Option<CircleTable>,
+    pub circle: Option<OutlineCircle>,
     /// The outline as a closed polygon: its corners, in coordinates of the work offset.
     #[serde(default)]
     pub polygon: Option<Vec<[f64; 2]>>,

@@ -191,3 +191,28 @@ fn what_makes_no_contour_is_refused_with_a_cure() {
     let open = refused("polygon = [[0, 0], [40, 0], [0, 30], [40, 30]]\ndepth = 3");
     assert_eq!((open.code(), key(&open)), (Code::OUTLINE_CROSSES, under("polygon")));
 }
+
+#[test]
+fn the_example_is_safe_and_leaves_its_tabs() {
+    let outcome = super::examples::run("19_outline_with_tabs", &[("step = 0.25", "step = 0.5")]);
+    assert!(outcome.verdict.is_safe() && outcome.verdict.found.is_empty(), "{:?}", outcome.verdict.found);
+    assert!(outcome.deviation.bores.iter().all(|wall| wall.ends > 500 && wall.worst() < 1e-3));
+    // Part, core and frame are one body: nothing has come loose.
+    let triangles = &outcome.part.triangles;
+    let mut body: Vec<u32> = (0..outcome.part.vertices.len() as u32).collect();
+    fn root(body: &mut [u32], mut i: u32) -> u32 {
+        while body[i as usize] != i {
+            body[i as usize] = body[body[i as usize] as usize];
+            i = body[i as usize];
+        }
+        i
+    }
+    for t in triangles {
+        let [a, b, c] = t.map(|v| root(&mut body, v));
+        body[b as usize] = a;
+        let c = root(&mut body, c);
+        body[c as usize] = a;
+    }
+    let roots: std::collections::BTreeSet<u32> = triangles.iter().map(|t| root(&mut body, t[0])).collect();
+    assert_eq!(roots.len(), 1);
+}
