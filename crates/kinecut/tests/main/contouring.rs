@@ -354,3 +354,34 @@ fn numbers_that_make_no_contour_are_refused_with_their_key() {
         Code::CUTTER_TOO_LARGE
     );
 }
+
+#[test]
+fn leads_find_their_room_or_another_place() {
+    // A part with a deep channel, 7 mm wide, whose flanks are the longest lines; the cutter of 6 has half a millimetre to spare.
+    let channel = |width: f64| {
+        let corners = [
+            dvec2(0.0, 0.0),
+            dvec2(90.0, 0.0),
+            dvec2(90.0, 20.0),
+            dvec2(12.0, 20.0),
+            dvec2(12.0, 20.0 + width),
+            dvec2(90.0, 20.0 + width),
+            dvec2(90.0, 30.0 + width),
+            dvec2(0.0, 30.0 + width),
+        ];
+        Outline::polygon(&corners).unwrap()
+    };
+    let at = |start: Option<DVec2>, lead_radius: Option<f64>, width: f64| {
+        plan_contour(&ContourSpec { start, lead_radius, ..spec(channel(width)) })
+            .inspect(|plan| sound(&ContourSpec { start, lead_radius, ..spec(channel(width)) }, plan))
+    };
+    let begins = |plan: &ContourPlan| plan.loops[0].edges[0].start;
+    // By itself it begins at the longest line, outside.
+    assert!(begins(&at(None, None, 7.0).unwrap()).y < 0.0);
+    // In the channel there is no room for the smallest arc, but in a wider one there is.
+    let inside = Some(dvec2(50.0, 20.0));
+    assert_eq!(at(inside, None, 6.5).unwrap_err().code(), Code::LEAD_ROOM);
+    assert_eq!(at(inside, Some(1.5), 7.0).unwrap_err().code(), Code::LEAD_ROOM);
+    let wide = at(inside, None, 7.0).unwrap();
+    assert!((begins(&wide).y - 23.0).abs() < 1e-9);
+}

@@ -131,3 +131,55 @@ impl<'a> Check<'a> {
         Ok(())
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use glam::dvec2;
+
+    use super::super::offset;
+    use super::*;
+
+    fn plate() -> Outline {
+        let corners = [dvec2(0.0, 0.0), dvec2(60.0, 0.0), dvec2(60.0, 40.0), dvec2(0.0, 40.0)];
+        let mut loops = vec![Outline::polygon(&corners).unwrap().edges().to_vec()];
+        loops.push(vec![OutlineEdge::arc(dvec2(20.0, 20.0), 5.0, 0.4, TAU)]);
+        Outline::new(loops, vec![]).unwrap()
+    }
+
+    #[test]
+    fn whatever_is_wrong_with_an_offset_is_seen() {
+        let plate = plate();
+        for distance in [4.0, -3.0] {
+            let check = Check::new(&plate, distance);
+            let right: Vec<Vec<OutlineEdge>> =
+                offset(&plate, distance).unwrap().loops.into_iter().map(|l| l.edges).collect();
+            assert!(right.len() == 2 && check.of(&right).is_ok());
+            let wrong = |change: &dyn Fn(&mut Vec<Vec<OutlineEdge>>)| {
+                let mut loops = right.clone();
+                change(&mut loops);
+                check.of(&loops).unwrap_err().to_string()
+            };
+            for left_out in [0, 1] {
+                let message = wrong(&|loops| {
+                    loops.remove(left_out);
+                });
+                assert!(message.contains("lacks a loop"), "{message}");
+            }
+            let gap = wrong(&|loops| loops[0][0].end += dvec2(2e-6, 2e-6));
+            assert!(gap.contains("gap"), "{gap}");
+            let moved =
+                wrong(&|loops| loops[1] = loops[1].iter().map(|e| e.moved(0.0, dvec2(1e-5, 0.0))).collect());
+            assert!(moved.contains("distance"), "{moved}");
+            let other = offset(&plate, 1.01 * distance).unwrap().loops;
+            assert!(wrong(&|loops| loops[0] = other[0].edges.clone()).contains("distance"));
+            let twice = wrong(&|loops| {
+                let again = loops[0].clone();
+                loops[0].extend(again);
+            });
+            assert!(twice.contains("turn once"), "{twice}");
+            // The loop on the other side of the edges has the distance too.
+            let beyond = offset(&plate, -distance).unwrap().loops;
+            assert!(wrong(&|loops| loops[0] = beyond[0].edges.clone()).contains("distance"));
+        }
+    }
+}
