@@ -371,7 +371,9 @@ impl Planner<'_> {
         let fits = |at: f64, radius: f64| {
             let (p, along) = track.at(at);
             let lead = lead(radius, p, along);
-            let (on, off) = (lead.on(p, along, left), lead.off(p, along, left));
+            // It is left a little beyond its beginning.
+            let (q, on_from_there) = track.at(at + self.overlap());
+            let (on, off) = (lead.on(p, along, left), lead.off(q, on_from_there, left));
             let open = |edges: &[OutlineEdge]| {
                 edges.iter().all(|e| (0..=8).all(|i| self.is_free(e.at(f64::from(i) / 8.0), wall)))
             };

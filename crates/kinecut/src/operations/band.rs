@@ -80,7 +80,7 @@ impl Band {
     }
 
     /// Distance of a point from the wall, positive where it is cut; `None` far away.
-    fn from_wall(&self, p: DVec2) -> Option<f64> {
+    fn off_wall(&self, p: DVec2) -> Option<f64> {
         let nearest = self.near.at(p, self.width + self.leave)?;
         let away = if self.keeps_face { nearest.distance } else { -nearest.distance };
         Some(away - self.leave)
@@ -88,7 +88,7 @@ impl Band {
 
     /// Distance from the border of the strip, positive inside.
     pub(crate) fn inside(&self, p: DVec2) -> f64 {
-        match self.from_wall(p) {
+        match self.off_wall(p) {
             None => -self.width,
             Some(d) if 2.0 * d > self.width => self.width - d,
             Some(d) => d,
@@ -98,7 +98,7 @@ impl Band {
     /// The same on the half beside the wall, which alone is compared, from the fillets in its corners where the cutter leaves
     /// them; not a number elsewhere, beyond fillets, and at tabs.
     pub(crate) fn compared(&self, p: DVec2, z: f64) -> f64 {
-        let d = self.from_wall(p).unwrap_or(f64::NAN);
+        let d = self.off_wall(p).unwrap_or(f64::NAN);
         let at_tab = |t: &TabPlace| z < t.top && p.distance(t.at) < t.radius;
         let is_free = 2.0 * d > self.width;
         if is_free || self.tabs.iter().any(at_tab) {

@@ -385,3 +385,26 @@ fn leads_find_their_room_or_another_place() {
     let wide = at(inside, None, 7.0).unwrap();
     assert!((begins(&wide).y - 23.0).abs() < 1e-9);
 }
+
+#[test]
+fn contours_among_islands_are_left_where_there_is_room() {
+    // Twenty-five round islands 0.3 mm farther apart than the cutter is wide: every overlap ends beside a neighbour.
+    let ring = OutlineEdge::arc(DVec2::ZERO, 70.0, 0.1, TAU);
+    let island = |i: u32| {
+        let at = 45.0 * DVec2::from_angle(TAU * f64::from(i) / 25.0);
+        let corners: Vec<DVec2> =
+            (0..20).map(|k| at + 2.5 * DVec2::from_angle(TAU * f64::from(k) / 20.0)).collect();
+        Outline::polygon(&corners).unwrap().edges().to_vec()
+    };
+    let outline =
+        Outline::new(std::iter::once(vec![ring]).chain((0..25).map(island)).collect(), vec![]).unwrap();
+    for finish in [
+        None,
+        Some(ContourFinish { allowance: 0.1, feed: 15.0, stepdown: None, spring_passes: 0, wear: None }),
+    ] {
+        let spec = ContourSpec { side: ContourSide::Inside, finish, ..spec(outline.clone()) };
+        let plan = plan_contour(&spec).unwrap();
+        sound(&spec, &plan);
+        assert_eq!(plan.loops.len(), if finish.is_some() { 52 } else { 26 });
+    }
+}

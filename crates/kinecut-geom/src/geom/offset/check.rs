@@ -16,6 +16,8 @@ use crate::num::angle::wrap;
 
 /// Largest gap of a joint, and largest difference of a distance [mm].
 const LARGEST: f64 = 1e-6;
+/// Turn of a corner that is taken for half a turn: it may go either way [rad].
+const HALF_TURN: f64 = std::f64::consts::PI - 1e-3;
 
 /// An outline and a distance, ready to look at loops.
 pub(super) struct Check<'a> {
@@ -78,7 +80,7 @@ impl<'a> Check<'a> {
         let corners: f64 = (0..edges.len()).map(corner).sum();
         // A corner of half a turn, that of a loop without width, goes either way.
         let off = ((sweeps + corners).abs() - TAU).abs();
-        let is_once = off < 1e-3 || (0..edges.len()).any(|i| corner(i).abs() > 3.14);
+        let is_once = off < 1e-3 || (0..edges.len()).any(|i| corner(i).abs() > HALF_TURN);
         if is_once { Ok(()) } else { self.error("does not turn once", edges[0].start) }
     }
 

@@ -101,5 +101,5 @@ fn join(a: &OutlineEdge, b: &OutlineEdge, cuts: &[Cut]) -> Option<OutlineEdge> {
         s.centre.distance(t.centre) < SAME && (s.radius - t.radius).abs() < SAME && s.sweep * t.sweep > 0.0;
     let cut = one && cuts.iter().any(|cut| cut.is_between(s, a.end));
     let sweep = s.sweep + t.sweep;
-    cut.then(|| OutlineEdge { start: a.start, end: b.end, turn: Some(Turn { sweep, ..s }), label: 0 })
+    cut.then_some(OutlineEdge { start: a.start, end: b.end, turn: Some(Turn { sweep, ..s }), label: 0 })
 }
