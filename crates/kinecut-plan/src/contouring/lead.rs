@@ -16,6 +16,9 @@ pub(super) struct Lead {
 }
 
 impl Lead {
+    /// No way on and off: straight down and up.
+    pub(super) const NONE: Lead = Lead { radius: 0.0, angle: 0.0, line: 0.0 };
+
     /// A lead that comes from no farther aside than `room` [mm].
     pub(super) fn within(radius: f64, line: f64, room: f64) -> Lead {
         // The line at an angle, and the arc: line sin + radius (1 - cos) = room.
@@ -32,6 +35,9 @@ impl Lead {
 
     /// The way off it: arc, then line.
     pub(super) fn off(&self, at: DVec2, along: DVec2, to_left: bool) -> Vec<OutlineEdge> {
+        if self.radius <= 0.0 {
+            return Vec::new();
+        }
         let side = if to_left { 1.0 } else { -1.0 };
         let aside = side * along.perp();
         let centre = at + self.radius * aside;

@@ -207,6 +207,11 @@ fn check(spec: &ContourSpec) -> Result<()> {
             ));
         }
     }
+    if spec.side == ContourSide::On && spec.finish.is_some() {
+        let finding =
+            Finding::error(Code::PLAN_VALUE, "a contour on its line has no wall that could be finished");
+        return Err(finding.help("leave out `finish`, or give a side").key("finish").into());
+    }
     if let Some(tabs) = &spec.tabs
         && tabs.height >= spec.depth
     {
@@ -379,6 +384,11 @@ impl Planner<'_> {
             };
             (open(&on) && open(&off) && free(on[0].start)).then_some(Beginning { at, lead })
         };
+        if spec.side == ContourSide::On {
+            // What is beside the line stays.
+            let at = self.beginnings(track).first().copied().unwrap_or(0.0);
+            return Ok(Beginning { at, lead: Lead::NONE });
+        }
         for place in self.beginnings(track).into_iter().filter(|place| may(*place)) {
             let mut radius = usual;
             loop {
@@ -407,9 +417,6 @@ impl Planner<'_> {
     /// A lead whose free end lies so far from a wall [mm] and so much farther: where roughing has run.
     fn beside(&self, lead: Lead, (p, along): (DVec2, DVec2), wall: f64, farther: f64) -> Lead {
         let straight = Lead::within(lead.radius, lead.line, farther);
-        if self.spec.side == ContourSide::On {
-            return straight;
-        }
         // Beside a curved wall the angle differs from that beside a straight one.
         let far = wall + farther;
         let is_far = |angle: f64| {
@@ -551,7 +558,7 @@ impl Planner<'_> {
                 let mut from = above;
                 if k == 0 {
                     from = (above + RAMP_ABOVE).min(spec.approach_z);
-                    self.travel.over(on[0].start);
+                    self.travel.over(on.first().map_or(p, |e| e.start));
                     self.travel.vertically(ToolpathRole::Entry, ToolpathPace::Feed(spec.plunge_feed), from);
                     self.travel.edges(ToolpathRole::LeadIn, feed, &on)?;
                 }
@@ -562,7 +569,7 @@ impl Planner<'_> {
                 self.travel.follow(role, track, &tabs, lap)?;
                 s = end + whole;
             } else {
-                self.travel.over(on[0].start);
+                self.travel.over(on.first().map_or(p, |e| e.start));
                 if above < spec.approach_z {
                     // What a level above has cut is open; the first one feeds down from over the material.
                     let open =
@@ -659,7 +666,7 @@ impl Planner<'_> {
         let mut last = p;
         for level in &floors {
             self.travel.level = level.index;
-            self.travel.over(on[0].start);
+            self.travel.over(on.first().map_or(p, |e| e.start));
             // Roughing has opened the way down.
             self.travel.vertically(ToolpathRole::Entry, ToolpathPace::Feed(finish.feed), level.floor);
             self.travel.comp = finish.wear.is_some();

@@ -1,5 +1,7 @@
 //! A closed path of the cutter's centre, measured along its length.
 
+use std::f64::consts::PI;
+
 use glam::DVec2;
 
 use crate::geom::{OutlineEdge, Turn};
@@ -16,7 +18,14 @@ pub(super) struct Track {
 const NOTHING: f64 = 1e-9;
 
 impl Track {
+    /// Of edges; arcs beyond a half circle are halved: controls refuse full circles under compensation.
     pub(super) fn new(edges: Vec<OutlineEdge>) -> Track {
+        let is_wide = |e: &OutlineEdge| e.turn.is_some_and(|t| t.sweep.abs() > PI * (1.0 + 1e-9));
+        let halved = |e: OutlineEdge| match is_wide(&e) {
+            true => vec![piece(&e, 0.0, 0.5), piece(&e, 0.5, 1.0)],
+            false => vec![e],
+        };
+        let edges: Vec<OutlineEdge> = edges.into_iter().flat_map(halved).collect();
         let mut begins = vec![0.0];
         for edge in &edges {
             begins.push(begins[begins.len() - 1] + edge.length());

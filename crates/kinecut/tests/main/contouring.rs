@@ -408,3 +408,33 @@ fn contours_among_islands_are_left_where_there_is_room() {
         assert_eq!(plan.loops.len(), if finish.is_some() { 52 } else { 26 });
     }
 }
+
+#[test]
+fn on_the_line_nothing_beside_it_is_cut() {
+    let outline = rectangle(60.0, 40.0);
+    for ramp in [Some(0.05), None] {
+        let spec = ContourSpec { side: ContourSide::On, ramp, ..spec(outline.clone()) };
+        let plan = plan_contour(&spec).unwrap();
+        let below = plan.moves.iter().filter(|m| m.curve.start().z < -1e-9 || m.curve.end().z < -1e-9);
+        for m in below {
+            for i in 0..=8 {
+                let p = m.curve.at(m.curve.length() * f64::from(i) / 8.0).p.truncate();
+                assert!(signed(&outline, p).abs() < 1e-9, "{p}");
+            }
+        }
+        assert!(plan.moves.windows(2).all(|w| (w[1].curve.start() - w[0].curve.end()).length() < 1e-6));
+        let lengths: f64 =
+            plan.moves.iter().filter(|m| m.role == ToolpathRole::Circle).map(|m| m.curve.length()).sum();
+        assert!(lengths > 3.0 * 200.0);
+    }
+}
+
+#[test]
+fn no_arc_is_wider_than_a_half_circle() {
+    let circle = Outline::new(vec![vec![OutlineEdge::arc(dvec2(5.0, 5.0), 20.0, 0.0, TAU)]], vec![]).unwrap();
+    for start in [None, Some(dvec2(28.0, 5.0)), Some(dvec2(5.0, 28.0))] {
+        let plan = plan_contour(&ContourSpec { start, ..spec(circle.clone()) }).unwrap();
+        let around = plan.moves.iter().filter(|m| m.role == ToolpathRole::Circle).map(|m| m.curve.length());
+        assert!(around.fold(0.0, f64::max) < 23.0 * PI + 1e-6);
+    }
+}
