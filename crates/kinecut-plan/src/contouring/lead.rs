@@ -19,14 +19,6 @@ impl Lead {
     /// No way on and off: straight down and up.
     pub(super) const NONE: Lead = Lead { radius: 0.0, angle: 0.0, line: 0.0 };
 
-    /// A lead that comes from no farther aside than `room` [mm].
-    pub(super) fn within(radius: f64, line: f64, room: f64) -> Lead {
-        // The line at an angle, and the arc: line sin + radius (1 - cos) = room.
-        let (reach, back) = (line.hypot(radius), radius.atan2(line));
-        let angle = back + ((room - radius) / reach).clamp(-1.0, 1.0).asin();
-        Lead { radius, angle: angle.min(std::f64::consts::FRAC_PI_2), line }
-    }
-
     /// The way on to a path at a point with its direction of travel, from its left side or its right: line, then arc.
     pub(super) fn on(&self, at: DVec2, along: DVec2, from_left: bool) -> Vec<OutlineEdge> {
         let off: Vec<OutlineEdge> = self.off(at, -along, !from_left);
@@ -60,16 +52,16 @@ mod tests {
     use super::*;
 
     #[test]
-    fn leads_are_tangent_and_stay_within_their_room() {
-        for (room, line) in [(0.2, 0.3), (0.3, 0.0), (4.0, 1.0), (9.0, 1.0)] {
-            let lead = Lead::within(3.0, line, room);
+    fn leads_are_tangent_and_come_from_their_side() {
+        for (angle, line) in [(0.2, 0.3), (0.3, 0.0), (0.5 * std::f64::consts::PI, 1.0)] {
+            let lead = Lead { radius: 3.0, angle, line };
+            let aside = 3.0 * (1.0 - f64::cos(angle)) + line * f64::sin(angle);
             for left in [true, false] {
                 let on = lead.on(dvec2(5.0, 2.0), DVec2::X, left);
                 let off = lead.off(dvec2(5.0, 2.0), DVec2::X, left);
                 let side = |p: DVec2| if left { p.y - 2.0 } else { 2.0 - p.y };
                 for (ends, free) in [(&on, on[0].start), (&off, off[off.len() - 1].end)] {
-                    let most = if room < 4.0 { room } else { 3.0 + line };
-                    assert!((side(free) - most).abs() < 1e-9, "{room} {line} {left} {}", side(free));
+                    assert!((side(free) - aside).abs() < 1e-12, "{angle} {line} {left} {}", side(free));
                     assert!(ends.windows(2).all(|w| {
                         w[0].end.distance(w[1].start) < 1e-12
                             && crate::num::angle::wrap(w[1].heading(0.0) - w[0].heading(1.0)).abs() < 1e-9

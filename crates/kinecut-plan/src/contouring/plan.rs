@@ -416,17 +416,15 @@ impl Planner<'_> {
 
     /// A lead whose free end lies so far from a wall [mm] and so much farther: where roughing has run.
     fn beside(&self, lead: Lead, (p, along): (DVec2, DVec2), wall: f64, farther: f64) -> Lead {
-        let straight = Lead::within(lead.radius, lead.line, farther);
-        // Beside a curved wall the angle differs from that beside a straight one.
-        let far = wall + farther;
+        // A quarter turn and the line reach as far aside as they are long together.
+        let line = if lead.radius + lead.line < farther { farther - lead.radius } else { lead.line };
+        let lead = Lead { line, ..lead };
         let is_far = |angle: f64| {
             let free = Lead { angle, ..lead }.on(p, along, self.spec.keeps_right())[0].start;
-            self.near.at(free, far).is_none()
+            self.near.at(free, wall + farther - ROUNDING).is_none()
         };
+        // Beside a curved wall the angle is another than beside a straight one.
         let (mut low, mut high) = (0.0, FRAC_PI_2);
-        if !is_far(high) {
-            return straight;
-        }
         for _ in 0..50 {
             let middle = 0.5 * (low + high);
             if is_far(middle) {
