@@ -416,18 +416,22 @@ impl Planner<'_> {
 
     /// A lead whose free end lies so far from a wall [mm] and so much farther: where roughing has run.
     fn beside(&self, lead: Lead, (p, along): (DVec2, DVec2), wall: f64, farther: f64) -> Lead {
-        // A quarter turn and the line reach as far aside as they are long together.
-        let line = if lead.radius + lead.line < farther { farther - lead.radius } else { lead.line };
-        let lead = Lead { line, ..lead };
-        let is_far = |angle: f64| {
-            let free = Lead { angle, ..lead }.on(p, along, self.spec.keeps_right())[0].start;
+        /// Lengths of line that are tried where a quarter turn does not reach, and by how much each is longer, in `farther`.
+        const LONGER: (u32, f64) = (32, 0.125);
+        let is_far = |lead: Lead| {
+            let free = lead.on(p, along, self.spec.keeps_right())[0].start;
             self.near.at(free, wall + farther - ROUNDING).is_none()
         };
+        // A quarter turn and the line reach as far aside as they are long together, but beside an inside arc.
+        let line = if lead.radius + lead.line < farther { farther - lead.radius } else { lead.line };
+        let longer = (0..LONGER.0).map(|i| line + f64::from(i) * LONGER.1 * farther);
+        let reaches = |line: &f64| is_far(Lead { line: *line, angle: FRAC_PI_2, ..lead });
+        let lead = Lead { line: longer.into_iter().find(reaches).unwrap_or(line), ..lead };
         // Beside a curved wall the angle is another than beside a straight one.
         let (mut low, mut high) = (0.0, FRAC_PI_2);
         for _ in 0..50 {
             let middle = 0.5 * (low + high);
-            if is_far(middle) {
+            if is_far(Lead { angle: middle, ..lead }) {
                 high = middle;
             } else {
                 low = middle;

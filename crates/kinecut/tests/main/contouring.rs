@@ -442,13 +442,18 @@ fn no_arc_is_wider_than_a_half_circle() {
 #[test]
 fn finishing_comes_on_from_where_roughing_has_run() {
     for (allowance, lead_radius) in [(0.2, None), (2.5, None), (1.0, Some(0.5))] {
-        for outline in [rectangle(60.0, 40.0), Outline::new(vec![vec![OutlineEdge::arc(DVec2::ZERO, 9.0, 0.0, TAU)]], vec![]).unwrap()] {
+        for outline in [
+            rectangle(60.0, 40.0),
+            Outline::new(vec![vec![OutlineEdge::arc(DVec2::ZERO, 9.0, 0.0, TAU)]], vec![]).unwrap(),
+        ] {
             for side in [ContourSide::Outside, ContourSide::Inside] {
-                let finish = ContourFinish { allowance, feed: 15.0, stepdown: None, spring_passes: 0, wear: None };
+                let finish =
+                    ContourFinish { allowance, feed: 15.0, stepdown: None, spring_passes: 0, wear: None };
                 let spec = ContourSpec { side, lead_radius, finish: Some(finish), ..spec(outline.clone()) };
                 let plan = plan_contour(&spec).unwrap();
                 sound(&spec, &plan);
-                let first = plan.moves.iter().find(|m| m.finishing && m.role == ToolpathRole::LeadIn).unwrap();
+                let first =
+                    plan.moves.iter().find(|m| m.finishing && m.role == ToolpathRole::LeadIn).unwrap();
                 let away = signed(&outline, first.curve.start().truncate()).abs();
                 assert!((away - 3.0 - allowance).abs() < 1e-5, "{allowance} {side:?} {away}");
             }
