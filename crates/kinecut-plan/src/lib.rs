@@ -7,6 +7,7 @@ pub use kinecut_geom::{base, geom, num, tool};
 pub use kinecut_machine::machine;
 pub use kinecut_nc::{nc, program, trace};
 
+pub mod clearing;
 pub mod contouring;
 pub mod drilling;
 pub mod facing;

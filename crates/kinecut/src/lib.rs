@@ -55,7 +55,7 @@ pub use kinecut_machine::machine;
 pub use kinecut_nc::{nc, program, trace};
 #[cfg(feature = "plan")]
 #[doc(inline)]
-pub use kinecut_plan::{contouring, drilling, facing, holes, motion};
+pub use kinecut_plan::{clearing, contouring, drilling, facing, holes, motion};
 #[cfg(feature = "stock")]
 #[doc(inline)]
 pub use kinecut_stock::{contact, stock, sweep};

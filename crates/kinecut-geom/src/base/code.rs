@@ -114,6 +114,8 @@ codes! {
         "Tabs lie on straight pieces or wide arcs of a contour, off its corners and off the place where it begins. Fewer fit than are wanted. The report shows where they are.";
     CORNERS_STAY = "KC0409", "inside corners stay",
         "A cutter leaves a fillet of its own radius in inside corners that are sharper. They are not cut, and not compared with the outline. Finish them with a smaller cutter, or draw them as they will be.";
+    POCKET_LEFT = "KC0410", "stock is left that no pass reaches within the engagement",
+        "Passes of a pocket stop where every way on would cut with a larger engagement than is allowed: between walls that are hardly wider apart than the cutter, and in corners. The lap along the wall cuts what is left there, at the engagement that comes. Allow a larger one, or take a smaller cutter.";
 
     RAPID_IN_STOCK = "KC0501", "a rapid move goes through stock",
         "The cutter meets material in a rapid move. On most machines this breaks the cutter, and at times the spindle.";

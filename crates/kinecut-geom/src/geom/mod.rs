@@ -44,7 +44,7 @@ pub use aabb::Aabb;
 pub use arc::Arc;
 pub use arc_chain::{PlanarArc, arc_chain, arcs_needed};
 pub use bezier::CubicSpan;
-pub use biarc_fit::{arcs_along, helices_along};
+pub use biarc_fit::{arcs_along, arcs_near, helices_along};
 pub use chords::{biarcs_needed, chord_points, chord_rolls, chords_needed};
 pub use convex_hull::convex_hull;
 pub use cubic_fit::cubics_along;

@@ -22,6 +22,7 @@ mod plan;
 mod ramp;
 pub mod roll;
 mod rough;
+pub(crate) mod route;
 mod spec;
 pub mod spiral;
 mod strategy;

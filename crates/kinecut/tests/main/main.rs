@@ -8,6 +8,7 @@
 mod common;
 
 // What a job is made of.
+mod clearing;
 mod contour;
 mod contouring;
 mod geom;

@@ -12,6 +12,10 @@
 //! Source: equal tangent lengths: Bolton 1975; the constant 324 agrees with the count of biarcs of an involute in
 //! [`biarcs_needed`](super::biarcs_needed).
 
+mod points;
+
+pub use points::arcs_near;
+
 use glam::{DVec2, DVec3};
 
 use super::arc_chain::{PlanarArc, arc_chain};

@@ -218,6 +218,48 @@ impl OutlineEdge {
         (share, self.at(share).distance(point))
     }
 
+    /// The points that lie on a circle too, two at most; where they only touch, one, none or two.
+    ///
+    /// ```
+    /// # use kinecut_geom as kinecut;
+    /// use glam::{DVec2, dvec2};
+    /// use kinecut::geom::OutlineEdge;
+    /// let line = OutlineEdge::line(dvec2(-5.0, 3.0), dvec2(1.0, 3.0));
+    /// let on: Vec<DVec2> = line.on_circle(DVec2::ZERO, 5.0).collect();
+    /// assert!(on.len() == 1 && (on[0] - dvec2(-4.0, 3.0)).length() < 1e-15);
+    /// ```
+    pub fn on_circle(&self, centre: DVec2, radius: f64) -> impl Iterator<Item = DVec2> {
+        let mut found = [None; 2];
+        match self.turn {
+            None => {
+                let along = self.end - self.start;
+                let length = along.length();
+                let t = along / length;
+                let foot = (centre - self.start).dot(t);
+                let aside = (centre - self.start).perp_dot(t);
+                let half = (radius * radius - aside * aside).sqrt();
+                for (slot, s) in found.iter_mut().zip([foot - half, foot + half]) {
+                    // What is not a number is not within.
+                    *slot = (s >= 0.0 && s <= length).then(|| self.start + s * t);
+                }
+            }
+            Some(t) => {
+                let off = t.centre - centre;
+                let d = off.length();
+                // Along the line of the centres, from that of the circle, and square to it.
+                let along = (d * d + radius * radius - t.radius * t.radius) / (2.0 * d);
+                let half = (radius * radius - along * along).sqrt();
+                let out = off / d;
+                for (slot, side) in found.iter_mut().zip([half, -half]) {
+                    let p = centre + along * out + side * out.perp();
+                    let towards = p - t.centre;
+                    *slot = (p.is_finite() && self.passes(towards.y.atan2(towards.x))).then_some(p);
+                }
+            }
+        }
+        found.into_iter().flatten()
+    }
+
     /// Twice the area between the edge and the origin, counter-clockwise positive [mm2].
     pub(in crate::geom) fn twice_area(&self) -> f64 {
         let triangle = self.start.perp_dot(self.end);

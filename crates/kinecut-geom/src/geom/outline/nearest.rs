@@ -50,6 +50,11 @@ impl NearestEdge {
         self.rounding
     }
 
+    /// An edge by its index.
+    pub fn edge(&self, index: usize) -> &OutlineEdge {
+        &self.edges[index]
+    }
+
     /// The nearest edge, if there is one within a distance [mm].
     pub fn at(&self, p: DVec2, within: f64) -> Option<EdgeDistance> {
         let mut best: Option<(f64, EdgeDistance)> = None;

@@ -1,0 +1,371 @@
+//! The clearing of one level: passes one after the other until nothing is left.
+
+use std::f64::consts::{FRAC_PI_2, PI, TAU};
+
+use glam::DVec2;
+
+use super::link::{Pose, ways};
+use super::region::{CentreRegion, WallLoop};
+use super::swept::{Clearing, Scratch};
+use super::walk::{Walker, Way, step_of};
+use crate::geom::{OutlineEdge, arcs_near};
+
+/// Places along the wall at which passes may begin, in radii of the cutter.
+const ALONG_WALL: f64 = 0.1;
+/// Circle on which stock is looked for, in radii of the cutter: what the chords of a way leave at a wall is no stock.
+const TOUCH: f64 = 0.995;
+/// Stretch of the circle that is rounding [rad].
+const ROUNDING: f64 = 1e-3;
+/// Length between two looks along a link, in radii of the cutter.
+const LINK_STEP: f64 = 0.05;
+/// Radii of the arcs of links that are tried, in radii of the cutter.
+const LINK_RADII: [f64; 2] = [0.5, 0.25];
+/// Area that may be left at one place [mm2].
+const LEFT: f64 = 0.25;
+/// Share of the area that may be left in all.
+const LEFT_SHARE: f64 = 1e-4;
+
+/// A part of the way that clears a level.
+#[derive(Clone, Debug)]
+pub(super) enum Element {
+    /// Down on a helix, from above: its middle, radius [mm], and the polar angle at which it begins and ends [rad].
+    Helix { middle: DVec2, radius: f64, from: f64 },
+    /// Down from above to a cleared place.
+    Down(DVec2),
+    /// Through what is cleared.
+    Link(Vec<OutlineEdge>),
+    /// A pass.
+    Pass(Pass),
+}
+
+/// A pass.
+#[derive(Clone, Debug)]
+pub(super) struct Pass {
+    pub(super) edges: Vec<OutlineEdge>,
+    /// Largest engagement at a point [rad].
+    pub(super) largest: f64,
+}
+
+/// The ways that clear a level.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Cleared {
+    pub(super) elements: Vec<Element>,
+    /// Area that is left [mm2].
+    pub(super) left: f64,
+    /// The largest place that is left: its area [mm2], and a point of it.
+    pub(super) largest_left: Option<(f64, DVec2)>,
+}
+
+impl Cleared {
+    /// With `y` and `-y` exchanged.
+    pub(super) fn mirror(&mut self) {
+        let flip = |p: DVec2| DVec2::new(p.x, -p.y);
+        let flipped = |edges: &mut Vec<OutlineEdge>| {
+            for edge in edges {
+                *edge = edge.mirrored().reversed();
+            }
+        };
+        self.largest_left = self.largest_left.map(|(area, p)| (area, flip(p)));
+        for element in &mut self.elements {
+            match element {
+                Element::Helix { middle, from, .. } => (*middle, *from) = (flip(*middle), -*from),
+                Element::Down(at) => *at = flip(*at),
+                Element::Link(edges) => flipped(edges),
+                Element::Pass(pass) => flipped(&mut pass.edges),
+            }
+        }
+    }
+}
+
+/// A stretch of a loop along the wall that is not cleared.
+#[derive(Clone, Debug)]
+struct Uncleared {
+    of: usize,
+    /// First and last place, by index along the loop; the first is cleared, unless all of the loop is not.
+    from: usize,
+    to: usize,
+    whole: bool,
+}
+
+/// Places along a loop, each with the direction of travel.
+fn places(of: &WallLoop, step: f64) -> Vec<Pose> {
+    let mut found = Vec::new();
+    for edge in &of.edges {
+        let count = (edge.length() / step).ceil().max(1.0);
+        for k in 0..count as usize {
+            let share = k as f64 / count;
+            found.push(Pose { at: edge.at(share), heading: edge.heading(share) });
+        }
+    }
+    found
+}
+
+/// What clears a region.
+pub(super) struct Clearer<'a> {
+    pub(super) region: &'a CentreRegion,
+    pub(super) clearing: &'a mut Clearing,
+    /// Radius of the cutter [mm].
+    pub(super) radius: f64,
+    /// Engagement that is kept [rad].
+    pub(super) wanted: f64,
+    /// Radius of the helix that enters [mm].
+    pub(super) helix: f64,
+    /// Distance of the lines and arcs from the way that was walked [mm].
+    pub(super) tolerance: f64,
+}
+
+impl Clearer<'_> {
+    fn touches(&self, at: DVec2, heading: f64, work: &mut Scratch) -> bool {
+        let radius = TOUCH * self.radius;
+        let mut uncut = |heading: f64| self.clearing.engaged(at, heading, radius, work).largest;
+        uncut(heading) > ROUNDING || uncut(heading + PI) > ROUNDING
+    }
+
+    /// Clears all that the cutter reaches.
+    pub(super) fn run(&mut self) -> Cleared {
+        let mut cleared = Cleared::default();
+        let step = ALONG_WALL * self.radius;
+        let along: Vec<Vec<Pose>> = self.region.loops.iter().map(|l| places(l, step)).collect();
+        let [low, high] = self.region.bounds();
+        let box_area = (high.x - low.x + 2.0 * self.radius) * (high.y - low.y + 2.0 * self.radius);
+        // A pass that removes nothing ends after the way through the air; more steps than this cannot be.
+        let step = step_of(self.radius);
+        let most = (20.0 * box_area / (step * self.radius * (1.0 - self.wanted.cos()))).max(1e4) as usize;
+        let mut here: Option<Pose> = None;
+        let mut work = Scratch::default();
+        for one in 0..self.region.loops.len() {
+            if !self.region.loops[one].outer {
+                continue;
+            }
+            // An open side, or a place that is free already, needs no entry.
+            if along[one].iter().any(|p| !self.touches(p.at, p.heading, &mut work)) {
+                continue;
+            }
+            let (middle, room) = self.region.widest(&self.region.loops[one]);
+            let radius = self.helix.min(room);
+            let from = 0.0;
+            self.clearing.sweep(middle, middle, radius + self.radius);
+            cleared.elements.push(Element::Helix { middle, radius, from });
+            let start = Pose { at: middle + radius * DVec2::from_angle(from), heading: from + FRAC_PI_2 };
+            let way = self.walk(start, most);
+            here = self.keep(&way, &mut cleared).or(here);
+        }
+        let mut open = Vec::new();
+        for (of, places) in along.iter().enumerate() {
+            let touched: Vec<bool> =
+                places.iter().map(|p| self.touches(p.at, p.heading, &mut work)).collect();
+            open.extend(stretches(of, &touched));
+        }
+        let mut dead: Vec<DVec2> = Vec::new();
+        // Points that a pass has been begun for already.
+        let mut hopeless: Vec<DVec2> = Vec::new();
+        loop {
+            // Passes begin where the wall leaves what is cleared, the nearest first.
+            for stretch in &mut open {
+                self.shrink(stretch, &along[stretch.of], &mut work);
+            }
+            open.retain(|s| s.from < s.to);
+            let far = |p: &Pose| here.map_or(p.at, |here| p.at - here.at).length();
+            let next = open
+                .iter()
+                .filter(|s| !s.whole)
+                .map(|s| along[s.of][s.from % along[s.of].len()])
+                .filter(|p| !dead.contains(&p.at))
+                .min_by(|a, b| far(a).total_cmp(&far(b)));
+            let start = match next {
+                Some(place) => place,
+                None => match self.elsewhere(&hopeless, here.map_or(DVec2::ZERO, |h| h.at), &mut cleared) {
+                    Some((place, of)) => {
+                        hopeless.push(of);
+                        place
+                    }
+                    None => break,
+                },
+            };
+            // Before the pass, as the link runs through what is cleared by then.
+            let link = here.and_then(|here| self.link(here, start, &mut work));
+            let down = if link.is_some() { None } else { Some(self.way_in(start, &mut work)) };
+            let way = self.walk(start, most);
+            if way.cutting < 2.0 * step {
+                dead.push(start.at);
+            }
+            if way.cutting > 0.0 {
+                match (link, down) {
+                    (Some(edges), _) => cleared.elements.push(Element::Link(edges)),
+                    (None, Some((at, edges))) => {
+                        cleared.elements.push(Element::Down(at));
+                        if !edges.is_empty() {
+                            cleared.elements.push(Element::Link(edges));
+                        }
+                    }
+                    _ => {}
+                }
+                here = self.keep(&way, &mut cleared).or(here);
+            }
+        }
+        cleared
+    }
+
+    /// Adds a way as lines and arcs; the pose at its end.
+    fn keep(&self, way: &Way, cleared: &mut Cleared) -> Option<Pose> {
+        let edges = arcs_near(&way.points, self.tolerance);
+        let last = edges.last()?;
+        let end = Pose { at: last.end, heading: last.heading(1.0) };
+        cleared.elements.push(Element::Pass(Pass { edges, largest: way.largest }));
+        Some(end)
+    }
+
+    /// The way between two poses through what is cleared, where one is found.
+    fn link(&self, from: Pose, to: Pose, work: &mut Scratch) -> Option<Vec<OutlineEdge>> {
+        let mut clear = |edge: &OutlineEdge| {
+            let count = (edge.length() / (LINK_STEP * self.radius)).ceil().max(1.0);
+            (0..=count as usize).all(|k| {
+                let share = k as f64 / count;
+                let at = edge.at(share);
+                self.region.holds(at)
+                    && self.clearing.engaged(at, edge.heading(share), TOUCH * self.radius, work).total
+                        <= ROUNDING
+            })
+        };
+        LINK_RADII
+            .into_iter()
+            .flat_map(|radius| ways(from, to, radius * self.radius))
+            .chain([vec![OutlineEdge::line(from.at, to.at)]])
+            .find(|way| way.iter().all(&mut clear))
+    }
+
+    /// A cleared place beside the beginning of a pass, and the way from there, tangent to the pass.
+    fn way_in(&self, start: Pose, work: &mut Scratch) -> (DVec2, Vec<OutlineEdge>) {
+        for radius in LINK_RADII {
+            for turn in [FRAC_PI_2, 0.5 * FRAC_PI_2] {
+                // From the left: it turns right into the pass.
+                let radius = radius * self.radius;
+                let right = start.heading - FRAC_PI_2;
+                let centre = start.at - radius * DVec2::from_angle(right + PI);
+                let arc = OutlineEdge::arc(centre, radius, right + PI + turn, -turn);
+                let arc = OutlineEdge { end: start.at, ..arc };
+                let free = (0..=8).all(|k| {
+                    let share = f64::from(k) / 8.0;
+                    let (at, heading) = (arc.at(share), arc.heading(share));
+                    self.region.holds(at) && !self.touches(at, heading, work)
+                });
+                if free {
+                    return (arc.start, vec![arc]);
+                }
+            }
+        }
+        (start.at, Vec::new())
+    }
+
+    fn walk(&mut self, start: Pose, most: usize) -> Way {
+        let mut walker = Walker {
+            region: self.region,
+            clearing: self.clearing,
+            radius: self.radius,
+            wanted: self.wanted,
+            work: Scratch::default(),
+        };
+        walker.pass(start.at, start.heading, most)
+    }
+
+    /// Moves the ends of a stretch along the wall past all that has been cleared.
+    fn shrink(&self, stretch: &mut Uncleared, places: &[Pose], work: &mut Scratch) {
+        let mut touches = |i: usize| {
+            let place = places[i % places.len()];
+            self.touches(place.at, place.heading, work)
+        };
+        if stretch.whole {
+            // A loop that nothing has reached: looked at here and there.
+            if let Some(first) = (0..places.len()).step_by(4).find(|&i| !touches(i)) {
+                *stretch = Uncleared { from: first, to: first + places.len(), whole: false, ..*stretch };
+            } else {
+                return;
+            }
+        }
+        while stretch.from < stretch.to && !touches(stretch.from + 1) {
+            stretch.from += 1;
+        }
+        while stretch.to > stretch.from && !touches(stretch.to) {
+            stretch.to -= 1;
+        }
+    }
+
+    /// A place to begin at where stock is left that no way along the wall leads to.
+    fn elsewhere(&self, hopeless: &[DVec2], here: DVec2, cleared: &mut Cleared) -> Option<(Pose, DVec2)> {
+        let width = self.clearing.cell_width();
+        let reach = self.radius - width;
+        let rest = self.clearing.remains(|p| self.region.room(p) > -reach);
+        let left = rest.len() as f64 * width * width;
+        (cleared.left, cleared.largest_left) = (left, largest(&rest, width));
+        let [low, high] = self.region.bounds();
+        let all = (high.x - low.x) * (high.y - low.y);
+        if left <= LEFT.max(LEFT_SHARE * all) {
+            return None;
+        }
+        let mut work = Scratch::default();
+        let mut rest = rest;
+        rest.sort_by(|a, b| a.distance(here).total_cmp(&b.distance(here)));
+        let near = 0.1 * self.radius;
+        for p in rest.into_iter().filter(|p| hopeless.iter().all(|h| h.distance(*p) > near)) {
+            // A point from which the cutter touches this one with nothing cut yet.
+            for ring in 0..12 {
+                let far = self.radius * (1.0 + 0.1 * f64::from(ring) + 1e-3);
+                for k in 0..48 {
+                    let out = f64::from(k) * TAU / 48.0;
+                    let at = p + far * DVec2::from_angle(out);
+                    if !self.region.holds(at) || self.touches(at, out, &mut work) {
+                        continue;
+                    }
+                    // The point on the right: the heading is a quarter turn before the way from it.
+                    return Some((Pose { at, heading: out - FRAC_PI_2 }, p));
+                }
+            }
+        }
+        None
+    }
+}
+
+/// The largest place of points a cell apart: its area [mm2], and its first point.
+fn largest(points: &[DVec2], width: f64) -> Option<(f64, DVec2)> {
+    let mut left: Vec<DVec2> = points.to_vec();
+    let mut best: Option<(usize, DVec2)> = None;
+    while let Some(first) = left.pop() {
+        let (mut place, mut next) = (vec![first], 0);
+        while next < place.len() {
+            let at = place[next];
+            next += 1;
+            left.retain(|p| {
+                let is_near = p.distance(at) < 1.5 * width;
+                if is_near {
+                    place.push(*p);
+                }
+                !is_near
+            });
+        }
+        if best.is_none_or(|(count, _)| place.len() > count) {
+            best = Some((place.len(), first));
+        }
+    }
+    best.map(|(count, at)| (count as f64 * width * width, at))
+}
+
+/// The uncleared stretches of a loop.
+fn stretches(of: usize, touched: &[bool]) -> Vec<Uncleared> {
+    let count = touched.len();
+    let Some(first) = touched.iter().position(|t| !t) else {
+        return vec![Uncleared { of, from: 0, to: count, whole: true }];
+    };
+    let mut found: Vec<Uncleared> = Vec::new();
+    let mut from = None;
+    for i in first..=first + count {
+        match (touched[i % count], from) {
+            (true, None) => from = Some(i - 1),
+            (false, Some(begin)) => {
+                found.push(Uncleared { of, from: begin, to: i, whole: false });
+                from = None;
+            }
+            _ => {}
+        }
+    }
+    found
+}

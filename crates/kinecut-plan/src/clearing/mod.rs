@@ -1,0 +1,22 @@
+//! Planner of pockets: a face with islands is cleared at a bounded engagement.
+//!
+//! The engagement is the angle of the cutter's circle that cuts. It is known exactly at every place from what has been
+//! swept before ([`Clearing`]), and the path turns so that it stays at the wanted value: along the first pass outwards from a
+//! helix, then along passes that begin where the wall leaves what is cleared, until nothing is left. Between them the cutter
+//! goes through what is cleared, on tangent arcs where one finds room.
+//!
+//! # Signs
+//! Inside of the planner the stock lies on the right of the travel, which is climb for a clockwise spindle; conventional
+//! passes are made in the mirror. Angles of an engagement are counted from the right normal of the travel, counter-clockwise.
+
+mod level;
+mod link;
+mod plan;
+mod region;
+mod spec;
+mod swept;
+mod walk;
+
+pub use plan::{PocketFigures, PocketPlan, WALL_STOCK, plan_pocket};
+pub use spec::PocketSpec;
+pub use swept::{Clearing, Engagement};

@@ -1,0 +1,347 @@
+//! The plan of a pocket: levels, entries, passes, links, and the moves along them.
+
+use std::f64::consts::{PI, TAU};
+
+use glam::DVec2;
+
+use super::level::{Cleared, Clearer, Element};
+use super::region::CentreRegion;
+use super::spec::PocketSpec;
+use super::swept::Clearing;
+use crate::base::bounded::{MAX_LENGTH, bounded, length, positive};
+use crate::base::{Code, CountBound, Finding, Result, Severity};
+use crate::geom::{Outline, OutlineEdge};
+use crate::holes::levels::levels;
+use crate::holes::route::Route;
+use crate::holes::{PlannedMove, ToolpathPace, ToolpathRole};
+
+/// Stock that passes leave beside the wall for the lap along it, beyond that asked for [mm].
+pub const WALL_STOCK: f64 = 0.02;
+/// Radius of the helix where none is given, in radii of the cutter.
+const HELIX: f64 = 0.8;
+/// Least radius of the helix, in radii of the cutter.
+const LEAST_HELIX: f64 = 0.3;
+/// Least length of an arc on which a link rises or falls, in heights.
+const SLOPE: f64 = 3.0;
+/// Height over the material at which feeds down begin [mm].
+const ABOVE: f64 = 0.5;
+/// Distance of arcs from the way that was walked: at most, and in radii of the cutter [mm].
+const TOLERANCE: (f64, f64) = (0.01, 0.001);
+/// Engagement that is kept for the difference between the arcs and the way that was walked [rad].
+const FIT: f64 = 0.004;
+/// Range of the engagement [deg].
+const ENGAGEMENT: [f64; 2] = [5.0, 120.0];
+/// Steepest helix [deg].
+const STEEPEST: f64 = 45.0;
+/// Area that may be left at one place, in squares of the cutter's radius: that of a corner.
+const LEFT: f64 = 0.15;
+/// Area at one place that the lap along the wall must not meet, in squares of the cutter's radius.
+const SLOTTED: f64 = 0.5;
+
+const CELLS: CountBound = CountBound {
+    what: "cells of the pocket",
+    most: 2e7,
+    bytes: 32,
+    code: Code::PLAN_VALUE,
+    help: "use a larger cutter, or part the pocket",
+};
+
+/// A planned pocket.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PocketPlan {
+    /// Moves of the cutter's tip centre, in coordinates of the work offset.
+    pub moves: Vec<PlannedMove>,
+    /// Heights of the levels, the lowest last [mm].
+    pub levels: Vec<f64>,
+    /// The figures of a level.
+    pub figures: PocketFigures,
+    /// Advice and warnings.
+    pub findings: Vec<Finding>,
+}
+
+/// Figures of one level of a pocket.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct PocketFigures {
+    /// Number of passes.
+    pub passes: usize,
+    /// Number of helices.
+    pub entries: usize,
+    /// Number of ways over the part, beside the first.
+    pub retracts: usize,
+    /// Length of the passes [mm].
+    pub cutting: f64,
+    /// Length of the links through what is cleared [mm].
+    pub links: f64,
+    /// Length that no path can be shorter than which climbs along what it leaves and holds the engagement [mm].
+    pub bound: f64,
+    /// Area that the cutter reaches [mm2].
+    pub area: f64,
+    /// Largest engagement of a pass [rad].
+    pub largest: f64,
+    /// Area that the passes leave at corners and between walls, for the lap along the wall [mm2].
+    pub left: f64,
+}
+
+/// Plans the clearing of a pocket, without its wall.
+///
+/// # Errors
+/// `KC0401` where the cutter does not fit, `KC0403` where it cannot enter, `KC0404` for numbers out of range; those of
+/// offsets. Keys are those of the table of the operation.
+///
+/// ```
+/// # use kinecut_plan as kinecut;
+/// use glam::dvec2;
+/// use kinecut::clearing::{PocketSpec, plan_pocket};
+/// use kinecut::geom::Outline;
+/// use kinecut::holes::CutterData;
+/// let corners = [dvec2(0.0, 0.0), dvec2(60.0, 0.0), dvec2(60.0, 40.0), dvec2(0.0, 40.0)];
+/// let cutter = CutterData { diameter: 10.0, centre_cutting: true, max_ramp_angle: None, flute_length: 22.0 };
+/// let plan = plan_pocket(&PocketSpec::new(Outline::polygon(&corners)?, 6.0, cutter, 10.0))?;
+/// assert!(plan.figures.largest.to_degrees() < 60.1);
+/// assert!(plan.figures.cutting < 1.25 * plan.figures.bound);
+/// assert!(plan.moves.windows(2).all(|w| (w[1].curve.start() - w[0].curve.end()).length() < 1e-9));
+/// # Ok::<(), kinecut::base::Error>(())
+/// ```
+pub fn plan_pocket(spec: &PocketSpec) -> Result<PocketPlan> {
+    check(spec)?;
+    let a = spec.radius();
+    let inset = a + spec.allowance + WALL_STOCK;
+    // Conventional is climb in the mirror.
+    let mirrored = !spec.keeps_right();
+    let face = if mirrored { spec.outline.mirrored() } else { spec.outline.clone() };
+    let stock = spec.stock.as_ref().map(|s| if mirrored { s.mirrored() } else { s.clone() });
+    let Some(region) = CentreRegion::new(&face, inset)? else { return Err(too_large(spec, &face)) };
+    CELLS.check(Clearing::cells(region.bounds(), a))?;
+    let mut clearing = Clearing::new(region.bounds(), a);
+    if let Some(stock) = &stock {
+        clearing = clearing.with_stock(stock);
+    }
+    let (most, share) = TOLERANCE;
+    let mut clearer = Clearer {
+        region: &region,
+        clearing: &mut clearing,
+        radius: a,
+        wanted: spec.engagement - FIT,
+        helix: spec.helix_radius.unwrap_or(HELIX * a),
+        tolerance: most.min(share * a),
+    };
+    let mut cleared = clearer.run();
+    if mirrored {
+        cleared.mirror();
+    }
+    entries(spec, &cleared)?;
+    let depth = spec.depth + spec.breakthrough;
+    let floors = levels(spec.top, depth, spec.stepdown.unwrap_or(spec.cutter.flute_length), |_| Ok(a))?;
+    let mut route = Route::new(spec.retract_z, spec.approach_z);
+    for level in &floors {
+        route.level = level.index;
+        run(spec, &cleared, &mut route, [level.above, level.floor])?;
+    }
+    route.retract();
+    let figures = figures(spec, &region, &cleared)?;
+    let mut findings = Vec::new();
+    if let Some((area, at)) = cleared.largest_left
+        && area > LEFT * a * a
+    {
+        let finding = left(area, at);
+        if area > SLOTTED * a * a {
+            return Err(finding.into());
+        }
+        findings.push(Finding { severity: Severity::Warning, ..finding });
+    }
+    Ok(PocketPlan { moves: route.moves, levels: floors.iter().map(|l| l.floor).collect(), figures, findings })
+}
+
+fn check(spec: &PocketSpec) -> Result<()> {
+    positive("tool", spec.cutter.diameter, MAX_LENGTH, "mm")?;
+    positive("depth", spec.depth, MAX_LENGTH, "mm")?;
+    length("breakthrough", spec.breakthrough, 0.0, MAX_LENGTH)?;
+    length("allowance", spec.allowance, 0.0, MAX_LENGTH)?;
+    length("lift", spec.lift, 0.0, MAX_LENGTH)?;
+    for (key, feed) in [("feed", spec.feed), ("plunge_feed", spec.plunge_feed), ("link_feed", spec.link_feed)]
+    {
+        positive(key, feed, 1e6, "mm/s")?;
+    }
+    bounded("engagement", spec.engagement.to_degrees(), ENGAGEMENT[0], ENGAGEMENT[1], "deg")?;
+    let steepest = spec.cutter.max_ramp_angle.map_or(STEEPEST, |most| most.to_degrees().min(STEEPEST));
+    let ramp = spec.ramp.to_degrees();
+    if !(ramp > 0.0 && ramp <= steepest + 1e-9) {
+        let what = "the helix is steeper than the cutter can follow, or level";
+        return Err(Finding::error(Code::PLAN_VALUE, what)
+            .value(ramp, "deg")
+            .bound(steepest, "deg")
+            .help("write a flatter helix, above 0")
+            .key("entry.helix")
+            .into());
+    }
+    if let Some(step) = spec.stepdown {
+        positive("stepdown", step, spec.cutter.flute_length + 1e-6, "mm")?;
+    }
+    if let Some(radius) = spec.helix_radius {
+        positive("entry.radius", radius, spec.radius(), "mm")?;
+    }
+    Ok(())
+}
+
+/// The cutter does not fit anywhere.
+fn too_large(spec: &PocketSpec, face: &Outline) -> crate::base::Error {
+    // The widest place is where the last offset vanishes.
+    let (mut low, mut high) = (0.0, spec.radius() + spec.allowance + WALL_STOCK);
+    let mut at = face.edges()[0].start;
+    for _ in 0..40 {
+        let middle = 0.5 * (low + high);
+        match CentreRegion::new(face, middle) {
+            Ok(Some(region)) => {
+                low = middle;
+                at = region.loops[0].edges[0].start;
+            }
+            _ => high = middle,
+        }
+    }
+    let at = if spec.keeps_right() { at } else { DVec2::new(at.x, -at.y) };
+    let widest = 2.0 * (low - spec.allowance - WALL_STOCK).max(0.0);
+    let what = format!(
+        "the cutter does not fit: the widest place of the pocket is {:.3} mm, at ({:.3}, {:.3})",
+        2.0 * low,
+        at.x,
+        at.y
+    );
+    Finding::error(Code::CUTTER_TOO_LARGE, what)
+        .value_mm(spec.cutter.diameter)
+        .bound_mm(widest)
+        .point([at.x, at.y, 0.0])
+        .help(format!("take a cutter of {:.1} mm (0.7 of the width) or less", 1.4 * low))
+        .key("tool")
+        .into()
+}
+
+/// Whether every helix finds room.
+fn entries(spec: &PocketSpec, cleared: &Cleared) -> Result<()> {
+    let least = LEAST_HELIX * spec.radius();
+    for element in &cleared.elements {
+        let Element::Helix { middle, radius, .. } = element else { continue };
+        if *radius >= least * (1.0 - 1e-9) || spec.cutter.centre_cutting && *radius > 1e-3 {
+            continue;
+        }
+        let what = format!("no way in at ({:.3}, {:.3}): the helix has no room", middle.x, middle.y);
+        return Err(Finding::error(Code::ENTRY_IMPOSSIBLE, what)
+            .value_mm(*radius)
+            .bound_mm(least)
+            .point([middle.x, middle.y, 0.0])
+            .help("take a smaller cutter, or one that cuts at its centre")
+            .key("tool")
+            .into());
+    }
+    Ok(())
+}
+
+/// The moves of one level.
+fn run(spec: &PocketSpec, cleared: &Cleared, route: &mut Route, [above, floor]: [f64; 2]) -> Result<()> {
+    let (feed, plunge) = (ToolpathPace::Feed(spec.feed), ToolpathPace::Feed(spec.plunge_feed));
+    let begin = (above + ABOVE).min(spec.approach_z);
+    for element in &cleared.elements {
+        match element {
+            Element::Helix { middle, radius, from } => {
+                let start = *middle + *radius * DVec2::from_angle(*from);
+                route.over(start);
+                // What a level above has cut is open.
+                let open = if above < spec.top { ToolpathPace::Rapid } else { plunge };
+                route.vertically(ToolpathRole::Entry, open, begin);
+                helix(spec, route, (*middle, *radius, *from), floor)?;
+            }
+            Element::Down(at) => {
+                route.over(*at);
+                if floor + ABOVE < spec.approach_z {
+                    route.vertically(ToolpathRole::Entry, feed, floor + ABOVE);
+                }
+                route.vertically(ToolpathRole::Entry, plunge, floor);
+            }
+            Element::Link(edges) => link(spec, route, edges, floor)?,
+            Element::Pass(pass) => route.edges(ToolpathRole::Rough, spec.feed, &pass.edges)?,
+        }
+    }
+    Ok(())
+}
+
+/// Through what is cleared, off the floor.
+fn link(spec: &PocketSpec, route: &mut Route, edges: &[OutlineEdge], floor: f64) -> Result<()> {
+    let pace = ToolpathPace::Feed(spec.link_feed);
+    let high = floor + spec.lift;
+    // Up and down along arcs that are long enough; a link without them is a stop anyway.
+    let is_slope = |edge: &OutlineEdge| edge.turn.is_some() && edge.length() >= SLOPE * spec.lift;
+    let last = edges.len() - 1;
+    for (i, edge) in edges.iter().enumerate() {
+        let from = route.height();
+        if i == 0 && last > 0 && is_slope(edge) && from < high {
+            route.edge(ToolpathRole::Link, pace, edge, [from, high])?;
+            continue;
+        }
+        route.vertically(ToolpathRole::Link, pace, high);
+        if i == last && i > 0 && is_slope(edge) {
+            route.edge(ToolpathRole::Link, ToolpathPace::Feed(spec.feed), edge, [high, floor])?;
+        } else {
+            route.edge(ToolpathRole::Link, pace, edge, [high, high])?;
+        }
+    }
+    route.vertically(ToolpathRole::Entry, ToolpathPace::Feed(spec.plunge_feed), floor);
+    Ok(())
+}
+
+/// Down on a helix to a floor, and once around on it.
+fn helix(
+    spec: &PocketSpec,
+    route: &mut Route,
+    (middle, radius, from): (DVec2, f64, f64),
+    floor: f64,
+) -> Result<()> {
+    let height = route.height() - floor;
+    let pitch = TAU * radius * spec.ramp.tan();
+    let turns = (height / pitch - 1e-9).ceil().max(1.0);
+    CountBound { what: "turns of the helix", most: 1e4, bytes: 1000, ..CELLS }.check(turns)?;
+    let side = if spec.keeps_right() { 1.0 } else { -1.0 };
+    let mut z = route.height();
+    let halves = 2.0 * turns;
+    let half = |k: f64| OutlineEdge::arc(middle, radius, from + side * k * PI, side * PI);
+    let plunge = ToolpathPace::Feed(spec.plunge_feed);
+    for k in 0..halves as usize {
+        let to = floor + height * (halves - 1.0 - k as f64) / halves;
+        route.edge(ToolpathRole::Entry, plunge, &half((k % 2) as f64), [z, to])?;
+        z = to;
+    }
+    route.edges(ToolpathRole::Entry, spec.plunge_feed, &[half(0.0), half(1.0)])
+}
+
+fn figures(spec: &PocketSpec, region: &CentreRegion, cleared: &Cleared) -> Result<PocketFigures> {
+    let a = spec.radius();
+    let mut f = PocketFigures { left: cleared.left, area: region.reached(a)?, ..PocketFigures::default() };
+    let mut entered = 0.0;
+    for element in &cleared.elements {
+        match element {
+            Element::Helix { radius, .. } => {
+                f.entries += 1;
+                entered += PI * (radius + a) * (radius + a);
+            }
+            Element::Down(_) => f.retracts += 1,
+            Element::Link(edges) => f.links += edges.iter().map(OutlineEdge::length).sum::<f64>(),
+            Element::Pass(pass) => {
+                f.passes += 1;
+                f.cutting += pass.edges.iter().map(OutlineEdge::length).sum::<f64>();
+                f.largest = f.largest.max(pass.largest);
+            }
+        }
+    }
+    f.bound = (f.area - entered).max(0.0) / (a * (1.0 - spec.engagement.cos()));
+    Ok(f)
+}
+
+/// What stays for the lap along the wall.
+fn left(area: f64, at: DVec2) -> Finding {
+    let what = format!(
+        "{area:.1} mm2 at ({:.3}, {:.3}) are left to the lap along the wall: no pass reaches them within the engagement",
+        at.x, at.y
+    );
+    Finding::error(Code::POCKET_LEFT, what)
+        .point([at.x, at.y, 0.0])
+        .help("allow a larger engagement, or take a smaller cutter")
+        .key("engagement")
+}

@@ -1,0 +1,140 @@
+//! Where the centre of the cutter may be.
+
+use glam::DVec2;
+
+use crate::base::Result;
+use crate::geom::{NearestEdge, Outline, OutlineEdge, offset};
+
+/// The region of the cutter's centre: a face, smaller all around by the cutter's radius and what stays on its wall. Its loops
+/// are travelled with the wall on the right: counter-clockwise around it, clockwise around islands.
+#[derive(Clone, Debug)]
+pub(super) struct CentreRegion {
+    pub(super) loops: Vec<WallLoop>,
+    near: NearestEdge,
+    bounds: [DVec2; 2],
+}
+
+/// A loop along the wall.
+#[derive(Clone, Debug)]
+pub(super) struct WallLoop {
+    pub(super) edges: Vec<OutlineEdge>,
+    /// Whether the region lies inside of it.
+    pub(super) outer: bool,
+}
+
+/// Distance beyond the border that is rounding [mm].
+const ROUNDING: f64 = 1e-7;
+
+impl CentreRegion {
+    /// Of a face at a distance [mm]; `None` where nothing is left of it.
+    ///
+    /// # Errors
+    /// Those of offsets.
+    pub(super) fn new(face: &Outline, distance: f64) -> Result<Option<CentreRegion>> {
+        let made = offset(face, distance)?;
+        let open = made.loops.iter().filter(|l| !l.collapsed);
+        let loops: Vec<WallLoop> = open
+            .map(|l| WallLoop {
+                outer: l.area() > 0.0,
+                edges: l.edges.iter().rev().map(OutlineEdge::reversed).collect(),
+            })
+            .collect();
+        if loops.is_empty() {
+            return Ok(None);
+        }
+        let edges: Vec<OutlineEdge> = loops.iter().flat_map(|l| l.edges.iter().copied()).collect();
+        let span = |axis: DVec2| {
+            edges
+                .iter()
+                .map(|e| e.extent(axis))
+                .fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], e| [low.min(e[0]), high.max(e[1])])
+        };
+        let ([x0, x1], [y0, y1]) = (span(DVec2::X), span(DVec2::Y));
+        let bounds = [DVec2::new(x0, y0), DVec2::new(x1, y1)];
+        Ok(Some(CentreRegion { loops, near: NearestEdge::new(&edges), bounds }))
+    }
+
+    /// Area that a cutter of a radius [mm] reaches with its centre in the region [mm2].
+    ///
+    /// # Errors
+    /// Those of offsets.
+    pub(super) fn reached(&self, radius: f64) -> Result<f64> {
+        let loops = self.loops.iter().map(|l| l.edges.iter().rev().map(OutlineEdge::reversed).collect());
+        let outline = Outline::new(loops.collect(), Vec::new())?;
+        Ok(offset(&outline, -radius)?.area())
+    }
+
+    /// The corners of the box around it.
+    pub(super) fn bounds(&self) -> [DVec2; 2] {
+        self.bounds
+    }
+
+    /// Room from a point to the border, negative outside [mm].
+    pub(super) fn room(&self, p: DVec2) -> f64 {
+        self.near.at(p, f64::INFINITY).map_or(f64::NEG_INFINITY, |n| n.distance)
+    }
+
+    /// Whether a point is inside, or on the border.
+    pub(super) fn holds(&self, p: DVec2) -> bool {
+        self.room(p) >= -ROUNDING
+    }
+
+    /// The point itself where it is inside, the nearest point of the border where it is outside.
+    pub(super) fn nearest_inside(&self, p: DVec2) -> DVec2 {
+        match self.near.at(p, f64::INFINITY) {
+            Some(n) if n.distance < 0.0 => self.near.edge(n.edge).at(n.share),
+            _ => p,
+        }
+    }
+
+    /// The point with the most room around it inside one of the loops, and that room [mm].
+    pub(super) fn widest(&self, of: &WallLoop) -> (DVec2, f64) {
+        /// Share of the room that a better point would have to add.
+        const WORTH: f64 = 1e-3;
+        let span = |axis: DVec2| {
+            of.edges
+                .iter()
+                .map(|e| e.extent(axis))
+                .fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], e| [low.min(e[0]), high.max(e[1])])
+        };
+        let ([x0, x1], [y0, y1]) = (span(DVec2::X), span(DVec2::Y));
+        let size = (x1 - x0).max(y1 - y0);
+        let mut best = (DVec2::new(0.5 * (x0 + x1), 0.5 * (y0 + y1)), f64::NEG_INFINITY);
+        // Squares by the most room that a point of them may have, the largest first.
+        let mut squares = vec![(f64::INFINITY, best.0, size)];
+        let inside = |p: DVec2| winds(&of.edges, p);
+        while let Some(at) = (0..squares.len()).max_by(|&a, &b| squares[a].0.total_cmp(&squares[b].0)) {
+            let (most, middle, size) = squares.swap_remove(at);
+            if most <= best.1 + WORTH * best.1.abs().max(1e-3) {
+                break;
+            }
+            for (sx, sy) in [(-0.25, -0.25), (0.25, -0.25), (-0.25, 0.25), (0.25, 0.25)] {
+                let p = middle + size * DVec2::new(sx, sy);
+                let room = self.room(p);
+                if room > best.1 && inside(p) {
+                    best = (p, room);
+                }
+                let half = 0.5 * size;
+                squares.push((room + half * std::f64::consts::FRAC_1_SQRT_2, p, half));
+            }
+        }
+        best
+    }
+}
+
+/// Whether a closed loop goes around a point.
+fn winds(edges: &[OutlineEdge], p: DVec2) -> bool {
+    // A ray to the right, past each edge as two or more chords would see it: arcs are cut at their highest and lowest points.
+    let mut inside = false;
+    for edge in edges {
+        let pieces = if edge.turn.is_some() { 16 } else { 1 };
+        for k in 0..pieces {
+            let (a, b) =
+                (edge.at(f64::from(k) / f64::from(pieces)), edge.at(f64::from(k + 1) / f64::from(pieces)));
+            if (a.y > p.y) != (b.y > p.y) && p.x < a.x + (p.y - a.y) / (b.y - a.y) * (b.x - a.x) {
+                inside = !inside;
+            }
+        }
+    }
+    inside
+}
