@@ -80,8 +80,10 @@ impl Track {
     /// The edges between two places along the length, the second beyond the first; both may lie beyond the end.
     pub(super) fn part(&self, from: f64, to: f64) -> Vec<OutlineEdge> {
         let (mut parts, whole) = (Vec::new(), self.length());
-        let mut turn = (from / whole).floor();
-        let (mut edge, _) = self.locate(from);
+        // Both from one remainder: a quotient of its own may round to the next turn.
+        let within = from.rem_euclid(whole);
+        let mut turn = ((from - within) / whole).round();
+        let (mut edge, _) = self.locate(within);
         loop {
             let base = turn * whole;
             let (a, b) = (base + self.begins[edge], base + self.begins[edge + 1]);
@@ -113,6 +115,20 @@ mod tests {
 
     use super::*;
     use crate::geom::Outline;
+
+    #[test]
+    fn parts_that_begin_within_rounding_of_a_turn_are_whole() {
+        let square = [dvec2(0.0, 0.0), dvec2(0.0, 10.1), dvec2(10.1, 10.1), dvec2(10.1, 0.0)];
+        let track = Track::new(Outline::polygon(&square).expect("a square").edges().to_vec());
+        let whole = track.length();
+        for turn in 0..200 {
+            let exact = f64::from(turn) * whole;
+            for from in [exact.next_down(), exact, exact.next_up(), exact - 1e-12] {
+                let length: f64 = track.part(from, from + 12.0).iter().map(OutlineEdge::length).sum();
+                assert!((length - 12.0).abs() < 1e-9, "{turn} {from} {length}");
+            }
+        }
+    }
 
     #[test]
     fn parts_run_over_the_end_and_join() {
