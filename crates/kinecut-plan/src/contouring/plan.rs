@@ -7,7 +7,7 @@ use glam::DVec2;
 use super::corners::{UncutCorner, uncut};
 use super::lead::Lead;
 use super::spec::{ContourFinish, ContourLoops, ContourSide, ContourSpec, Tabs};
-use super::tabs::{PlacedTab, placed};
+use super::tabs::{PlacedTab, lifted, placed};
 use super::track::Track;
 use super::travel::{Stretch, Travel};
 use crate::base::{Code, Finding, Result};
@@ -497,7 +497,35 @@ impl Planner<'_> {
             let help = "take fewer or narrower tabs, or give their places: tabs = { places = [[x, y], ..] }";
             self.findings.push(Finding::warning(Code::TABS, message).help(help).key("tabs"));
         }
+        self.together(track, start, &found);
         found
+    }
+
+    /// A warning where tabs of a loop run into one another.
+    fn together(&mut self, track: &Track, start: f64, tabs: &[PlacedTab]) {
+        let spec = self.spec;
+        let slopes = spec.slopes(spec.tab_top() - spec.bottom(), false);
+        let whole = track.length();
+        let apart = lifted(tabs, whole, slopes, [start, start + whole]);
+        // Of those that are apart each turn has as many.
+        let count = apart.iter().filter(|[from, _]| (start..start + whole).contains(from)).count();
+        if count < tabs.len() {
+            let (at, _) = track.at(start);
+            let left = match count {
+                0 => "hold all of it".to_owned(),
+                1 => "are 1".to_owned(),
+                _ => format!("are {count}"),
+            };
+            let message = format!(
+                "tabs: {} on the loop that begins at ({:.3}, {:.3}) run into one another and {left}: the cutter needs {:.1} mm beside each to come up and down",
+                tabs.len(),
+                at.x,
+                at.y,
+                slopes[0] + slopes[1]
+            );
+            let help = "take fewer or lower tabs, a steeper ramp, or a cutter that cuts at its centre";
+            self.findings.push(Finding::warning(Code::TABS, message).help(help).key("tabs"));
+        }
     }
 
     /// The tabs that roughing has left beside a track that is finished.
@@ -623,14 +651,13 @@ impl Planner<'_> {
             Some(t) if t.finish => self.left_tabs(track, finish.allowance),
             _ => Vec::new(),
         };
-        // Off the tabs by a diameter.
+        // Off the tabs, and the ways up and down beside them, by a diameter.
+        let [up, down] = spec.slopes(spec.tab_top() - spec.bottom(), finish.wear.is_some());
         let clear = |s: f64| {
-            let whole = track.length();
+            let beside = spec.cutter.diameter;
             tabs.iter().all(|tab| {
-                let middle = 0.5 * (tab.along[0] + tab.along[1]);
-                let apart = (s - middle).rem_euclid(whole);
-                let apart = if apart < whole - apart { apart } else { whole - apart };
-                apart > 0.5 * tab.lifted() + spec.cutter.diameter
+                let gone = (s - (tab.along[0] - up - beside)).rem_euclid(track.length());
+                gone > tab.lifted() + up + down + 2.0 * beside
             })
         };
         let open =

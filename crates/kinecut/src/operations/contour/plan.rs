@@ -216,20 +216,14 @@ impl PlannedContour {
     fn tabs(&self) -> Vec<TabPlace> {
         let Some(tabs) = &self.spec.tabs else { return Vec::new() };
         let top = self.spec.top - self.spec.depth + tabs.height;
-        let loops = self.plan.loops.iter().flat_map(|l| &l.tabs);
-        // The cutter is lifted on this length, comes down beyond it, and cuts its radius farther.
+        let loops = self.plan.loops.iter().flat_map(|l| l.tabs.iter().map(|tab| (tab, l.finishing)));
+        // The cutter is lifted on this length, comes up and down beside it, and cuts its radius farther.
         loops
-            .map(|tab| {
-                let slope = if self.spec.cutter.centre_cutting {
-                    0.0
-                } else {
-                    tabs.height / self.spec.ramp.map_or(1.0, f64::tan)
-                };
-                TabPlace {
-                    at: tab.at,
-                    radius: 0.5 * tab.lifted() + slope + 2.0 * self.spec.radius(),
-                    top: top + 1e-3,
-                }
+            .map(|(tab, finishing)| {
+                let slopes = self.spec.slopes(top - self.spec.bottom(), finishing && self.wear.is_some());
+                let slope = if slopes[0] > slopes[1] { slopes[0] } else { slopes[1] };
+                let radius = 0.5 * tab.lifted() + slope + 2.0 * self.spec.radius();
+                TabPlace { at: tab.at, radius, top: top + 1e-3 }
             })
             .collect()
     }
