@@ -4,12 +4,14 @@ use std::f64::consts::FRAC_PI_2;
 
 use glam::DVec2;
 
+use super::check::{check, out_of_range};
 use super::corners::{UncutCorner, uncut};
 use super::lead::Lead;
 use super::spec::{ContourFinish, ContourLoops, ContourSide, ContourSpec, Tabs};
 use super::tabs::{PlacedTab, lifted, placed};
 use super::track::Track;
 use super::travel::{Stretch, Travel};
+use super::wear::fits;
 use crate::base::{Code, Finding, Result};
 use crate::geom::{NearestEdge, OffsetLoop, OutlineEdge, offset};
 use crate::holes::levels::levels;
@@ -17,8 +19,6 @@ use crate::holes::{PlannedMove, ToolpathPace, ToolpathRole};
 
 /// Height over the material at which a ramp begins [mm].
 const RAMP_ABOVE: f64 = 0.5;
-/// Steepest ramp [rad].
-const STEEPEST: f64 = std::f64::consts::FRAC_PI_4;
 /// Room of a lead beyond the wall that is rounding [mm].
 const ROUNDING: f64 = 1e-6;
 /// Least radius of a lead, in radii of the cutter.
@@ -62,8 +62,9 @@ impl PlannedLoop {
 /// Plans a contour.
 ///
 /// # Errors
-/// `KC0401` where the cutter does not fit, `KC0403` where it cannot come down, `KC0404` for numbers out of range, `KC0407`
-/// where no lead finds room; those of offsets. Keys are those of the table of the operation.
+/// `KC0103` for numbers that are none or not above zero, `KC0401` where the cutter does not fit, `KC0403` where it cannot come
+/// down, `KC0404` for numbers out of range and for a wear under which a part of the path vanishes, `KC0407` where no lead finds
+/// room; those of offsets. Keys are those of the table of the operation.
 ///
 /// ```
 /// # use kinecut_plan as kinecut;
@@ -106,6 +107,10 @@ pub fn plan_contour(spec: &ContourSpec) -> Result<ContourPlan> {
     let last = match spec.finish {
         Some(finish) => {
             let fine = planner.tracks(wall)?;
+            if let Some(wear) = finish.wear {
+                let farther = |wear: f64| planner.paths(wall + wear);
+                fits(&planner.paths(wall)?, farther, wear.largest, (a, wall))?;
+            }
             for (track, outer) in planner.ordered(&fine) {
                 at = Some(planner.finish(track, outer, &rough, wall, &finish)?);
             }
@@ -146,105 +151,6 @@ fn remark(corners: &[UncutCorner], a: f64) -> Option<Finding> {
     Some(finding.help("finish the corners with a smaller cutter, or give them its radius in the drawing"))
 }
 
-fn out_of_range(key: &str, what: &str, value: f64, bound: f64, unit: &str, help: &str) -> crate::base::Error {
-    Finding::error(Code::PLAN_VALUE, what).value(value, unit).bound(bound, unit).help(help).key(key).into()
-}
-
-fn check(spec: &ContourSpec) -> Result<()> {
-    let positive = [
-        ("depth", spec.depth),
-        ("feed", spec.feed),
-        ("plunge_feed", spec.plunge_feed),
-        ("stepdown", spec.stepdown.unwrap_or(1.0)),
-        ("tool", spec.cutter.diameter),
-        ("lead_radius", spec.lead_radius.unwrap_or(1.0)),
-        ("finish.feed", spec.finish.map_or(1.0, |f| f.feed)),
-        ("finish.allowance", spec.finish.map_or(1.0, |f| f.allowance)),
-        ("tabs.width", spec.tabs.as_ref().map_or(1.0, |t| t.width)),
-        ("tabs.height", spec.tabs.as_ref().map_or(1.0, |t| t.height)),
-    ];
-    for (key, value) in positive {
-        if !(value > 0.0 && value.is_finite()) {
-            return Err(out_of_range(
-                key,
-                "the value must be above 0",
-                value,
-                0.0,
-                "",
-                "write a number above 0",
-            ));
-        }
-    }
-    let zero = [
-        ("breakthrough", spec.breakthrough),
-        ("stock_to_leave", spec.stock_to_leave),
-        ("overlap", spec.overlap.unwrap_or(0.0)),
-    ];
-    for (key, value) in zero {
-        if !(value >= 0.0 && value.is_finite()) {
-            return Err(out_of_range(
-                key,
-                "the value must not be below 0",
-                value,
-                0.0,
-                "mm",
-                "write 0 or more",
-            ));
-        }
-    }
-    let flutes = spec.cutter.flute_length;
-    let steps = [("stepdown", spec.stepdown), ("finish.stepdown", spec.finish.and_then(|f| f.stepdown))];
-    for (key, step) in steps {
-        if step.is_some_and(|step| step > flutes + ROUNDING) {
-            let what = "a level is deeper than the flutes are long";
-            return Err(out_of_range(
-                key,
-                what,
-                step.unwrap_or(0.0),
-                flutes,
-                "mm",
-                "take a smaller step, or a longer tool",
-            ));
-        }
-    }
-    if spec.side == ContourSide::On && spec.finish.is_some() {
-        let finding =
-            Finding::error(Code::PLAN_VALUE, "a contour on its line has no wall that could be finished");
-        return Err(finding.help("leave out `finish`, or give a side").key("finish").into());
-    }
-    if let Some(tabs) = &spec.tabs
-        && tabs.height >= spec.depth
-    {
-        let what = "tabs are as high as the contour is deep";
-        return Err(out_of_range(
-            "tabs.height",
-            what,
-            tabs.height,
-            spec.depth,
-            "mm",
-            "write a smaller height",
-        ));
-    }
-    let Some(ramp) = spec.ramp else {
-        if spec.cutter.centre_cutting {
-            return Ok(());
-        }
-        let finding =
-            Finding::error(Code::ENTRY_IMPOSSIBLE, "the cutter does not cut at its centre and cannot plunge");
-        return Err(finding
-            .help("leave out `entry`, or give a ramp: entry = { ramp = 3 }")
-            .key("entry")
-            .into());
-    };
-    let most = spec.cutter.max_ramp_angle.map_or(STEEPEST, |most| most.min(STEEPEST));
-    if !(ramp > 0.0 && ramp <= most + 1e-9) {
-        let (ramp, most) = (ramp.to_degrees(), most.to_degrees());
-        let what = "the ramp is steeper than the cutter can follow, or none";
-        return Err(out_of_range("entry.ramp", what, ramp, most, "deg", "write a flatter ramp, above 0"));
-    }
-    Ok(())
-}
-
 /// A plan in the making.
 struct Planner<'a> {
     spec: &'a ContourSpec,
@@ -261,19 +167,28 @@ struct Beginning {
 }
 
 impl Planner<'_> {
-    /// The tracks at a distance from the outline, as they are travelled, each with whether it is an outer one.
-    fn tracks(&self, distance: f64) -> Result<Vec<(Track, bool)>> {
-        let spec = self.spec;
-        let shrinks = if spec.side == ContourSide::Inside { distance } else { -distance };
-        let made = offset(&spec.outline, shrinks)?;
-        let wanted = |outer: bool| match spec.loops {
+    /// Whether loops of a kind are cut.
+    fn is_wanted(&self, outer: bool) -> bool {
+        match self.spec.loops {
             ContourLoops::All => true,
             ContourLoops::Outer => outer,
             ContourLoops::Inner => !outer,
-        };
-        let loops: Vec<&OffsetLoop> =
-            made.loops.iter().filter(|l| l.collapsed || wanted(l.area() > 0.0)).collect();
-        self.covered(&loops, wanted)?;
+        }
+    }
+
+    /// Paths of the cutter's centre at a distance from the outline.
+    fn paths(&self, distance: f64) -> Result<Vec<OffsetLoop>> {
+        let shrinks = if self.spec.side == ContourSide::Inside { distance } else { -distance };
+        let mut loops = offset(&self.spec.outline, shrinks)?.loops;
+        loops.retain(|l| l.collapsed || self.is_wanted(l.area() > 0.0));
+        Ok(loops)
+    }
+
+    /// The tracks at a distance from the outline, as they are travelled, each with whether it is an outer one.
+    fn tracks(&self, distance: f64) -> Result<Vec<(Track, bool)>> {
+        let spec = self.spec;
+        let loops = self.paths(distance)?;
+        self.covered(&loops)?;
         // Material of the face lies on the right of an offset's loops; inside of it, that is not the material kept.
         let keeps_right = spec.side != ContourSide::Inside;
         let tracks = loops.iter().map(|l| {
@@ -285,7 +200,7 @@ impl Planner<'_> {
     }
 
     /// Every loop of the outline that is to be cut has a path.
-    fn covered(&self, loops: &[&OffsetLoop], wanted: impl Fn(bool) -> bool) -> Result<()> {
+    fn covered(&self, loops: &[OffsetLoop]) -> Result<()> {
         let outline = &self.spec.outline;
         let fits = |what: String, at: DVec2, widest: f64| {
             Err(Finding::error(Code::CUTTER_TOO_LARGE, what)
@@ -311,7 +226,7 @@ impl Planner<'_> {
         }
         for (one, found) in outline.loops().iter().zip(found) {
             // Islands of an inside contour may lie in one another's way, and have one path.
-            let needed = wanted(one.outer) && (one.outer || self.spec.side != ContourSide::Inside);
+            let needed = self.is_wanted(one.outer) && (one.outer || self.spec.side != ContourSide::Inside);
             if needed && !found {
                 let edges = &outline.edges()[one.edges.clone()];
                 let size = [DVec2::X, DVec2::Y].map(|axis| {
