@@ -153,11 +153,14 @@ impl kind::Plan for PlannedContour {
             self.plan.uncut.iter().map(|c| Fillet { centre: c.at, radius, between: c.between }).collect();
         band.tabs = self.tabs();
         let through = t.breakthrough > 0.0;
-        let bottom = spec.top - spec.depth + if through { 0.0 } else { self.of.corner() };
+        let floor = spec.top - spec.depth;
+        // The wall is cut to size above the cutter's corner.
+        band.foot = self.of.corner();
+        let bottom = floor + if through { 0.0 } else { band.foot };
         let wall = WantedWall {
             centre: band.middle,
             top: spec.top,
-            floor: (!through).then_some(bottom),
+            floor: (!through).then_some(floor),
             bottom,
             slug: 0.0,
             wall: Wall::Band(Arc::new(band)),
