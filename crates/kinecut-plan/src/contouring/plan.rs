@@ -140,14 +140,28 @@ pub fn plan_contour(spec: &ContourSpec) -> Result<ContourPlan> {
 
 /// Corners that stay, in a sentence.
 fn remark(corners: &[UncutCorner], a: f64) -> Option<Finding> {
-    let worst = corners.iter().max_by(|x, y| x.thickness.total_cmp(&y.thickness))?;
-    let places = if corners.len() == 1 { "1 place".to_owned() } else { format!("{} places", corners.len()) };
-    let message = format!(
-        "inside corners stay at {places}: a cutter of radius {} leaves up to {:.3} mm",
-        (a * 1e3).round() / 1e3,
-        worst.thickness
-    );
-    let finding = Finding::warning(Code::CORNERS_STAY, message).point([worst.at.x, worst.at.y, 0.0]);
+    let places = |count: usize| if count == 1 { "1 place".to_owned() } else { format!("{count} places") };
+    let thick = |c: &UncutCorner| c.thickness.map(|t| (t, c.at));
+    let worst = corners.iter().filter_map(thick).max_by(|x, y| x.0.total_cmp(&y.0));
+    let between: Vec<&UncutCorner> = corners.iter().filter(|c| c.thickness.is_none()).collect();
+    let radius = (a * 1e3).round() / 1e3;
+    let mut parts = Vec::new();
+    if let Some((thickness, _)) = worst {
+        let places = places(corners.len() - between.len());
+        parts.push(format!(
+            "inside corners stay at {places}: a cutter of radius {radius} leaves up to {thickness:.3} mm"
+        ));
+    }
+    if let Some(first) = between.first() {
+        parts.push(format!(
+            "a cutter of radius {radius} does not go between two loops at {}, for example near ({:.3}, {:.3})",
+            places(between.len()),
+            first.at.x,
+            first.at.y
+        ));
+    }
+    let at = worst.map(|(_, at)| at).or(between.first().map(|c| c.at))?;
+    let finding = Finding::warning(Code::CORNERS_STAY, parts.join("; ")).point([at.x, at.y, 0.0]);
     Some(finding.help("finish the corners with a smaller cutter, or give them its radius in the drawing"))
 }
 

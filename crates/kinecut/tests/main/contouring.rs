@@ -521,14 +521,14 @@ fn corners_that_stay_are_as_thick_as_they_are() {
     let square = inside(rectangle(40.0, 30.0));
     assert_eq!(square.uncut.len(), 4);
     for corner in &square.uncut {
-        assert!((corner.thickness - 3.0 * (2.0_f64.sqrt() - 1.0)).abs() < 1e-9);
+        assert!((corner.thickness.unwrap() - 3.0 * (2.0_f64.sqrt() - 1.0)).abs() < 1e-9);
     }
     assert!(square.findings.iter().any(|f| f.code == Code::CORNERS_STAY && f.severity == Severity::Warning));
     // A corner of 60 degrees, and one with a radius of 1.
     let triangle = inside(
         Outline::polygon(&[dvec2(0.0, 0.0), dvec2(60.0, 0.0), dvec2(30.0, 30.0 * 3f64.sqrt())]).unwrap(),
     );
-    assert!(triangle.uncut.len() == 3 && (triangle.uncut[0].thickness - 3.0).abs() < 1e-9);
+    assert!(triangle.uncut.len() == 3 && (triangle.uncut[0].thickness.unwrap() - 3.0).abs() < 1e-9);
     let round = |r: f64| {
         let edges = vec![
             OutlineEdge::line(dvec2(r, 0.0), dvec2(40.0, 0.0)),
@@ -539,9 +539,26 @@ fn corners_that_stay_are_as_thick_as_they_are() {
         ];
         inside(Outline::new(vec![edges], vec![]).unwrap())
     };
-    let thin = round(1.0).uncut.iter().map(|c| c.thickness).fold(f64::INFINITY, f64::min);
+    let thin = round(1.0).uncut.iter().filter_map(|c| c.thickness).fold(f64::INFINITY, f64::min);
     assert!((thin - 2.0 * (2.0_f64.sqrt() - 1.0)).abs() < 1e-9, "{thin}");
     assert_eq!(round(3.5).uncut.len(), 3);
+}
+
+#[test]
+fn gaps_between_loops_that_the_cutter_does_not_enter_are_named_with_their_place() {
+    // An island 4 mm off the wall of a pocket: the cutter of 6 goes around both.
+    let island: Vec<OutlineEdge> =
+        rectangle(10.0, 8.0).edges().iter().map(|e| e.moved(0.0, dvec2(4.0, 20.0))).collect();
+    let outline = Outline::new(vec![rectangle(60.0, 50.0).edges().to_vec(), island], vec![]).unwrap();
+    let spec = ContourSpec { side: ContourSide::Inside, ..spec(outline) };
+    let plan = plan_contour(&spec).unwrap();
+    let between: Vec<DVec2> = plan.uncut.iter().filter(|c| c.thickness.is_none()).map(|c| c.at).collect();
+    assert_eq!((plan.uncut.len(), between.len()), (6, 2), "{:?}", plan.uncut);
+    assert!(between.iter().all(|p| (p.x - 3.0).abs() < 1e-6 && (p.y - 24.0).abs() < 8.0), "{between:?}");
+    let message = &plan.findings[0].message;
+    assert!(message.contains("stay at 4 places") && message.contains("up to 1.243 mm"), "{message}");
+    assert!(message.contains("does not go between two loops at 2 places, for example near (3.000, "), "{message}");
+    assert!(!message.contains("inf"), "{message}");
 }
 
 #[test]
