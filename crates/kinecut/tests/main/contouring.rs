@@ -557,7 +557,10 @@ fn gaps_between_loops_that_the_cutter_does_not_enter_are_named_with_their_place(
     assert!(between.iter().all(|p| (p.x - 3.0).abs() < 1e-6 && (p.y - 24.0).abs() < 8.0), "{between:?}");
     let message = &plan.findings[0].message;
     assert!(message.contains("stay at 4 places") && message.contains("up to 1.243 mm"), "{message}");
-    assert!(message.contains("does not go between two loops at 2 places, for example near (3.000, "), "{message}");
+    assert!(
+        message.contains("does not go between two loops at 2 places, for example near (3.000, "),
+        "{message}"
+    );
     assert!(!message.contains("inf"), "{message}");
 }
 
