@@ -11,7 +11,7 @@ use kinecut::contouring::{
 use kinecut::geom::{Outline, OutlineEdge};
 use kinecut::holes::{CutterData, FeedAt, PlannedMove, Sense, ToolpathPace, ToolpathRole, Wear};
 
-use crate::common::golden::{file, number};
+use crate::common::golden::{file, number, numbers};
 use crate::common::random::Random;
 
 const CUTTER: CutterData =
@@ -105,6 +105,26 @@ fn golden_feeds_at_arcs() {
         seen += 1;
     }
     assert_eq!(seen, 2);
+}
+
+#[test]
+fn golden_levels() {
+    let mut seen = 0;
+    for case in file("contour")["cases"].as_array().unwrap().iter().filter(|c| c["kind"] == "levels") {
+        let input = &case["input"];
+        let one = ContourSpec {
+            depth: number(input, "depth") - number(input, "floor_allowance"),
+            stepdown: Some(number(input, "step")),
+            cutter: CutterData { flute_length: 100.0, ..CUTTER },
+            ..spec(rectangle(60.0, 40.0))
+        };
+        let (found, want) = (plan_contour(&one).unwrap().levels, numbers(&case["expected"]["levels"]));
+        assert_eq!(found.len(), want.len(), "{case}");
+        let tolerance = number(&case["tolerance"], "levels");
+        assert!(found.iter().zip(&want).all(|(f, w)| (f - w).abs() <= tolerance), "{case}: {found:?}");
+        seen += 1;
+    }
+    assert_eq!(seen, 4);
 }
 
 #[test]
