@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use glam::DVec2;
 
-use crate::geom::{OutlineEdge, Turn};
+use crate::geom::OutlineEdge;
 
 /// A closed path.
 #[derive(Clone, Debug, PartialEq)]
@@ -22,7 +22,7 @@ impl Track {
     pub(super) fn new(edges: Vec<OutlineEdge>) -> Track {
         let is_wide = |e: &OutlineEdge| e.turn.is_some_and(|t| t.sweep.abs() > PI * (1.0 + 1e-9));
         let halved = |e: OutlineEdge| match is_wide(&e) {
-            true => vec![piece(&e, 0.0, 0.5), piece(&e, 0.5, 1.0)],
+            true => vec![e.part(0.0, 0.5), e.part(0.5, 1.0)],
             false => vec![e],
         };
         let edges: Vec<OutlineEdge> = edges.into_iter().flat_map(halved).collect();
@@ -90,7 +90,7 @@ impl Track {
             let share = |s: f64| ((s - a) / (b - a)).clamp(0.0, 1.0);
             let (low, high) = (share(from), share(to));
             if (high - low) * (b - a) > NOTHING {
-                parts.push(piece(&self.edges[edge], low, high));
+                parts.push(self.edges[edge].part(low, high));
             }
             if b >= to {
                 return parts;
@@ -101,12 +101,6 @@ impl Track {
             }
         }
     }
-}
-
-/// A part of an edge, by shares of its length.
-fn piece(edge: &OutlineEdge, from: f64, to: f64) -> OutlineEdge {
-    let turn = edge.turn.map(|t| Turn { from: t.from + from * t.sweep, sweep: (to - from) * t.sweep, ..t });
-    OutlineEdge { start: edge.at(from), end: edge.at(to), turn, label: edge.label }
 }
 
 #[cfg(test)]
