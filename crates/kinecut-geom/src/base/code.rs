@@ -111,7 +111,7 @@ codes! {
     LEAD_ROOM = "KC0407", "a lead finds no room",
         "A contour is joined and left on arcs that are tangent to it, beside the material that stays. Beside no place of the loop, or the one that is asked for, is there room for the smallest arc. Give another start, a smaller lead_radius, or take a smaller cutter.";
     TABS = "KC0408", "tabs do not fit",
-        "Tabs lie on straight pieces or wide arcs of a contour, off its corners and off the place where it begins. Fewer fit than are wanted. The report shows where they are.";
+        "Tabs lie on straight pieces or wide arcs of a contour, off its corners and off the place where it begins. Fewer fit than are wanted, or the ways on which the cutter comes up and down beside them overlap, so that they are one. The report shows where they are.";
     CORNERS_STAY = "KC0409", "inside corners stay",
         "A cutter leaves a fillet of its own radius in inside corners that are sharper. They are not cut, and not compared with the outline. Finish them with a smaller cutter, or draw them as they will be.";
     POCKET_LEFT = "KC0410", "stock is left that no pass reaches within the engagement",

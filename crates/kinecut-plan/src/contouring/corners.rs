@@ -13,8 +13,8 @@ pub struct UncutCorner {
     pub at: DVec2,
     /// Directions from there to where the fillet begins and ends on the wall.
     pub between: [DVec2; 2],
-    /// Stock that stays, at its thickest [mm].
-    pub thickness: f64,
+    /// Stock that stays, at its thickest [mm]; none where the walls belong to two loops, between which the cutter does not go.
+    pub thickness: Option<f64>,
 }
 
 /// Least thickness that counts [mm].
@@ -44,27 +44,24 @@ pub(super) fn uncut(
         let to_wall = |heading: f64| -side * DVec2::from_angle(heading).perp();
         let between = [to_wall(edge.heading(1.0)), to_wall(next.heading(0.0))];
         let thickness = thickest(at, between, wall, (edges, loops), near);
-        if thickness > LEAST {
+        if thickness.is_none_or(|t| t > LEAST) {
             found.push(UncutCorner { at, between, thickness });
         }
     }
     found
 }
 
-/// Greatest distance of the wall's corner beyond the cutter [mm].
+/// Greatest distance of the wall's corner beyond the cutter [mm]; none between walls of two loops.
 fn thickest(
     at: DVec2,
     between: [DVec2; 2],
     wall: f64,
     (edges, loops): (&[OutlineEdge], &[OutlineLoop]),
     near: &NearestEdge,
-) -> f64 {
+) -> Option<f64> {
     let foot = |towards: DVec2| near.at(at + wall * towards, 0.1 * wall + 1e-3).map(|n| n.edge);
-    let (Some(first), Some(last)) = (foot(between[0]), foot(between[1])) else { return f64::INFINITY };
-    let Some(one) = loops.iter().find(|l| l.edges.contains(&first) && l.edges.contains(&last)) else {
-        // Walls of two loops come too close: nothing is known of what is between.
-        return f64::INFINITY;
-    };
+    let (first, last) = (foot(between[0])?, foot(between[1])?);
+    let one = loops.iter().find(|l| l.edges.contains(&first) && l.edges.contains(&last))?;
     let step = |i: usize, on: bool| match on {
         true if i + 1 == one.edges.end => one.edges.start,
         true => i + 1,
@@ -85,5 +82,5 @@ fn thickest(
         (gone, most)
     });
     let shorter = if ways[0].0 <= ways[1].0 { ways[0].1 } else { ways[1].1 };
-    shorter - wall
+    Some(shorter - wall)
 }

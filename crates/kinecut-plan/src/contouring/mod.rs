@@ -9,6 +9,7 @@
 //! clockwise around a part and counter-clockwise inside one. Feeds are those of the cutter's centre; where the feed at the
 //! wall is meant, that at each arc is `F (R - a) / R` inside and `F (R + a) / R` outside of a wall of radius `R`.
 
+mod check;
 mod corners;
 mod feed;
 mod lead;
@@ -17,6 +18,7 @@ mod spec;
 mod tabs;
 mod track;
 mod travel;
+mod wear;
 
 pub use corners::UncutCorner;
 pub use feed::centre_feed;

@@ -4,12 +4,14 @@ use std::f64::consts::FRAC_PI_2;
 
 use glam::DVec2;
 
+use super::check::{check, out_of_range};
 use super::corners::{UncutCorner, uncut};
 use super::lead::Lead;
 use super::spec::{ContourFinish, ContourLoops, ContourSide, ContourSpec, Tabs};
-use super::tabs::{PlacedTab, placed};
+use super::tabs::{PlacedTab, lifted, placed};
 use super::track::Track;
 use super::travel::{Stretch, Travel};
+use super::wear::fits;
 use crate::base::{Code, Finding, Result};
 use crate::geom::{NearestEdge, OffsetLoop, OutlineEdge, offset};
 use crate::holes::levels::levels;
@@ -17,8 +19,6 @@ use crate::holes::{PlannedMove, ToolpathPace, ToolpathRole};
 
 /// Height over the material at which a ramp begins [mm].
 const RAMP_ABOVE: f64 = 0.5;
-/// Steepest ramp [rad].
-const STEEPEST: f64 = std::f64::consts::FRAC_PI_4;
 /// Room of a lead beyond the wall that is rounding [mm].
 const ROUNDING: f64 = 1e-6;
 /// Least radius of a lead, in radii of the cutter.
@@ -62,8 +62,9 @@ impl PlannedLoop {
 /// Plans a contour.
 ///
 /// # Errors
-/// `KC0401` where the cutter does not fit, `KC0403` where it cannot come down, `KC0404` for numbers out of range, `KC0407`
-/// where no lead finds room; those of offsets. Keys are those of the table of the operation.
+/// `KC0103` for numbers that are none or not above zero, `KC0401` where the cutter does not fit, `KC0403` where it cannot come
+/// down, `KC0404` for numbers out of range and for a wear under which a part of the path vanishes, `KC0407` where no lead finds
+/// room; those of offsets. Keys are those of the table of the operation.
 ///
 /// ```
 /// # use kinecut_plan as kinecut;
@@ -106,6 +107,10 @@ pub fn plan_contour(spec: &ContourSpec) -> Result<ContourPlan> {
     let last = match spec.finish {
         Some(finish) => {
             let fine = planner.tracks(wall)?;
+            if let Some(wear) = finish.wear {
+                let farther = |wear: f64| planner.paths(wall + wear);
+                fits(&planner.paths(wall)?, farther, wear.largest, (a, wall))?;
+            }
             for (track, outer) in planner.ordered(&fine) {
                 at = Some(planner.finish(track, outer, &rough, wall, &finish)?);
             }
@@ -135,114 +140,29 @@ pub fn plan_contour(spec: &ContourSpec) -> Result<ContourPlan> {
 
 /// Corners that stay, in a sentence.
 fn remark(corners: &[UncutCorner], a: f64) -> Option<Finding> {
-    let worst = corners.iter().max_by(|x, y| x.thickness.total_cmp(&y.thickness))?;
-    let places = if corners.len() == 1 { "1 place".to_owned() } else { format!("{} places", corners.len()) };
-    let message = format!(
-        "inside corners stay at {places}: a cutter of radius {} leaves up to {:.3} mm",
-        (a * 1e3).round() / 1e3,
-        worst.thickness
-    );
-    let finding = Finding::warning(Code::CORNERS_STAY, message).point([worst.at.x, worst.at.y, 0.0]);
-    Some(finding.help("finish the corners with a smaller cutter, or give them its radius in the drawing"))
-}
-
-fn out_of_range(key: &str, what: &str, value: f64, bound: f64, unit: &str, help: &str) -> crate::base::Error {
-    Finding::error(Code::PLAN_VALUE, what).value(value, unit).bound(bound, unit).help(help).key(key).into()
-}
-
-fn check(spec: &ContourSpec) -> Result<()> {
-    let positive = [
-        ("depth", spec.depth),
-        ("feed", spec.feed),
-        ("plunge_feed", spec.plunge_feed),
-        ("stepdown", spec.stepdown.unwrap_or(1.0)),
-        ("tool", spec.cutter.diameter),
-        ("lead_radius", spec.lead_radius.unwrap_or(1.0)),
-        ("finish.feed", spec.finish.map_or(1.0, |f| f.feed)),
-        ("finish.allowance", spec.finish.map_or(1.0, |f| f.allowance)),
-        ("tabs.width", spec.tabs.as_ref().map_or(1.0, |t| t.width)),
-        ("tabs.height", spec.tabs.as_ref().map_or(1.0, |t| t.height)),
-    ];
-    for (key, value) in positive {
-        if !(value > 0.0 && value.is_finite()) {
-            return Err(out_of_range(
-                key,
-                "the value must be above 0",
-                value,
-                0.0,
-                "",
-                "write a number above 0",
-            ));
-        }
-    }
-    let zero = [
-        ("breakthrough", spec.breakthrough),
-        ("stock_to_leave", spec.stock_to_leave),
-        ("overlap", spec.overlap.unwrap_or(0.0)),
-    ];
-    for (key, value) in zero {
-        if !(value >= 0.0 && value.is_finite()) {
-            return Err(out_of_range(
-                key,
-                "the value must not be below 0",
-                value,
-                0.0,
-                "mm",
-                "write 0 or more",
-            ));
-        }
-    }
-    let flutes = spec.cutter.flute_length;
-    let steps = [("stepdown", spec.stepdown), ("finish.stepdown", spec.finish.and_then(|f| f.stepdown))];
-    for (key, step) in steps {
-        if step.is_some_and(|step| step > flutes + ROUNDING) {
-            let what = "a level is deeper than the flutes are long";
-            return Err(out_of_range(
-                key,
-                what,
-                step.unwrap_or(0.0),
-                flutes,
-                "mm",
-                "take a smaller step, or a longer tool",
-            ));
-        }
-    }
-    if spec.side == ContourSide::On && spec.finish.is_some() {
-        let finding =
-            Finding::error(Code::PLAN_VALUE, "a contour on its line has no wall that could be finished");
-        return Err(finding.help("leave out `finish`, or give a side").key("finish").into());
-    }
-    if let Some(tabs) = &spec.tabs
-        && tabs.height >= spec.depth
-    {
-        let what = "tabs are as high as the contour is deep";
-        return Err(out_of_range(
-            "tabs.height",
-            what,
-            tabs.height,
-            spec.depth,
-            "mm",
-            "write a smaller height",
+    let places = |count: usize| if count == 1 { "1 place".to_owned() } else { format!("{count} places") };
+    let thick = |c: &UncutCorner| c.thickness.map(|t| (t, c.at));
+    let worst = corners.iter().filter_map(thick).max_by(|x, y| x.0.total_cmp(&y.0));
+    let between: Vec<&UncutCorner> = corners.iter().filter(|c| c.thickness.is_none()).collect();
+    let radius = (a * 1e3).round() / 1e3;
+    let mut parts = Vec::new();
+    if let Some((thickness, _)) = worst {
+        let places = places(corners.len() - between.len());
+        parts.push(format!(
+            "inside corners stay at {places}: a cutter of radius {radius} leaves up to {thickness:.3} mm"
         ));
     }
-    let Some(ramp) = spec.ramp else {
-        if spec.cutter.centre_cutting {
-            return Ok(());
-        }
-        let finding =
-            Finding::error(Code::ENTRY_IMPOSSIBLE, "the cutter does not cut at its centre and cannot plunge");
-        return Err(finding
-            .help("leave out `entry`, or give a ramp: entry = { ramp = 3 }")
-            .key("entry")
-            .into());
-    };
-    let most = spec.cutter.max_ramp_angle.map_or(STEEPEST, |most| most.min(STEEPEST));
-    if !(ramp > 0.0 && ramp <= most + 1e-9) {
-        let (ramp, most) = (ramp.to_degrees(), most.to_degrees());
-        let what = "the ramp is steeper than the cutter can follow, or none";
-        return Err(out_of_range("entry.ramp", what, ramp, most, "deg", "write a flatter ramp, above 0"));
+    if let Some(first) = between.first() {
+        parts.push(format!(
+            "a cutter of radius {radius} does not go between two loops at {}, for example near ({:.3}, {:.3})",
+            places(between.len()),
+            first.at.x,
+            first.at.y
+        ));
     }
-    Ok(())
+    let at = worst.map(|(_, at)| at).or(between.first().map(|c| c.at))?;
+    let finding = Finding::warning(Code::CORNERS_STAY, parts.join("; ")).point([at.x, at.y, 0.0]);
+    Some(finding.help("finish the corners with a smaller cutter, or give them its radius in the drawing"))
 }
 
 /// A plan in the making.
@@ -261,19 +181,28 @@ struct Beginning {
 }
 
 impl Planner<'_> {
-    /// The tracks at a distance from the outline, as they are travelled, each with whether it is an outer one.
-    fn tracks(&self, distance: f64) -> Result<Vec<(Track, bool)>> {
-        let spec = self.spec;
-        let shrinks = if spec.side == ContourSide::Inside { distance } else { -distance };
-        let made = offset(&spec.outline, shrinks)?;
-        let wanted = |outer: bool| match spec.loops {
+    /// Whether loops of a kind are cut.
+    fn is_wanted(&self, outer: bool) -> bool {
+        match self.spec.loops {
             ContourLoops::All => true,
             ContourLoops::Outer => outer,
             ContourLoops::Inner => !outer,
-        };
-        let loops: Vec<&OffsetLoop> =
-            made.loops.iter().filter(|l| l.collapsed || wanted(l.area() > 0.0)).collect();
-        self.covered(&loops, wanted)?;
+        }
+    }
+
+    /// Paths of the cutter's centre at a distance from the outline.
+    fn paths(&self, distance: f64) -> Result<Vec<OffsetLoop>> {
+        let shrinks = if self.spec.side == ContourSide::Inside { distance } else { -distance };
+        let mut loops = offset(&self.spec.outline, shrinks)?.loops;
+        loops.retain(|l| l.collapsed || self.is_wanted(l.area() > 0.0));
+        Ok(loops)
+    }
+
+    /// The tracks at a distance from the outline, as they are travelled, each with whether it is an outer one.
+    fn tracks(&self, distance: f64) -> Result<Vec<(Track, bool)>> {
+        let spec = self.spec;
+        let loops = self.paths(distance)?;
+        self.covered(&loops)?;
         // Material of the face lies on the right of an offset's loops; inside of it, that is not the material kept.
         let keeps_right = spec.side != ContourSide::Inside;
         let tracks = loops.iter().map(|l| {
@@ -285,7 +214,7 @@ impl Planner<'_> {
     }
 
     /// Every loop of the outline that is to be cut has a path.
-    fn covered(&self, loops: &[&OffsetLoop], wanted: impl Fn(bool) -> bool) -> Result<()> {
+    fn covered(&self, loops: &[OffsetLoop]) -> Result<()> {
         let outline = &self.spec.outline;
         let fits = |what: String, at: DVec2, widest: f64| {
             Err(Finding::error(Code::CUTTER_TOO_LARGE, what)
@@ -311,7 +240,7 @@ impl Planner<'_> {
         }
         for (one, found) in outline.loops().iter().zip(found) {
             // Islands of an inside contour may lie in one another's way, and have one path.
-            let needed = wanted(one.outer) && (one.outer || self.spec.side != ContourSide::Inside);
+            let needed = self.is_wanted(one.outer) && (one.outer || self.spec.side != ContourSide::Inside);
             if needed && !found {
                 let edges = &outline.edges()[one.edges.clone()];
                 let size = [DVec2::X, DVec2::Y].map(|axis| {
@@ -497,7 +426,35 @@ impl Planner<'_> {
             let help = "take fewer or narrower tabs, or give their places: tabs = { places = [[x, y], ..] }";
             self.findings.push(Finding::warning(Code::TABS, message).help(help).key("tabs"));
         }
+        self.together(track, start, &found);
         found
+    }
+
+    /// A warning where tabs of a loop run into one another.
+    fn together(&mut self, track: &Track, start: f64, tabs: &[PlacedTab]) {
+        let spec = self.spec;
+        let slopes = spec.slopes(spec.tab_top() - spec.bottom(), false);
+        let whole = track.length();
+        let apart = lifted(tabs, whole, slopes, [start, start + whole]);
+        // Of those that are apart each turn has as many.
+        let count = apart.iter().filter(|[from, _]| (start..start + whole).contains(from)).count();
+        if count < tabs.len() {
+            let (at, _) = track.at(start);
+            let left = match count {
+                0 => "hold all of it".to_owned(),
+                1 => "are 1".to_owned(),
+                _ => format!("are {count}"),
+            };
+            let message = format!(
+                "tabs: {} on the loop that begins at ({:.3}, {:.3}) run into one another and {left}: the cutter needs {:.1} mm beside each to come up and down",
+                tabs.len(),
+                at.x,
+                at.y,
+                slopes[0] + slopes[1]
+            );
+            let help = "take fewer or lower tabs, a steeper ramp, or a cutter that cuts at its centre";
+            self.findings.push(Finding::warning(Code::TABS, message).help(help).key("tabs"));
+        }
     }
 
     /// The tabs that roughing has left beside a track that is finished.
@@ -623,14 +580,13 @@ impl Planner<'_> {
             Some(t) if t.finish => self.left_tabs(track, finish.allowance),
             _ => Vec::new(),
         };
-        // Off the tabs by a diameter.
+        // Off the tabs, and the ways up and down beside them, by a diameter.
+        let [up, down] = spec.slopes(spec.tab_top() - spec.bottom(), finish.wear.is_some());
         let clear = |s: f64| {
-            let whole = track.length();
+            let beside = spec.cutter.diameter;
             tabs.iter().all(|tab| {
-                let middle = 0.5 * (tab.along[0] + tab.along[1]);
-                let apart = (s - middle).rem_euclid(whole);
-                let apart = if apart < whole - apart { apart } else { whole - apart };
-                apart > 0.5 * tab.lifted() + spec.cutter.diameter
+                let gone = (s - (tab.along[0] - up - beside)).rem_euclid(track.length());
+                gone > tab.lifted() + up + down + 2.0 * beside
             })
         };
         let open =

@@ -1,11 +1,16 @@
 //! A contour in the planner's words.
 
+use std::f64::consts::PI;
+
 use glam::DVec2;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::geom::Outline;
 use crate::holes::{CutterData, FeedAt, Sense, Wear};
+
+/// Angle at which the ends of tabs rise, where they do [rad].
+const RISE: f64 = PI / 6.0;
 
 /// Side of the outline on which the cutter runs.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
@@ -40,7 +45,7 @@ pub enum TabShape {
     /// Upright ends.
     #[default]
     Flat,
-    /// Ends that rise at 30 degrees.
+    /// Ends that rise at 30 degrees, beside the width.
     Ramp,
 }
 
@@ -139,6 +144,31 @@ impl ContourSpec {
     /// Height at which tabs end; as low as nothing without tabs [mm].
     pub(super) fn tab_top(&self) -> f64 {
         self.tabs.as_ref().map_or(f64::NEG_INFINITY, |t| self.top - self.depth + t.height)
+    }
+
+    /// Ways along the path on which the cutter rises to a tab of a height [mm] and comes down from it [mm]: beside the stretch on
+    /// which it is lifted, so that the tab is nowhere thinner than its width. `compensated`: under compensation of the control,
+    /// where no move goes straight up or down.
+    ///
+    /// ```
+    /// # use kinecut_plan as kinecut;
+    /// # use glam::dvec2;
+    /// # use kinecut::{contouring::ContourSpec, geom::Outline, holes::CutterData};
+    /// # let triangle = Outline::polygon(&[dvec2(0.0, 0.0), dvec2(60.0, 0.0), dvec2(0.0, 40.0)])?;
+    /// # let cutter = CutterData { diameter: 10.0, centre_cutting: true, max_ramp_angle: None, flute_length: 22.0 };
+    /// let upright = ContourSpec::new(triangle, 6.0, cutter, 10.0);
+    /// assert_eq!(upright.slopes(1.5, false), [0.0, 0.0]);
+    /// // At 30 degrees.
+    /// assert!((upright.slopes(1.5, true)[0] - 1.5 * 3f64.sqrt()).abs() < 1e-12);
+    /// # Ok::<(), kinecut::base::Error>(())
+    /// ```
+    pub fn slopes(&self, height: f64, compensated: bool) -> [f64; 2] {
+        let sloped = compensated || self.tabs.as_ref().is_some_and(|t| t.shape == TabShape::Ramp);
+        let rise = if sloped { height / RISE.tan() } else { 0.0 };
+        // Straight down goes only a cutter that cuts at its centre.
+        let ramp = if self.cutter.centre_cutting { None } else { self.ramp };
+        let fall = ramp.map_or(0.0, |angle| height / angle.tan());
+        [rise, if fall > rise { fall } else { rise }]
     }
 
     /// Whether the material that is kept lies on the right of the travel.

@@ -21,6 +21,32 @@ impl PlacedTab {
     }
 }
 
+/// Stretches on which the cutter is lifted over tabs near a stretch along a track of a length [mm], in their order. Tabs that run
+/// into one another, with the ways up and down beside them, are one: between them the cutter would have to go back.
+pub(super) fn lifted(
+    tabs: &[PlacedTab],
+    whole: f64,
+    [up, down]: [f64; 2],
+    [from, to]: [f64; 2],
+) -> Vec<[f64; 2]> {
+    let mut all: Vec<[f64; 2]> = Vec::new();
+    for tab in tabs {
+        // A turn more at both ends: what lies beyond may run into what is near.
+        let first = ((from - down - tab.along[1]) / whole).floor() as i64 - 1;
+        let last = ((to + up - tab.along[0]) / whole).ceil() as i64 + 1;
+        all.extend((first..=last).map(|turn| tab.along.map(|s| s + turn as f64 * whole)));
+    }
+    all.sort_by(|a, b| a[0].total_cmp(&b[0]));
+    all.dedup_by(|next, one| {
+        let is_one = next[0] - up <= one[1] + down;
+        if is_one && next[1] > one[1] {
+            one[1] = next[1];
+        }
+        is_one
+    });
+    all
+}
+
 /// The tabs on a track that begins at `start`, in their order from there, each within one turn from it; fewer than
 /// wanted where they do not fit.
 pub(super) fn placed(track: &Track, tabs: &Tabs, start: f64, diameter: f64) -> Vec<PlacedTab> {

@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use glam::DVec2;
 
-use crate::geom::{OutlineEdge, Turn};
+use crate::geom::OutlineEdge;
 
 /// A closed path.
 #[derive(Clone, Debug, PartialEq)]
@@ -22,7 +22,7 @@ impl Track {
     pub(super) fn new(edges: Vec<OutlineEdge>) -> Track {
         let is_wide = |e: &OutlineEdge| e.turn.is_some_and(|t| t.sweep.abs() > PI * (1.0 + 1e-9));
         let halved = |e: OutlineEdge| match is_wide(&e) {
-            true => vec![piece(&e, 0.0, 0.5), piece(&e, 0.5, 1.0)],
+            true => vec![e.part(0.0, 0.5), e.part(0.5, 1.0)],
             false => vec![e],
         };
         let edges: Vec<OutlineEdge> = edges.into_iter().flat_map(halved).collect();
@@ -80,15 +80,17 @@ impl Track {
     /// The edges between two places along the length, the second beyond the first; both may lie beyond the end.
     pub(super) fn part(&self, from: f64, to: f64) -> Vec<OutlineEdge> {
         let (mut parts, whole) = (Vec::new(), self.length());
-        let mut turn = (from / whole).floor();
-        let (mut edge, _) = self.locate(from);
+        // Both from one remainder: a quotient of its own may round to the next turn.
+        let within = from.rem_euclid(whole);
+        let mut turn = ((from - within) / whole).round();
+        let (mut edge, _) = self.locate(within);
         loop {
             let base = turn * whole;
             let (a, b) = (base + self.begins[edge], base + self.begins[edge + 1]);
             let share = |s: f64| ((s - a) / (b - a)).clamp(0.0, 1.0);
             let (low, high) = (share(from), share(to));
             if (high - low) * (b - a) > NOTHING {
-                parts.push(piece(&self.edges[edge], low, high));
+                parts.push(self.edges[edge].part(low, high));
             }
             if b >= to {
                 return parts;
@@ -101,18 +103,26 @@ impl Track {
     }
 }
 
-/// A part of an edge, by shares of its length.
-fn piece(edge: &OutlineEdge, from: f64, to: f64) -> OutlineEdge {
-    let turn = edge.turn.map(|t| Turn { from: t.from + from * t.sweep, sweep: (to - from) * t.sweep, ..t });
-    OutlineEdge { start: edge.at(from), end: edge.at(to), turn, label: edge.label }
-}
-
 #[cfg(test)]
 mod tests {
     use glam::dvec2;
 
     use super::*;
     use crate::geom::Outline;
+
+    #[test]
+    fn parts_that_begin_within_rounding_of_a_turn_are_whole() {
+        let square = [dvec2(0.0, 0.0), dvec2(0.0, 10.1), dvec2(10.1, 10.1), dvec2(10.1, 0.0)];
+        let track = Track::new(Outline::polygon(&square).expect("a square").edges().to_vec());
+        let whole = track.length();
+        for turn in 0..200 {
+            let exact = f64::from(turn) * whole;
+            for from in [exact.next_down(), exact, exact.next_up(), exact - 1e-12] {
+                let length: f64 = track.part(from, from + 12.0).iter().map(OutlineEdge::length).sum();
+                assert!((length - 12.0).abs() < 1e-9, "{turn} {from} {length}");
+            }
+        }
+    }
 
     #[test]
     fn parts_run_over_the_end_and_join() {

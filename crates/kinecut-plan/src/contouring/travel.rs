@@ -1,19 +1,15 @@
 //! The moves of a contour, made one after the other: along a track at heights, over tabs, up and down.
 
-use std::f64::consts::PI;
-
 use glam::{DVec2, DVec3};
 
 use super::feed::centre_feed;
-use super::spec::{ContourSpec, TabShape};
-use super::tabs::PlacedTab;
+use super::spec::ContourSpec;
+use super::tabs::{PlacedTab, lifted};
 use super::track::Track;
 use crate::base::Result;
 use crate::geom::{Arc, Curve, Line, OutlineEdge};
 use crate::holes::{FeedAt, PlannedMove, ToolpathPace, ToolpathRole};
 
-/// Angle at which the ends of tabs rise, where they do [rad].
-const RISE: f64 = PI / 6.0;
 /// Moves shorter than this are dropped [mm].
 const NOTHING: f64 = 1e-9;
 
@@ -116,7 +112,11 @@ impl<'a> Travel<'a> {
         tabs: &[PlacedTab],
         way: Stretch,
     ) -> Result<()> {
-        let points = self.heights(track, tabs, &way);
+        let points = self.heights(track.length(), tabs, &way);
+        if let Some([_, z]) = points.first() {
+            // Where a tab has an upright end, the stretch before may have ended at its foot.
+            self.vertically(role, ToolpathPace::Feed(way.feed), *z);
+        }
         for pair in points.windows(2) {
             let ([from, z0], [to, z1]) = (pair[0], pair[1]);
             let down = z1 < z0 - NOTHING;
@@ -147,76 +147,64 @@ impl<'a> Travel<'a> {
         centre_feed(feed, wall, a, inside)
     }
 
-    /// Heights along a stretch: at each place that of the stretch or of a tab, whichever is higher.
-    fn heights(&self, track: &Track, tabs: &[PlacedTab], way: &Stretch) -> Vec<[f64; 2]> {
+    /// Heights along a stretch: at each place that of the stretch or of the lift over tabs, whichever is higher. `whole`:
+    /// length of the track [mm].
+    fn heights(&self, whole: f64, tabs: &[PlacedTab], way: &Stretch) -> Vec<[f64; 2]> {
         let ([from, to], [z0, z1]) = (way.along, way.heights);
-        let base = |s: f64| if to > from { z0 + (z1 - z0) * (s - from) / (to - from) } else { z1 };
-        let whole = track.length();
+        if to - from <= NOTHING {
+            return Vec::new();
+        }
+        let base = |s: f64| z0 + (z1 - z0) * ((s - from) / (to - from)).clamp(0.0, 1.0);
         let mut points = vec![[from, z0]];
-        let lowest = if z0 < z1 { z0 } else { z1 };
-        let mut knots: Vec<Vec<[f64; 2]>> = Vec::new();
-        if self.spec.tab_top() > lowest {
-            for tab in tabs {
-                let first = ((from - tab.along[1]) / whole).floor() as i64;
-                let last = ((to - tab.along[0]) / whole).ceil() as i64;
-                knots.extend((first..=last).map(|turn| self.knots(tab, turn as f64 * whole, lowest)));
+        let lift = self.lift(whole, tabs, way.along);
+        for pair in lift.windows(2) {
+            let ([a, lift_a], [b, lift_b]) = (pair[0], pair[1]);
+            let (over_a, over_b) = (lift_a - base(a), lift_b - base(b));
+            if over_a >= -NOTHING {
+                points.push([a, lift_a]);
             }
-            knots.sort_by(|a, b| a[0][0].total_cmp(&b[0][0]));
-        }
-        for one in &knots {
-            for pair in one.windows(2) {
-                let ([sa, za], [sb, zb]) = (pair[0], pair[1]);
-                if sb < from || sa > to {
-                    continue;
-                }
-                let lift = |s: f64| if sb > sa { za + (zb - za) * (s - sa) / (sb - sa) } else { zb };
-                let (a, b) = (sa.max(from), sb.min(to));
-                let (la, lb) = if sb > sa { (lift(a), lift(b)) } else { (za, zb) };
-                let (over_a, over_b) = (la - base(a), lb - base(b));
-                points.push([a, la.max(base(a))]);
-                if sb > sa && over_a * over_b < 0.0 {
-                    let s = a + (b - a) * over_a / (over_a - over_b);
-                    points.push([s, base(s)]);
-                }
-                points.push([b, lb.max(base(b))]);
+            if over_a.abs() > NOTHING && over_b.abs() > NOTHING && over_a * over_b < 0.0 {
+                let s = a + (b - a) * over_a / (over_a - over_b);
+                points.push([s, base(s)]);
+            }
+            if over_b >= -NOTHING {
+                points.push([b, lift_b]);
             }
         }
-        let raised = knots.iter().any(|one| one[0][0] < to && one[one.len() - 1][0] > to);
-        if !raised {
-            points.push([to, z1]);
-        }
-        if knots.iter().any(|one| one[0][0] < from && one[one.len() - 1][0] > from) {
-            // The stretch begins on a tab: the tool is up already.
+        if lift.first().is_some_and(|[_, z]| *z > z0) {
+            // It begins on a tab.
             points.remove(0);
+        }
+        if lift.last().is_none_or(|[_, z]| *z <= z1) {
+            points.push([to, z1]);
         }
         points.dedup_by(|b, a| (a[0] - b[0]).abs() <= NOTHING && (a[1] - b[1]).abs() <= NOTHING);
         points
     }
 
-    /// The upper side of a tab along the track, from the left of it to its right; far below everything beside it.
-    fn knots(&self, tab: &PlacedTab, turn: f64, lowest: f64) -> Vec<[f64; 2]> {
+    /// The lift over tabs along a stretch, as places along it with heights, from its beginning to its end; the bottom of the cut
+    /// beside tabs.
+    fn lift(&self, whole: f64, tabs: &[PlacedTab], [from, to]: [f64; 2]) -> Vec<[f64; 2]> {
         let spec = self.spec;
-        let [from, to] = tab.along.map(|s| s + turn);
-        let top = spec.tab_top();
-        let deep = top - lowest;
-        let sloped = self.comp || spec.tabs.as_ref().is_some_and(|t| t.shape == TabShape::Ramp);
-        let rise = RISE.tan();
-        let (from_top, top) = match sloped {
-            true => {
-                let peak = (0.5 * (to - from) * rise).min(deep);
-                (peak / rise, lowest + peak)
+        let (top, bottom) = (spec.tab_top(), spec.bottom());
+        let slopes = spec.slopes(top - bottom, self.comp);
+        let mut knots = vec![[f64::NEG_INFINITY, bottom]];
+        for [begin, end] in lifted(tabs, whole, slopes, [from, to]) {
+            let [up, down] = slopes;
+            knots.extend([[begin - up, bottom], [begin, top], [end, top], [end + down, bottom]]);
+        }
+        knots.push([f64::INFINITY, bottom]);
+        let mut line: Vec<[f64; 2]> = Vec::new();
+        for pair in knots.windows(2) {
+            let ([a, z_a], [b, z_b]) = (pair[0], pair[1]);
+            // An upright end at the very beginning lies before the stretch, one at its end beyond.
+            if b <= from || a >= to {
+                continue;
             }
-            false => (0.0, top),
-        };
-        let mut knots = vec![[from, lowest], [from + from_top, top]];
-        // Down again: straight only for a cutter that cuts at its centre.
-        let down = match (sloped, spec.cutter.centre_cutting, spec.ramp) {
-            (true, true, _) => [to - from_top, to],
-            (false, true, _) | (_, false, None) => [to, to],
-            (_, false, Some(angle)) => [to - from_top, to - from_top + (top - lowest) / angle.tan()],
-        };
-        knots.push([down[0], top]);
-        knots.push([down[1], lowest]);
-        knots
+            let at = |s: f64| if z_a == z_b { z_a } else { z_a + (z_b - z_a) * (s - a) / (b - a) };
+            line.push(if a < from { [from, at(from)] } else { [a, z_a] });
+            line.push(if b > to { [to, at(to)] } else { [b, z_b] });
+        }
+        line
     }
 }

@@ -23,6 +23,8 @@ pub(crate) struct Band {
     pub(crate) corners: Vec<Fillet>,
     /// Tabs.
     pub(crate) tabs: Vec<TabPlace>,
+    /// Radius of the fillet that the cutter leaves along the foot of the strip's sides.
+    pub(crate) foot: f64,
 }
 
 /// A fillet that a cutter leaves in a corner.
@@ -76,6 +78,7 @@ impl Band {
             reach: 0.5 * min.distance(max) + width + leave,
             corners: Vec::new(),
             tabs: Vec::new(),
+            foot: 0.0,
         }
     }
 
@@ -99,19 +102,36 @@ impl Band {
     /// them; not a number elsewhere, beyond fillets, and at tabs.
     pub(crate) fn compared(&self, p: DVec2, z: f64) -> f64 {
         let d = self.off_wall(p).unwrap_or(f64::NAN);
-        let at_tab = |t: &TabPlace| z < t.top && p.distance(t.at) < t.radius;
         let is_free = 2.0 * d > self.width;
-        if is_free || self.tabs.iter().any(at_tab) {
+        if is_free || self.is_tab(p, z) {
             return f64::NAN;
         }
-        let fillet =
-            self.corners.iter().filter_map(|f| f.inside(p)).filter(|_| d > 0.0).min_by(f64::total_cmp);
-        match fillet {
+        match self.fillet(p).filter(|_| d > 0.0) {
             // Beyond the fillet stock stays, and what else cuts there is no matter of this wall.
             Some(inside) if inside < -FILLET => f64::NAN,
             Some(inside) => inside,
             None => d,
         }
+    }
+
+    /// Distance from the border of what the cutter leaves level at the floor, positive over it: on all of the width of the strip,
+    /// but not in the fillets; not a number at tabs.
+    pub(crate) fn over_floor(&self, p: DVec2, z: f64) -> f64 {
+        if self.is_tab(p, z) {
+            return f64::NAN;
+        }
+        let inside = self.inside(p);
+        let nearer = self.fillet(p).filter(|fillet| *fillet < inside).unwrap_or(inside);
+        nearer - self.foot
+    }
+
+    fn is_tab(&self, p: DVec2, z: f64) -> bool {
+        self.tabs.iter().any(|t| z < t.top && p.distance(t.at) < t.radius)
+    }
+
+    /// Distance of a point in a corner from the fillet that stays there, positive where the cutter passes.
+    fn fillet(&self, p: DVec2) -> Option<f64> {
+        self.corners.iter().filter_map(|f| f.inside(p)).min_by(f64::total_cmp)
     }
 
     /// Whether a face with a normal looks away from the material that stays.
@@ -175,7 +195,17 @@ mod tests {
         assert!((band.compared(dvec2(2.0, 2.0), 0.0) - (5.0 - 18.0_f64.sqrt())).abs() < 1e-12);
         // Beside the fillet all counts, and what is cut too deep counts everywhere.
         assert!(band.compared(dvec2(6.0, 0.01), 0.0) > 0.0 && band.compared(dvec2(-0.2, 0.5), 0.0) < 0.0);
+        // The floor is compared across the whole strip, but for its corners.
+        for (p, over) in [((20.0, 0.5), 0.5), ((20.0, 7.0), 3.0), ((20.0, 11.0), -10.0), ((20.0, -1.0), -1.0)]
+        {
+            let found = band.over_floor(p.into(), -9.0);
+            assert!((found - over).abs() < 1e-12 || over < 0.0 && found < 0.0, "{p:?} {found}");
+        }
+        assert!(band.over_floor(corner, -9.0) < -1.0);
+        band.foot = 1.0;
+        assert!((band.over_floor(dvec2(20.0, 7.0), -9.0) - 2.0).abs() < 1e-12);
         band.tabs.push(TabPlace { at: dvec2(20.0, 5.0), radius: 8.0, top: -3.0 });
+        assert!(band.over_floor(dvec2(20.0, 7.0), -9.0).is_nan());
         assert!(
             band.compared(dvec2(20.0, 0.1), -4.0).is_nan() && band.compared(dvec2(20.0, 0.1), -2.0) > 0.0
         );

@@ -110,6 +110,14 @@ impl Wall {
         }
     }
 
+    /// Distance from the border of what is level at a floor, positive over it [mm]; not a number where it is not compared.
+    pub(crate) fn over_floor(&self, off: DVec2, floor: f64) -> f64 {
+        match self {
+            Wall::Band(band) => band.over_floor(band.middle + off, floor),
+            _ => self.inside(off, floor),
+        }
+    }
+
     /// Whether a face with a normal looks to where is cut.
     pub(crate) fn faces_cut(&self, off: DVec2, normal: DVec2) -> bool {
         match self {

@@ -2,7 +2,7 @@
 
 use std::f64::consts::{PI, TAU};
 
-use glam::{DVec2, dvec2};
+use glam::{DVec2, DVec3, dvec2};
 use kinecut::base::{Code, Severity};
 use kinecut::contouring::{
     ContourFinish, ContourLoops, ContourPlan, ContourSide, ContourSpec, TabShape, Tabs, centre_feed,
@@ -11,7 +11,7 @@ use kinecut::contouring::{
 use kinecut::geom::{Outline, OutlineEdge};
 use kinecut::holes::{CutterData, FeedAt, PlannedMove, Sense, ToolpathPace, ToolpathRole, Wear};
 
-use crate::common::golden::{file, number};
+use crate::common::golden::{file, number, numbers};
 use crate::common::random::Random;
 
 const CUTTER: CutterData =
@@ -108,6 +108,26 @@ fn golden_feeds_at_arcs() {
 }
 
 #[test]
+fn golden_levels() {
+    let mut seen = 0;
+    for case in file("contour")["cases"].as_array().unwrap().iter().filter(|c| c["kind"] == "levels") {
+        let input = &case["input"];
+        let one = ContourSpec {
+            depth: number(input, "depth") - number(input, "floor_allowance"),
+            stepdown: Some(number(input, "step")),
+            cutter: CutterData { flute_length: 100.0, ..CUTTER },
+            ..spec(rectangle(60.0, 40.0))
+        };
+        let (found, want) = (plan_contour(&one).unwrap().levels, numbers(&case["expected"]["levels"]));
+        assert_eq!(found.len(), want.len(), "{case}");
+        let tolerance = number(&case["tolerance"], "levels");
+        assert!(found.iter().zip(&want).all(|(f, w)| (f - w).abs() <= tolerance), "{case}: {found:?}");
+        seen += 1;
+    }
+    assert_eq!(seen, 4);
+}
+
+#[test]
 fn random_outlines_are_cut_whole_and_not_gouged() {
     let mut random = Random(5);
     let mut planned = 0;
@@ -144,6 +164,7 @@ fn random_outlines_are_cut_whole_and_not_gouged() {
         let plan = match plan_contour(&spec) {
             Ok(plan) => plan,
             Err(e) if [Code::CUTTER_TOO_LARGE, Code::LEAD_ROOM].contains(&e.code()) => continue,
+            Err(e) if e.0.key.as_deref() == Some("finish.wear_largest") => continue,
             Err(e) => panic!("{round}: {e}"),
         };
         planned += 1;
@@ -219,18 +240,8 @@ fn tabs_stand_where_they_are_told_and_as_high() {
             assert_eq!(one.tabs.len(), 3);
             for tab in &one.tabs {
                 assert!((tab.lifted() - 11.0).abs() < 1e-9);
-                // No move comes below the tab's top over its thinnest width.
-                let low = plan
-                    .moves
-                    .iter()
-                    .flat_map(|m| {
-                        (0..=400).map(move |k| m.curve.at(m.curve.length() * f64::from(k) / 400.0).p)
-                    })
-                    .filter(|p| {
-                        p.truncate().distance(tab.at) < if shape == TabShape::Flat { 5.4 } else { 1.1 }
-                    })
-                    .map(|p| p.z)
-                    .fold(f64::INFINITY, f64::min);
+                // No move comes below the tab's top over its width and the cutter's.
+                let low = lowest(&plan, |p| p.truncate().distance(tab.at) < 5.45);
                 assert!((low - -8.0).abs() < 1e-9, "{shape:?} {centre_cutting} {low}");
             }
         }
@@ -242,6 +253,233 @@ fn tabs_stand_where_they_are_told_and_as_high() {
             }
         }
     }
+}
+
+/// Least height of the cutter at places, over all moves.
+fn lowest(plan: &ContourPlan, at: impl Fn(DVec3) -> bool) -> f64 {
+    let points = |m: &PlannedMove| {
+        let curve = m.curve.clone();
+        (0..=400).map(move |k| curve.at(curve.length() * f64::from(k) / 400.0).p)
+    };
+    plan.moves.iter().flat_map(points).filter(|p| at(*p)).map(|p| p.z).fold(f64::INFINITY, f64::min)
+}
+
+#[test]
+fn finishing_under_compensation_leaves_tabs_their_width() {
+    let tabs =
+        Tabs { count: 2, width: 5.0, height: 2.0, shape: TabShape::Flat, finish: true, places: vec![] };
+    let wear = Some(Wear { register: 2, largest: 0.05 });
+    let finish = ContourFinish { allowance: 0.2, feed: 15.0, stepdown: None, spring_passes: 0, wear };
+    let spec = ContourSpec { tabs: Some(tabs), finish: Some(finish), ..spec(rectangle(120.0, 80.0)) };
+    let plan = plan_contour(&spec).unwrap();
+    sound(&spec, &plan);
+    for one in &plan.loops {
+        for tab in &one.tabs {
+            assert!((lowest(&plan, |p| p.truncate().distance(tab.at) < 5.4) - -8.0).abs() < 1e-9);
+        }
+    }
+    // The slopes, as long as they are said to be, lie beside.
+    assert!((spec.slopes(2.0, true)[0] - 2.0 * 3f64.sqrt()).abs() < 1e-12);
+    let tab = plan.loops.last().unwrap().tabs[0];
+    let finishing =
+        ContourPlan { moves: plan.moves.iter().filter(|m| m.finishing).cloned().collect(), ..plan };
+    let half = 5.5 + 2.0 * 3f64.sqrt();
+    assert!(lowest(&finishing, |p| p.truncate().distance(tab.at) < half - 0.2) > -10.0 + 0.1);
+    assert!((lowest(&finishing, |p| p.truncate().distance(tab.at) < half + 0.2) - -10.0).abs() < 1e-9);
+    let is_upright =
+        |m: &&PlannedMove| m.comp && (m.curve.end() - m.curve.start()).truncate().length() < 1e-9;
+    assert_eq!(finishing.moves.iter().filter(is_upright).count(), 0);
+}
+
+#[test]
+fn whatever_the_contour_tabs_keep_their_width_and_ways_down_their_angle() {
+    let mut random = Random(11);
+    let mut planned = 0;
+    for round in 0..150 {
+        let (x, y) = (random.between(60.0, 160.0), random.between(50.0, 120.0));
+        let shape = if random.share() < 0.5 { TabShape::Flat } else { TabShape::Ramp };
+        let (width, height) = (random.between(1.0, 6.0), random.between(0.5, 4.0));
+        let tabs =
+            Tabs { count: 1 + random.below(5) as u32, width, height, shape, finish: true, places: vec![] };
+        let wear = (random.share() < 0.5).then_some(Wear { register: 2, largest: 0.05 });
+        let finish = ContourFinish { allowance: 0.2, feed: 15.0, stepdown: None, spring_passes: 1, wear };
+        let centre_cutting = random.share() < 0.6;
+        let plunges = centre_cutting && random.share() < 0.3;
+        let angle = random.between(0.03, 0.4);
+        let spec = ContourSpec {
+            side: if random.share() < 0.5 { ContourSide::Inside } else { ContourSide::Outside },
+            sense: if random.share() < 0.5 { Sense::Climb } else { Sense::Conventional },
+            ramp: (!plunges).then_some(angle),
+            finish: (random.share() < 0.7).then_some(finish),
+            cutter: CutterData { centre_cutting, ..CUTTER },
+            stepdown: Some(random.between(1.0, 10.0)),
+            breakthrough: if random.share() < 0.5 { 0.7 } else { 0.0 },
+            tabs: Some(tabs),
+            ..spec(rectangle(x, y).moved(random.between(0.0, 6.0), DVec2::ZERO))
+        };
+        let plan = match plan_contour(&spec) {
+            Ok(plan) => plan,
+            Err(e) if e.code() == Code::LEAD_ROOM => continue,
+            Err(e) => panic!("{round}: {e}"),
+        };
+        planned += 1;
+        sound(&spec, &plan);
+        let half = 0.5 * width + 3.0 - 0.05;
+        for tab in plan.loops.iter().flat_map(|l| &l.tabs) {
+            let low = lowest(&plan, |p| p.truncate().distance(tab.at) < half);
+            assert!(low >= spec.top - spec.depth + height - 1e-9, "{round}: {low} at {tab:?} of {spec:?}");
+        }
+        for pair in plan.moves.windows(2) {
+            let [way, next] = [&pair[0].curve, &pair[1].curve].map(|c| c.end() - c.start());
+            let (flat, flat_next) = (way.truncate(), next.truncate());
+            // Feed moves along the path never turn back, and never fall steeper than the cutter can.
+            let along = pair
+                .iter()
+                .all(|m| [ToolpathRole::Entry, ToolpathRole::Circle, ToolpathRole::Finish].contains(&m.role));
+            let is_back =
+                flat.length() > 1e-6 && flat_next.length() > 1e-6 && flat.angle_to(flat_next).abs() > 3.0;
+            assert!(!(along && is_back), "{round}: {pair:?}");
+            if !centre_cutting && is_feed(&pair[1]) && pair[1].curve.start().z < -1e-9 {
+                assert!(next.z > -1e-9 || -next.z <= pair[1].curve.length() * angle.sin() + 1e-9, "{pair:?}");
+            }
+            assert!(!pair[1].comp || flat_next.length() > 1e-9, "{round}: {pair:?}");
+        }
+    }
+    assert!(planned > 120, "{planned}");
+}
+
+#[test]
+fn tabs_that_run_into_one_another_are_one() {
+    let tabs = Tabs {
+        count: 2,
+        width: 5.0,
+        height: 2.0,
+        shape: TabShape::Flat,
+        finish: true,
+        places: vec![dvec2(50.0, 80.0), dvec2(70.0, 80.0)],
+    };
+    // A cutter without centre teeth comes down over 20 mm behind a tab: on the next one.
+    let cutter = CutterData { centre_cutting: false, ..CUTTER };
+    let apart = |cutter: CutterData| {
+        let spec =
+            ContourSpec { tabs: Some(tabs.clone()), ramp: Some(0.1), cutter, ..spec(rectangle(120.0, 80.0)) };
+        let plan = plan_contour(&spec).unwrap();
+        sound(&spec, &plan);
+        let between = lowest(&plan, |p| (59.0..61.0).contains(&p.x) && p.y > 80.0);
+        // It never goes back along the edge.
+        let on_edge = |m: &&PlannedMove| m.curve.start().y > 82.9 && m.curve.end().y > 82.9 && m.level > 0;
+        let back = plan.moves.iter().filter(|m| m.role == ToolpathRole::Circle).filter(on_edge);
+        assert!(back.clone().count() > 0);
+        for m in back {
+            assert!(m.curve.end().x > m.curve.start().x - 1e-9, "{m:?}");
+        }
+        (between, plan.findings)
+    };
+    let (between, findings) = apart(cutter);
+    assert!((between - -8.0).abs() < 1e-9, "{between}");
+    assert!(findings.len() == 1 && findings[0].code == Code::TABS, "{findings:?}");
+    assert!(findings[0].message.contains("run into one another and are 1"), "{findings:?}");
+    let (between, findings) = apart(CUTTER);
+    assert!((between - -10.0).abs() < 1e-9 && findings.is_empty(), "{between}");
+    // Low parts all around: nothing of the tabs' height is cut.
+    let all = ContourSpec {
+        tabs: Some(Tabs { count: 3, places: vec![], ..tabs.clone() }),
+        ramp: Some(0.01),
+        cutter,
+        ..spec(rectangle(120.0, 80.0))
+    };
+    let plan = plan_contour(&all).unwrap();
+    sound(&all, &plan);
+    assert!((lowest(&plan, |_| true) - -8.0).abs() < 1e-9);
+    assert!(plan.findings[0].message.contains("hold all of it"), "{:?}", plan.findings);
+}
+
+/// A contour inside a corner, finished under a wear.
+fn worn(outline: Outline, largest: f64) -> ContourSpec {
+    let wear = Some(Wear { register: 2, largest });
+    let finish = ContourFinish { allowance: 0.2, feed: 15.0, stepdown: None, spring_passes: 0, wear };
+    ContourSpec { side: ContourSide::Inside, finish: Some(finish), ..spec(outline) }
+}
+
+/// A rectangle of 40 x 30 mm with rounded corners.
+fn rounded(r: f64) -> Outline {
+    let corner = |x: f64, y: f64, from: f64| OutlineEdge::arc(dvec2(x, y), r, from, 0.5 * PI);
+    let arcs = [
+        corner(r, r, PI),
+        corner(40.0 - r, r, 1.5 * PI),
+        corner(40.0 - r, 30.0 - r, 0.0),
+        corner(r, 30.0 - r, 0.5 * PI),
+    ];
+    let edges = (0..4).flat_map(|i| [arcs[i], OutlineEdge::line(arcs[i].end, arcs[(i + 1) % 4].start)]);
+    Outline::new(vec![edges.collect()], vec![]).unwrap()
+}
+
+#[test]
+fn a_wear_that_makes_an_arc_vanish_is_refused_with_the_largest_that_fits() {
+    let error = plan_contour(&worn(rounded(3.02), 0.05)).unwrap_err().0;
+    assert_eq!((error.code, error.key.as_deref()), (Code::PLAN_VALUE, Some("finish.wear_largest")));
+    assert!(error.message.contains("inside arc of radius 0.02 at ("), "{}", error.message);
+    assert!(error.message.contains("R3.02 in the drawing beside a cutter of R3"), "{}", error.message);
+    assert_eq!(error.value.as_ref().unwrap().value, 0.05);
+    let largest = error.bound.as_ref().unwrap().value;
+    assert!((0.0199 - 1e-9..0.02).contains(&largest), "{largest}");
+    let at = error.point.unwrap();
+    assert!((at[0].min(40.0 - at[0]) - 3.006).abs() < 0.01 && (at[1].min(30.0 - at[1]) - 3.006).abs() < 0.01);
+    // With that it is planned, sharp corners and wide ones are with any, and so is the outside.
+    assert!(plan_contour(&worn(rounded(3.02), largest)).is_ok());
+    assert!(plan_contour(&worn(rounded(3.0), 0.05)).is_ok());
+    assert!(plan_contour(&worn(rounded(4.0), 0.2)).is_ok());
+    assert!(plan_contour(&worn(rectangle(40.0, 30.0), 0.2)).is_ok());
+    let outside = ContourSpec { side: ContourSide::Outside, ..worn(rounded(3.02), 0.05) };
+    assert!(plan_contour(&outside).is_ok());
+}
+
+#[test]
+fn a_wear_that_takes_a_line_or_a_neck_away_is_refused() {
+    // A slot of 6.3 mm in the side: its end is a line of 0.3 mm of the path.
+    let notched = |wide: f64| {
+        let (low, high) = (20.0 - 0.5 * wide, 20.0 + 0.5 * wide);
+        let corners = [
+            dvec2(0.0, 0.0),
+            dvec2(60.0, 0.0),
+            dvec2(60.0, low),
+            dvec2(80.0, low),
+            dvec2(80.0, high),
+            dvec2(60.0, high),
+            dvec2(60.0, 40.0),
+            dvec2(0.0, 40.0),
+        ];
+        Outline::polygon(&corners).unwrap()
+    };
+    let line = plan_contour(&worn(notched(6.3), 0.16)).unwrap_err().0;
+    assert!(line.message.contains("the path has a line of 0.3 mm between inside corners at (77"), "{line:?}");
+    assert!((line.bound.unwrap().value - 0.1499).abs() < 2e-4);
+    assert!(plan_contour(&worn(notched(6.3), 0.1)).is_ok());
+    // Two rooms, joined by a neck of 6.2 mm.
+    let corners = [
+        dvec2(0.0, 0.0),
+        dvec2(30.0, 0.0),
+        dvec2(30.0, 12.0),
+        dvec2(50.0, 12.0),
+        dvec2(50.0, 0.0),
+        dvec2(80.0, 0.0),
+        dvec2(80.0, 40.0),
+        dvec2(50.0, 40.0),
+        dvec2(50.0, 18.2),
+        dvec2(30.0, 18.2),
+        dvec2(30.0, 40.0),
+        dvec2(0.0, 40.0),
+    ];
+    let rooms = Outline::polygon(&corners).unwrap();
+    let neck = plan_contour(&worn(rooms.clone(), 0.12)).unwrap_err().0;
+    assert_eq!(neck.key.as_deref(), Some("finish.wear_largest"), "{neck:?}");
+    assert!((neck.bound.as_ref().unwrap().value - 0.0999).abs() < 2e-4);
+    let at = neck.point.unwrap();
+    assert!((29.0..51.0).contains(&at[0]) && (14.9..15.3).contains(&at[1]), "{at:?}");
+    assert!(neck.message.contains("comes too near to itself"), "{neck:?}");
+    assert!(plan_contour(&worn(rooms, 0.09)).is_ok());
+    let large = plan_contour(&worn(rectangle(40.0, 30.0), 3.0)).unwrap_err().0;
+    assert_eq!(large.key.as_deref(), Some("finish.wear_largest"));
 }
 
 #[test]
@@ -303,14 +541,14 @@ fn corners_that_stay_are_as_thick_as_they_are() {
     let square = inside(rectangle(40.0, 30.0));
     assert_eq!(square.uncut.len(), 4);
     for corner in &square.uncut {
-        assert!((corner.thickness - 3.0 * (2.0_f64.sqrt() - 1.0)).abs() < 1e-9);
+        assert!((corner.thickness.unwrap() - 3.0 * (2.0_f64.sqrt() - 1.0)).abs() < 1e-9);
     }
     assert!(square.findings.iter().any(|f| f.code == Code::CORNERS_STAY && f.severity == Severity::Warning));
     // A corner of 60 degrees, and one with a radius of 1.
     let triangle = inside(
         Outline::polygon(&[dvec2(0.0, 0.0), dvec2(60.0, 0.0), dvec2(30.0, 30.0 * 3f64.sqrt())]).unwrap(),
     );
-    assert!(triangle.uncut.len() == 3 && (triangle.uncut[0].thickness - 3.0).abs() < 1e-9);
+    assert!(triangle.uncut.len() == 3 && (triangle.uncut[0].thickness.unwrap() - 3.0).abs() < 1e-9);
     let round = |r: f64| {
         let edges = vec![
             OutlineEdge::line(dvec2(r, 0.0), dvec2(40.0, 0.0)),
@@ -321,9 +559,29 @@ fn corners_that_stay_are_as_thick_as_they_are() {
         ];
         inside(Outline::new(vec![edges], vec![]).unwrap())
     };
-    let thin = round(1.0).uncut.iter().map(|c| c.thickness).fold(f64::INFINITY, f64::min);
+    let thin = round(1.0).uncut.iter().filter_map(|c| c.thickness).fold(f64::INFINITY, f64::min);
     assert!((thin - 2.0 * (2.0_f64.sqrt() - 1.0)).abs() < 1e-9, "{thin}");
     assert_eq!(round(3.5).uncut.len(), 3);
+}
+
+#[test]
+fn gaps_between_loops_that_the_cutter_does_not_enter_are_named_with_their_place() {
+    // An island 4 mm off the wall of a pocket: the cutter of 6 goes around both.
+    let island: Vec<OutlineEdge> =
+        rectangle(10.0, 8.0).edges().iter().map(|e| e.moved(0.0, dvec2(4.0, 20.0))).collect();
+    let outline = Outline::new(vec![rectangle(60.0, 50.0).edges().to_vec(), island], vec![]).unwrap();
+    let spec = ContourSpec { side: ContourSide::Inside, ..spec(outline) };
+    let plan = plan_contour(&spec).unwrap();
+    let between: Vec<DVec2> = plan.uncut.iter().filter(|c| c.thickness.is_none()).map(|c| c.at).collect();
+    assert_eq!((plan.uncut.len(), between.len()), (6, 2), "{:?}", plan.uncut);
+    assert!(between.iter().all(|p| (p.x - 3.0).abs() < 1e-6 && (p.y - 24.0).abs() < 8.0), "{between:?}");
+    let message = &plan.findings[0].message;
+    assert!(message.contains("stay at 4 places") && message.contains("up to 1.243 mm"), "{message}");
+    assert!(
+        message.contains("does not go between two loops at 2 places, for example near (3.000, "),
+        "{message}"
+    );
+    assert!(!message.contains("inf"), "{message}");
 }
 
 #[test]

@@ -33,7 +33,7 @@ pub(super) fn loops(outline: &Outline, distance: f64, near: &NearestEdge) -> Res
         });
         cuts.sort_by(f64::total_cmp);
         for pair in cuts.windows(2) {
-            let piece = part(candidate, pair[0], pair[1]).labelled(i as u32);
+            let piece = candidate.part(pair[0], pair[1]).labelled(i as u32);
             let kept = piece.length() > same
                 && near
                     .at(piece.at(0.5), distance.abs())
@@ -75,12 +75,6 @@ fn candidates(outline: &Outline, distance: f64) -> Vec<OutlineEdge> {
         }
     }
     all
-}
-
-/// A part of an edge, by shares of its length.
-fn part(edge: &OutlineEdge, from: f64, to: f64) -> OutlineEdge {
-    let turn = edge.turn.map(|t| Turn { from: t.from + from * t.sweep, sweep: (to - from) * t.sweep, ..t });
-    OutlineEdge { start: edge.at(from), end: edge.at(to), turn, label: edge.label }
 }
 
 /// The pieces without those that lie on another one and run the same way.

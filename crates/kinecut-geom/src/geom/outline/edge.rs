@@ -124,6 +124,23 @@ impl OutlineEdge {
         self.heading(s) + FRAC_PI_2
     }
 
+    /// The part of the edge between two shares of its length.
+    ///
+    /// ```
+    /// # use kinecut_geom as kinecut;
+    /// use glam::DVec2;
+    /// use kinecut::geom::OutlineEdge;
+    /// let half = OutlineEdge::arc(DVec2::ZERO, 2.0, 0.0, std::f64::consts::PI);
+    /// let last = half.part(0.75, 1.0);
+    /// assert!((last.length() - 0.25 * half.length()).abs() < 1e-15 && last.end == half.end);
+    /// ```
+    #[must_use]
+    pub fn part(&self, from: f64, to: f64) -> OutlineEdge {
+        let turn =
+            self.turn.map(|t| Turn { from: t.from + from * t.sweep, sweep: (to - from) * t.sweep, ..t });
+        OutlineEdge { start: self.at(from), end: self.at(to), turn, label: self.label }
+    }
+
     /// The same edge travelled the other way.
     #[must_use]
     pub fn reversed(&self) -> OutlineEdge {

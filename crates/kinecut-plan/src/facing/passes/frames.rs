@@ -10,7 +10,7 @@ use super::offset::{Corner, offset_loops};
 use super::row_cost::RowCost;
 use super::{PassPath, path_burr, uncovered};
 use crate::facing::FaceCase;
-use crate::geom::OutlineEdge;
+use crate::geom::{Outline, OutlineEdge};
 
 /// Options of a frame: distance, corners, and the passes inside.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -91,11 +91,7 @@ pub fn frames(case: &FaceCase, options: &FrameOptions) -> Option<PassPath> {
     if !(reach > 0.0 && options.outside < reach && options.margin >= 0.0 && options.clearance >= 0.0) {
         return None;
     }
-    let loops = |outer: bool| -> Vec<Vec<OutlineEdge>> {
-        let chosen = case.outline.loops().iter().filter(|l| l.outer == outer);
-        chosen.map(|l| case.outline.edges()[l.edges.clone()].to_vec()).collect()
-    };
-    let outer = loops(true);
+    let outer = case.outline.with_loops(|l| l.outer);
     let run = case.radius + options.clearance;
     let mut path = PassPath::default();
     let first = offset_loops(&outer, options.outside, options.corner);
@@ -114,10 +110,14 @@ pub fn frames(case: &FaceCase, options: &FrameOptions) -> Option<PassPath> {
     let mut best = complete(&path)?;
     if options.holes {
         let mut bad = path_burr(case, &best).bad;
-        for hole in loops(false).into_iter().filter(|h| width(h) >= case.radius) {
+        let holes = case.outline.loops().iter().filter(|l| !l.outer);
+        for hole in holes.map(|own| case.outline.with_loops(|l| l == own)) {
+            if width(&hole) < case.radius {
+                continue;
+            }
             let mut chosen = None;
             for share in FrameOptions::HOLES {
-                let around = offset_loops(std::slice::from_ref(&hole), share * case.radius, Corner::Round);
+                let around = offset_loops(&hole, share * case.radius, Corner::Round);
                 let with = around.iter().fold(path.clone(), |p, one| with_frame(case, &p, one, run, !filled));
                 let Some(whole) = complete(&with).filter(|_| !around.is_empty()) else { continue };
                 let left = path_burr(case, &whole).bad;
@@ -135,14 +135,9 @@ pub fn frames(case: &FaceCase, options: &FrameOptions) -> Option<PassPath> {
 }
 
 /// The lesser side of the box around a loop [mm].
-fn width(one: &[OutlineEdge]) -> f64 {
-    let side = |axis| {
-        let ends = one.iter().map(|e| e.extent(axis));
-        let [low, high] =
-            ends.fold([f64::INFINITY, f64::NEG_INFINITY], |a, e| [a[0].min(e[0]), a[1].max(e[1])]);
-        high - low
-    };
-    side(DVec2::X).min(side(DVec2::Y))
+fn width(one: &Outline) -> f64 {
+    let [low, high] = one.bounds();
+    (high - low).min_element()
 }
 
 /// The path with one more closed frame, begun and left where it leaves the least burr. The cutter comes straight from
@@ -218,7 +213,7 @@ fn with_ring(path: &mut PassPath, ring: &[OutlineEdge]) {
 fn rings(
     case: &FaceCase,
     path: &PassPath,
-    outer: &[Vec<OutlineEdge>],
+    outer: &Outline,
     options: &FrameOptions,
     reach: f64,
 ) -> Option<PassPath> {

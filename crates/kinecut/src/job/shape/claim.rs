@@ -78,13 +78,13 @@ impl Wanted<'_> {
         let depth = self.wall.compared(off, q.z);
         let inside = depth > 0.0;
         // Above the floor, what ends on its border belongs to the wall: a step of a conical one.
-        let over_floor =
-            |floor: f64| self.wall.compared(off, floor) > if q.z > floor + EDGE { EDGE } else { -EDGE };
+        let least = |floor: f64| if q.z > floor + EDGE { EDGE } else { -EDGE };
         if let Some(floor) = self.floor
+            && let over = self.wall.over_floor(off, floor)
             && normal.z > FACES_UP
             && q.z < self.top - EDGE
-            && over_floor(floor)
-            && (inside || own(end.cut))
+            && over > least(floor)
+            && (inside || over > 0.0 || own(end.cut))
         {
             let above = q.z - floor;
             let others = above < -EDGE && elsewhere(end.cut, p);

@@ -24,11 +24,14 @@ pub(super) fn bores(wanted: &[Wanted<'_>], measures: &[BoreMeasure], answer: &mu
     let pairs: Vec<_> = wanted.iter().zip(measures).collect();
     for group in pairs.chunk_by(|a, b| a.0.number == b.0.number) {
         let operation = group[0].0.operation;
+        // What goes through has no floor.
+        let is_blind = group.iter().any(|(bore, _)| bore.floor.is_some());
+        let (what, lie) = if is_blind { ("wall and floor", "lie") } else { ("the wall", "lies") };
         let worst = group.iter().map(|(_, m)| m.worst()).fold(0.0, f64::max);
         let ends: usize = group.iter().map(|(_, m)| m.ends).sum();
         if worst <= operation.milling().tolerance && ends > 0 {
             let claim = format!(
-                "{}: wall and floor lie within {} \u{b5}m of the wanted surface at {ends} line ends",
+                "{}: {what} {lie} within {} \u{b5}m of the wanted surface at {ends} line ends",
                 operation.name(),
                 micrometres(worst)
             );
@@ -41,7 +44,7 @@ pub(super) fn bores(wanted: &[Wanted<'_>], measures: &[BoreMeasure], answer: &mu
             } else {
                 String::new()
             };
-            answer.not_measured(&format!("{}: wall and floor{of}", operation.name()), group[0].0.number);
+            answer.not_measured(&format!("{}: {what}{of}", operation.name()), group[0].0.number);
         }
     }
 }

@@ -33,7 +33,8 @@ struct LoopJson {
 #[derive(Debug, Serialize)]
 struct CornerJson {
     at: [f64; 2],
-    thickness: f64,
+    /// None where the cutter does not go between two loops.
+    thickness: Option<f64>,
 }
 
 impl ContourJson {
@@ -46,7 +47,7 @@ impl ContourJson {
             length: l.length(),
             tabs: l.tabs.iter().map(|t| t.at.to_array()).collect(),
         };
-        let corners = plan.plan.uncut.iter().filter(|c| c.thickness.is_finite());
+        let corners = plan.plan.uncut.iter();
         ContourJson {
             operation,
             side: plan.spec.side,

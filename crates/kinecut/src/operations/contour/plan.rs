@@ -153,11 +153,14 @@ impl kind::Plan for PlannedContour {
             self.plan.uncut.iter().map(|c| Fillet { centre: c.at, radius, between: c.between }).collect();
         band.tabs = self.tabs();
         let through = t.breakthrough > 0.0;
-        let bottom = spec.top - spec.depth + if through { 0.0 } else { self.of.corner() };
+        let floor = spec.top - spec.depth;
+        // The wall is cut to size above the cutter's corner.
+        band.foot = self.of.corner();
+        let bottom = floor + if through { 0.0 } else { band.foot };
         let wall = WantedWall {
             centre: band.middle,
             top: spec.top,
-            floor: (!through).then_some(bottom),
+            floor: (!through).then_some(floor),
             bottom,
             slug: 0.0,
             wall: Wall::Band(Arc::new(band)),
@@ -194,42 +197,47 @@ impl PlannedContour {
 
     /// Parts of the wall that are not compared, in words.
     pub(super) fn not_looked_at(&self) -> Option<String> {
-        let corners = self.plan.uncut.len();
+        let count = |n: usize, one: &str, more: &str| format!("{n} {}", if n == 1 { one } else { more });
+        let gaps = self.plan.uncut.iter().filter(|c| c.thickness.is_none()).count();
+        let corners = self.plan.uncut.len() - gaps;
         let tabs = self.tabs();
         let mut parts = Vec::new();
         if corners > 0 {
-            let corners = if corners == 1 { "1 corner".to_owned() } else { format!("{corners} corners") };
+            let corners = count(corners, "corner", "corners");
             parts.push(format!("{corners} beyond the cutter's fillet"));
         }
-        if let Some(tab) = tabs.first() {
+        if gaps > 0 {
+            let gaps = count(gaps, "place", "places");
+            parts.push(format!("{gaps} between two loops, where the cutter does not go"));
+        }
+        if let Some(longest) = tabs.iter().map(|tab| 2.0 * tab.radius).max_by(f64::total_cmp) {
             // Roughing and finishing have their tabs at one place.
-            let count = self.plan.loops.iter().filter(|l| !l.finishing).map(|l| l.tabs.len()).sum::<usize>();
-            let count = if count == 1 { "1 tab".to_owned() } else { format!("{count} tabs") };
-            let width = crate::page::trimmed(2.0 * tab.radius, 1);
-            let top = crate::page::trimmed(tab.top, 2);
-            parts.push(format!("the wall at {count}, {width} mm below Z {top}"));
+            let tabs = self.plan.loops.iter().filter(|l| !l.finishing).map(|l| l.tabs.len()).sum::<usize>();
+            let each = if tabs == 1 { "" } else { " at each" };
+            let length = crate::page::trimmed(longest, 1);
+            let top = crate::page::trimmed(self.spec.bottom() + self.tab_height(), 2);
+            let tabs = count(tabs, "tab", "tabs");
+            parts.push(format!("the wall at {tabs}, over a length of {length} mm{each}, below Z {top}"));
         }
         (!parts.is_empty()).then(|| parts.join("; "))
     }
 
+    /// Height of tabs over the bottom of the cut [mm].
+    fn tab_height(&self) -> f64 {
+        self.spec.breakthrough + self.spec.tabs.as_ref().map_or(0.0, |t| t.height)
+    }
+
     /// The places of all tabs, and how far they may reach.
     fn tabs(&self) -> Vec<TabPlace> {
-        let Some(tabs) = &self.spec.tabs else { return Vec::new() };
-        let top = self.spec.top - self.spec.depth + tabs.height;
-        let loops = self.plan.loops.iter().flat_map(|l| &l.tabs);
-        // The cutter is lifted on this length, comes down beyond it, and cuts its radius farther.
+        let top = self.spec.bottom() + self.tab_height();
+        let loops = self.plan.loops.iter().flat_map(|l| l.tabs.iter().map(|tab| (tab, l.finishing)));
+        // The cutter is lifted on this length, comes up and down beside it, and cuts its radius farther.
         loops
-            .map(|tab| {
-                let slope = if self.spec.cutter.centre_cutting {
-                    0.0
-                } else {
-                    tabs.height / self.spec.ramp.map_or(1.0, f64::tan)
-                };
-                TabPlace {
-                    at: tab.at,
-                    radius: 0.5 * tab.lifted() + slope + 2.0 * self.spec.radius(),
-                    top: top + 1e-3,
-                }
+            .map(|(tab, finishing)| {
+                let slopes = self.spec.slopes(self.tab_height(), finishing && self.wear.is_some());
+                let slope = if slopes[0] > slopes[1] { slopes[0] } else { slopes[1] };
+                let radius = 0.5 * tab.lifted() + slope + 2.0 * self.spec.radius();
+                TabPlace { at: tab.at, radius, top: top + 1e-3 }
             })
             .collect()
     }

@@ -57,16 +57,30 @@ fn facts(plan: &PlannedContour, wall: Option<&BoreMeasure>) -> Vec<Fact> {
         crate::holes::FeedAt::Centre => "of the cutter\u{2019}s centre",
     }));
     let uncut = &plan.plan.uncut;
-    if let Some(worst) = uncut.iter().map(|c| c.thickness).filter(|t| t.is_finite()).max_by(f64::total_cmp) {
+    let thick: Vec<f64> = uncut.iter().filter_map(|c| c.thickness).collect();
+    if let Some(worst) = thick.iter().copied().max_by(f64::total_cmp) {
         facts.push(
-            Fact::new("Corners that stay", format!("{}", uncut.len()))
+            Fact::new("Corners that stay", format!("{}", thick.len()))
                 .note(format!("up to {} mm thick", fixed(worst, 3))),
+        );
+    }
+    let between: Vec<String> = uncut.iter().filter(|c| c.thickness.is_none()).map(|c| place(c.at)).collect();
+    if let Some(first) = between.first() {
+        let ends =
+            if between.len() == 1 { "1 place".to_owned() } else { format!("{} places", between.len()) };
+        facts.push(
+            Fact::new("Not cut between two loops", ends)
+                .note(format!("the cutter does not go there: for example near {first}")),
         );
     }
     for note in &of.notes {
         facts.push(Fact::new("Drawing", note.clone()));
     }
     facts
+}
+
+fn place(at: glam::DVec2) -> String {
+    format!("X{} Y{}", trimmed(at.x, 3), trimmed(at.y, 3))
 }
 
 /// The range of stock on a wall.
@@ -128,11 +142,10 @@ fn table(plan: &PlannedContour) -> Table {
     for one in plan.plan.loops.iter().take(LISTED) {
         let which = if one.outer { "outer" } else { "inner" };
         let what = if one.finishing { "finishing" } else { "roughing" };
-        let start = one.edges.first().map(|e| e.start.to_array().map(|v| trimmed(v, 3)));
-        let [x, y] = start.unwrap_or_default();
+        let start = one.edges.first().map(|e| place(e.start)).unwrap_or_default();
         table.rows.push(Row::new(vec![
             Cell::new(format!("{what}, {which}")),
-            Cell::new(format!("X{x} Y{y}")),
+            Cell::new(start),
             Cell::new(fixed(one.length(), 2)),
             Cell::new(format!("{}", one.tabs.len())),
         ]));

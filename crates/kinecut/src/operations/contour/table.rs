@@ -141,7 +141,7 @@ pub struct TabsTable {
     pub width: f64,
     /// Height over the depth of the contour.
     pub height: f64,
-    /// Form: "flat", or "ramp" with ends that rise at 30 degrees; default flat.
+    /// Form: "flat", or "ramp" with ends that rise at 30 degrees beside the width; default flat.
     #[serde(default)]
     pub shape: TabShape,
     /// Whether finishing leaves them too; default true.

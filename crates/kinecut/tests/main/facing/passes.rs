@@ -308,7 +308,7 @@ fn golden_frames_of_the_plate() {
     let case = plate_200_by_120();
     for (outside, clockwise, counter) in [(10.0, 0.0, 90.0), (0.0, 0.0, 120.0), (-20.0, 60.0, 520.0)] {
         for corner in [Corner::Sharp, Corner::Round] {
-            let one = &offset_loops(&[case.outline.edges().to_vec()], outside, corner)[0];
+            let one = &offset_loops(&case.outline, outside, corner)[0];
             for (reversed, golden) in [(false, clockwise), (true, counter)] {
                 let path = PassPath::new(vec![one.clone()]);
                 let mut path = if reversed { path.reversed() } else { path };
@@ -341,10 +341,8 @@ proptest! {
     fn offsets_bound_what_is_nearer_to_the_outline(aside in -16.0..25.0f64, angle in -3.0..3.0f64, sharp: bool) {
         prop_assume!(aside.abs() > 0.5);
         let outline = flange().moved(angle, dvec2(7.0, -3.0));
-        let loops: Vec<Vec<OutlineEdge>> =
-            outline.loops().iter().map(|l| outline.edges()[l.edges.clone()].to_vec()).collect();
         let corner = if sharp { Corner::Sharp } else { Corner::Round };
-        let offset = offset_loops(&loops, aside, corner);
+        let offset = offset_loops(&outline, aside, corner);
         let dots: Vec<DVec2> =
             outline.edges().iter().flat_map(|e| (0..=400).map(|k| e.at(f64::from(k) / 400.0))).collect();
         let away = |p: DVec2| dots.iter().map(|q| q.distance(p)).fold(f64::INFINITY, f64::min);

@@ -62,7 +62,7 @@ fn a_plate_with_tabs_is_safe_on_every_control() {
             cut(control, &format!("{PLATE}{TABS}finish = {{ allowance = 0.2, spring_passes = 1 }}"));
         assert!(outcome.verdict.is_safe(), "{control}: {:?}", outcome.verdict.found);
         assert!(outcome.verdict.found.is_empty(), "{control}: {:?}", outcome.verdict.found);
-        let claim = outcome.verdict.proven.iter().find(|p| p.claim.contains("wall and floor lie within"));
+        let claim = outcome.verdict.proven.iter().find(|p| p.claim.contains("the wall lies within"));
         assert!(claim.is_some(), "{control}");
     }
 }
@@ -109,6 +109,38 @@ fn walls_of_all_sides_are_measured() {
             .any(|item| format!("{item:?}").contains("beyond the cutter's fillet"));
         assert_eq!(told, corners > 0, "{operation}");
     }
+}
+
+#[test]
+fn the_floor_of_a_blind_contour_is_compared_on_all_of_its_width() {
+    let blind = "rectangle = { size = [60, 40], corner = 4 }\ndepth = 8\n";
+    let claims = |o: &Outcome, words: &str| o.verdict.proven.iter().any(|p| p.claim.contains(words));
+    let whole = cut("fanuc", blind);
+    assert!(whole.verdict.is_safe() && claims(&whole, "wall and floor lie within"));
+    assert!(!claims(&whole, "the wall lies within"));
+    // A groove in the floor, in the half of the slot that is away from the wall.
+    let groove = "[[setup.operation]]\ntype = \"contour\"\ntool = 2\nspeed = 6000\nfeed = 600\nside = \"on\"\n\
+        rectangle = { size = [76, 56], corner = 12 }\ndepth = 8.2\nstepdown = 4.1\n";
+    let tool = "[[tool]]\nnumber = 2\ntype = \"end-mill\"\ndiameter = 3\nteeth = 2\nflute_length = 9\nstickout = 30\n\
+        gauge_length = 120\n[[setup]]";
+    let both = job("fanuc", &format!("{blind}{groove}")).replace("[[setup]]", tool);
+    let deep = done(&both, &MemoryLoader::default());
+    let floor = deep.deviation.bores[0].floor.unwrap();
+    assert!((floor[0] + 0.2).abs() < 1e-3, "{floor:?}");
+    assert!(deep.verdict.found.iter().any(|f| f.code == Code::WALL_GOUGED), "{:?}", deep.verdict.found);
+}
+
+#[test]
+fn the_fillet_of_a_cutter_with_a_corner_is_no_stock() {
+    let bull = job("fanuc", "rectangle = { size = [60, 40], corner = 4 }\ndepth = 8\n").replace(
+        "type = \"end-mill\"\ndiameter = 10",
+        "type = \"bull-nose\"\ndiameter = 10\ncorner_radius = 1.5",
+    );
+    let outcome = done(&bull, &MemoryLoader::default());
+    assert!(outcome.verdict.is_safe(), "{:?}", outcome.verdict.found);
+    let wall = &outcome.deviation.bores[0];
+    let floor = wall.floor.unwrap();
+    assert!(wall.worst() < 1e-3 && floor[0].abs() < 1e-3 && floor[1].abs() < 1e-3, "{wall:?}");
 }
 
 #[test]

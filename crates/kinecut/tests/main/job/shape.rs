@@ -129,7 +129,7 @@ fn a_hole_between_the_lines_is_not_measured_and_has_no_number() {
     assert!(doubt.message.contains("could not be measured") && !doubt.help.is_empty(), "{doubt}");
     assert_eq!(outcome.verdict.outcome, Judgement::NotProven, "{found:?}");
     assert!(outcome.deviation.largest.is_none() && outcome.deviation.bores[0].ends == 0);
-    assert!(!outcome.verdict.proven.iter().any(|p| p.claim.contains("wall and floor")));
+    assert!(!outcome.verdict.proven.iter().any(|p| p.claim.contains("of the wanted surface")));
     let page = report::of_job(&outcome);
     assert!(page.verdict.facts.iter().any(|f| f.label == "Largest deviation" && f.value == "not measured"));
 }

@@ -1,0 +1,102 @@
+//! The numbers of a contour, looked at before it is planned.
+
+use std::f64::consts::FRAC_PI_4;
+
+use super::spec::{ContourSide, ContourSpec};
+use crate::base::bounded::{MAX_LENGTH, length, positive};
+use crate::base::{Code, Error, Finding, Result};
+
+/// Fastest feed [mm/s].
+const FASTEST: f64 = 1e6 / 60.0;
+/// Steepest ramp [rad].
+const STEEPEST: f64 = FRAC_PI_4;
+/// Depth beyond the flutes that is rounding [mm].
+const ROUNDING: f64 = 1e-6;
+
+/// The error of a number that is out of range.
+pub(super) fn out_of_range(key: &str, what: &str, value: f64, bound: f64, unit: &str, help: &str) -> Error {
+    Finding::error(Code::PLAN_VALUE, what).value(value, unit).bound(bound, unit).help(help).key(key).into()
+}
+
+/// Looks at all numbers.
+///
+/// # Errors
+/// `KC0103` for those that are none or not above zero, `KC0403` where the cutter cannot come down, `KC0404` for the rest.
+pub(super) fn check(spec: &ContourSpec) -> Result<()> {
+    let (finish, tabs) = (spec.finish, spec.tabs.as_ref());
+    let lengths = [
+        ("depth", Some(spec.depth)),
+        ("stepdown", spec.stepdown),
+        ("tool", Some(spec.cutter.diameter)),
+        ("lead_radius", spec.lead_radius),
+        ("finish.allowance", finish.map(|f| f.allowance)),
+        ("finish.stepdown", finish.and_then(|f| f.stepdown)),
+        ("finish.wear_largest", finish.and_then(|f| f.wear).map(|w| w.largest)),
+        ("tabs.width", tabs.map(|t| t.width)),
+        ("tabs.height", tabs.map(|t| t.height)),
+    ];
+    let feeds = [
+        ("feed", Some(spec.feed)),
+        ("plunge_feed", Some(spec.plunge_feed)),
+        ("finish.feed", finish.map(|f| f.feed)),
+    ];
+    for (list, most, unit) in [(&lengths[..], MAX_LENGTH, "mm"), (&feeds[..], FASTEST, "mm/s")] {
+        for (key, value) in list.iter().filter_map(|(key, value)| value.map(|v| (key, v))) {
+            positive(key, value, most, unit)?;
+        }
+    }
+    length("breakthrough", spec.breakthrough, 0.0, MAX_LENGTH)?;
+    length("stock_to_leave", spec.stock_to_leave, 0.0, MAX_LENGTH)?;
+    length("overlap", spec.overlap.unwrap_or(0.0), 0.0, MAX_LENGTH)?;
+    let flutes = spec.cutter.flute_length;
+    let steps = [("stepdown", spec.stepdown), ("finish.stepdown", spec.finish.and_then(|f| f.stepdown))];
+    for (key, step) in steps {
+        if step.is_some_and(|step| step > flutes + ROUNDING) {
+            let what = "a level is deeper than the flutes are long";
+            return Err(out_of_range(
+                key,
+                what,
+                step.unwrap_or(0.0),
+                flutes,
+                "mm",
+                "take a smaller step, or a longer tool",
+            ));
+        }
+    }
+    if spec.side == ContourSide::On && spec.finish.is_some() {
+        let finding =
+            Finding::error(Code::PLAN_VALUE, "a contour on its line has no wall that could be finished");
+        return Err(finding.help("leave out `finish`, or give a side").key("finish").into());
+    }
+    if let Some(tabs) = &spec.tabs
+        && tabs.height >= spec.depth
+    {
+        let what = "tabs are as high as the contour is deep";
+        return Err(out_of_range(
+            "tabs.height",
+            what,
+            tabs.height,
+            spec.depth,
+            "mm",
+            "write a smaller height",
+        ));
+    }
+    let Some(ramp) = spec.ramp else {
+        if spec.cutter.centre_cutting {
+            return Ok(());
+        }
+        let finding =
+            Finding::error(Code::ENTRY_IMPOSSIBLE, "the cutter does not cut at its centre and cannot plunge");
+        return Err(finding
+            .help("leave out `entry`, or give a ramp: entry = { ramp = 3 }")
+            .key("entry")
+            .into());
+    };
+    let most = spec.cutter.max_ramp_angle.map_or(STEEPEST, |most| most.min(STEEPEST));
+    if !(ramp > 0.0 && ramp <= most + 1e-9) {
+        let (ramp, most) = (ramp.to_degrees(), most.to_degrees());
+        let what = "the ramp is steeper than the cutter can follow, or none";
+        return Err(out_of_range("entry.ramp", what, ramp, most, "deg", "write a flatter ramp, above 0"));
+    }
+    Ok(())
+}
