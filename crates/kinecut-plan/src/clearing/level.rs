@@ -5,7 +5,7 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use glam::DVec2;
 
 use super::link::{Pose, ways};
-use super::region::{CentreRegion, WallLoop};
+use super::region::{CentreRegion, WallLoop, winds};
 use super::swept::{Clearing, Scratch};
 use super::walk::{Walker, Way, step_of};
 use crate::geom::{OutlineEdge, arcs_near};
@@ -20,6 +20,8 @@ const ROUNDING: f64 = 1e-3;
 const LINK_STEP: f64 = 0.05;
 /// Radii of the arcs of links that are tried, in radii of the cutter.
 const LINK_RADII: [f64; 2] = [0.5, 0.25];
+/// Least room around the cutter in a hole by which it goes down [mm].
+const HOLE_ROOM: f64 = 0.5;
 /// Area that may be left at one place [mm2].
 const LEFT: f64 = 0.25;
 /// Share of the area that may be left in all.
@@ -108,6 +110,8 @@ pub(super) struct Clearer<'a> {
     pub(super) radius: f64,
     /// Engagement that is kept [rad].
     pub(super) wanted: f64,
+    /// Round holes that are open already, swept before: centre and radius [mm].
+    pub(super) holes: &'a [(DVec2, f64)],
     /// Radius of the helix that enters [mm].
     pub(super) helix: f64,
     /// Distance of the lines and arcs from the way that was walked [mm].
@@ -139,6 +143,13 @@ impl Clearer<'_> {
             }
             // An open side, or a place that is free already, needs no entry.
             if along[one].iter().any(|p| !self.touches(p.at, p.heading, &mut work)) {
+                continue;
+            }
+            if let Some((start, way)) = self.drilled(one) {
+                cleared.elements.push(Element::Down(start));
+                cleared.elements.push(Element::Link(vec![OutlineEdge::line(start, way.at)]));
+                let way = self.walk(way, most);
+                here = self.keep(&way, &mut cleared).or(here);
                 continue;
             }
             let (middle, room) = self.region.widest(&self.region.loops[one]);
@@ -204,6 +215,17 @@ impl Clearer<'_> {
             }
         }
         cleared
+    }
+
+    /// The hole in a part of the region, if there is one, in which the cutter goes down with room around it: its centre, and
+    /// where the first pass begins.
+    fn drilled(&self, of: usize) -> Option<(DVec2, Pose)> {
+        let inside = |p: DVec2| self.region.holds(p) && winds(&self.region.loops[of].edges, p);
+        let wide = self.holes.iter().filter(|(p, r)| *r >= self.radius + HOLE_ROOM && inside(*p));
+        let (middle, radius) = wide.max_by(|a, b| a.1.total_cmp(&b.1))?;
+        // So far out that the cutter does not cut yet.
+        let out = (radius - self.radius).min(self.region.room(*middle));
+        Some((*middle, Pose { at: *middle + out * DVec2::X, heading: FRAC_PI_2 }))
     }
 
     /// Adds a way as lines and arcs; the pose at its end.

@@ -116,11 +116,17 @@ pub fn plan_pocket(spec: &PocketSpec) -> Result<PocketPlan> {
     if let Some(stock) = &stock {
         clearing = clearing.with_stock(stock);
     }
+    let flip = |p: DVec2| if mirrored { DVec2::new(p.x, -p.y) } else { p };
+    let holes: Vec<(DVec2, f64)> = spec.holes.iter().map(|(p, r)| (flip(*p), *r)).collect();
+    for (p, radius) in holes.iter().filter(|(_, radius)| *radius >= a) {
+        clearing.sweep(*p, *p, *radius);
+    }
     let (most, share) = TOLERANCE;
     let mut clearer = Clearer {
         region: &region,
         clearing: &mut clearing,
         radius: a,
+        holes: &holes,
         wanted: spec.engagement - FIT,
         helix: spec.helix_radius.unwrap_or(HELIX * a),
         tolerance: most.min(share * a),

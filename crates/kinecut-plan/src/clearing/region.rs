@@ -123,7 +123,7 @@ impl CentreRegion {
 }
 
 /// Whether a closed loop goes around a point.
-fn winds(edges: &[OutlineEdge], p: DVec2) -> bool {
+pub(super) fn winds(edges: &[OutlineEdge], p: DVec2) -> bool {
     // A ray to the right, past each edge as two or more chords would see it: arcs are cut at their highest and lowest points.
     let mut inside = false;
     for edge in edges {

@@ -1,5 +1,7 @@
 //! A pocket in the planner's words.
 
+use glam::DVec2;
+
 use crate::geom::Outline;
 use crate::holes::{CutterData, Sense};
 
@@ -10,6 +12,8 @@ pub struct PocketSpec {
     pub outline: Outline,
     /// Where the stock is; `None`: everywhere. A pocket that reaches over it is open there.
     pub stock: Option<Outline>,
+    /// Round holes that are open down to the lowest level already: centre and radius.
+    pub holes: Vec<(DVec2, f64)>,
     /// The cutter.
     pub cutter: CutterData,
     /// Whether the spindle turns counter-clockwise: climb and conventional change sides.
@@ -52,6 +56,7 @@ impl PocketSpec {
         PocketSpec {
             outline,
             stock: None,
+            holes: Vec::new(),
             cutter,
             left_hand: false,
             sense: Sense::Climb,

@@ -82,7 +82,7 @@ pub(super) fn check(spec: &ContourSpec) -> Result<()> {
         ));
     }
     let Some(ramp) = spec.ramp else {
-        if spec.cutter.centre_cutting {
+        if spec.cutter.centre_cutting || spec.cleared {
             return Ok(());
         }
         let finding =

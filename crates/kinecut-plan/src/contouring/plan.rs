@@ -100,7 +100,8 @@ pub fn plan_contour(spec: &ContourSpec) -> Result<ContourPlan> {
     let mut heights = vec![spec.top];
     heights.extend(floors.iter().map(|l| l.floor));
     let mut at = None;
-    for (track, outer) in planner.ordered(&rough) {
+    let roughed = !(spec.cleared && spec.finish.is_some());
+    for (track, outer) in planner.ordered(&rough).into_iter().filter(|_| roughed) {
         at = Some(planner.rough(track, outer, &rough, wall + allowance, &heights)?);
     }
     let mut corners = Vec::new();
@@ -125,12 +126,12 @@ pub fn plan_contour(spec: &ContourSpec) -> Result<ContourPlan> {
         }
     }
     if at.is_some() {
-        planner.travel.vertically(ToolpathRole::Retract, ToolpathPace::Rapid, spec.retract_z);
+        planner.travel.route.retract();
     }
     let mut findings = planner.findings;
     findings.extend(remark(&corners, a));
     Ok(ContourPlan {
-        moves: planner.travel.moves,
+        moves: planner.travel.route.moves,
         loops: planner.loops,
         levels: heights[1..].to_vec(),
         uncut: corners,
@@ -474,7 +475,7 @@ impl Planner<'_> {
 
     fn keep(&mut self, track: &Track, outer: bool, start: f64, tabs: &[PlacedTab]) {
         let edges = track.part(start, start + track.length());
-        let finishing = self.travel.finishing;
+        let finishing = self.travel.route.finishing;
         self.loops.push(PlannedLoop { edges, outer, finishing, tabs: tabs.to_vec() });
     }
 
@@ -501,7 +502,7 @@ impl Planner<'_> {
             |_| true,
         )?;
         let tabs = self.tabs(track, start.at, all);
-        self.travel.finishing = false;
+        self.travel.route.finishing = false;
         self.keep(track, outer, start.at, &tabs);
         let left = spec.keeps_right();
         let (p, along) = track.at(start.at);
@@ -511,15 +512,19 @@ impl Planner<'_> {
         let mut s = start.at;
         for (k, pair) in heights.windows(2).enumerate() {
             let (above, floor) = (pair[0], pair[1]);
-            self.travel.level = k as u32;
+            self.travel.route.level = k as u32;
             let whole = track.length();
             if let Some(angle) = spec.ramp {
                 let mut from = above;
                 if k == 0 {
                     from = (above + RAMP_ABOVE).min(spec.approach_z);
-                    self.travel.over(on.first().map_or(p, |e| e.start));
-                    self.travel.vertically(ToolpathRole::Entry, ToolpathPace::Feed(spec.plunge_feed), from);
-                    self.travel.edges(ToolpathRole::LeadIn, feed, &on)?;
+                    self.travel.route.over(on.first().map_or(p, |e| e.start));
+                    self.travel.route.vertically(
+                        ToolpathRole::Entry,
+                        ToolpathPace::Feed(spec.plunge_feed),
+                        from,
+                    );
+                    self.travel.route.edges(ToolpathRole::LeadIn, feed, &on)?;
                 }
                 let end = s + (from - floor) / angle.tan();
                 let ramp = Stretch { along: [s, end], heights: [from, floor], feed };
@@ -528,15 +533,22 @@ impl Planner<'_> {
                 self.travel.follow(role, track, &tabs, lap)?;
                 s = end + whole;
             } else {
-                self.travel.over(on.first().map_or(p, |e| e.start));
+                self.travel.route.over(on.first().map_or(p, |e| e.start));
                 if above < spec.approach_z {
                     // What a level above has cut is open; the first one feeds down from over the material.
-                    let open =
-                        if k == 0 { spec.approach_z } else { (above + RAMP_ABOVE).min(spec.approach_z) };
-                    self.travel.vertically(ToolpathRole::Entry, ToolpathPace::Feed(feed), open);
+                    let open = match k {
+                        _ if spec.cleared => (floor + RAMP_ABOVE).min(spec.approach_z),
+                        0 => spec.approach_z,
+                        _ => (above + RAMP_ABOVE).min(spec.approach_z),
+                    };
+                    self.travel.route.vertically(ToolpathRole::Entry, ToolpathPace::Feed(feed), open);
                 }
-                self.travel.vertically(ToolpathRole::Entry, ToolpathPace::Feed(spec.plunge_feed), floor);
-                self.travel.edges(ToolpathRole::LeadIn, feed, &on)?;
+                self.travel.route.vertically(
+                    ToolpathRole::Entry,
+                    ToolpathPace::Feed(spec.plunge_feed),
+                    floor,
+                );
+                self.travel.route.edges(ToolpathRole::LeadIn, feed, &on)?;
                 let end = start.at + whole + self.overlap();
                 let lap = Stretch { along: [start.at, end], heights: [floor, floor], feed };
                 self.travel.follow(role, track, &tabs, lap)?;
@@ -544,7 +556,7 @@ impl Planner<'_> {
                 if k + 2 < heights.len() {
                     let (p, along) = track.at(s);
                     let off = start.lead.off(p, along, left);
-                    self.travel.edges(ToolpathRole::LeadOut, feed, &off)?;
+                    self.travel.route.edges(ToolpathRole::LeadOut, feed, &off)?;
                 }
             }
         }
@@ -558,7 +570,7 @@ impl Planner<'_> {
         }
         let (p, along) = track.at(s);
         let off = start.lead.off(p, along, left);
-        self.travel.edges(ToolpathRole::LeadOut, feed, &off)?;
+        self.travel.route.edges(ToolpathRole::LeadOut, feed, &off)?;
         Ok(p)
     }
 
@@ -612,7 +624,7 @@ impl Planner<'_> {
                 help,
             ));
         }
-        self.travel.finishing = true;
+        self.travel.route.finishing = true;
         self.keep(track, outer, start.at, &tabs);
         let depth = spec.depth + spec.breakthrough;
         let step = finish.stepdown.unwrap_or(spec.cutter.flute_length);
@@ -623,20 +635,20 @@ impl Planner<'_> {
         let laps = f64::from(finish.spring_passes + 1);
         let mut last = p;
         for level in &floors {
-            self.travel.level = level.index;
-            self.travel.over(on.first().map_or(p, |e| e.start));
+            self.travel.route.level = level.index;
+            self.travel.route.over(on.first().map_or(p, |e| e.start));
             // Roughing has opened the way down.
-            self.travel.vertically(ToolpathRole::Entry, ToolpathPace::Feed(finish.feed), level.floor);
-            self.travel.comp = finish.wear.is_some();
-            self.travel.edges(ToolpathRole::LeadIn, finish.feed, &on)?;
+            self.travel.route.vertically(ToolpathRole::Entry, ToolpathPace::Feed(finish.feed), level.floor);
+            self.travel.route.comp = finish.wear.is_some();
+            self.travel.route.edges(ToolpathRole::LeadIn, finish.feed, &on)?;
             let end = start.at + laps * track.length() + self.overlap();
             let lap = Stretch { along: [start.at, end], heights: [level.floor; 2], feed: finish.feed };
             self.travel.follow(ToolpathRole::Finish, track, &tabs, lap)?;
             let (p, along) = track.at(end);
             let off = start.lead.off(p, along, left);
-            self.travel.edges(ToolpathRole::LeadOut, finish.feed, &off[..1])?;
-            self.travel.comp = false;
-            self.travel.edges(ToolpathRole::LeadOut, finish.feed, &off[1..])?;
+            self.travel.route.edges(ToolpathRole::LeadOut, finish.feed, &off[..1])?;
+            self.travel.route.comp = false;
+            self.travel.route.edges(ToolpathRole::LeadOut, finish.feed, &off[1..])?;
             last = p;
         }
         Ok(last)

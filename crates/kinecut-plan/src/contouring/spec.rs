@@ -114,6 +114,9 @@ pub struct ContourSpec {
     pub plunge_feed: f64,
     /// Angle of the ramp along the contour; `None`: straight down.
     pub ramp: Option<f64>,
+    /// Whether all beside the wall has been cleared down to the lowest level: the cutter comes straight down, and what a finish
+    /// leaves needs no roughing.
+    pub cleared: bool,
     /// Finishing.
     pub finish: Option<ContourFinish>,
     /// Radius of the lead arcs; `None`: half the cutter's radius, 1 mm at least.
@@ -196,6 +199,7 @@ impl ContourSpec {
             feed_at: FeedAt::Centre,
             plunge_feed: 0.5 * feed,
             ramp: Some(3.0_f64.to_radians()),
+            cleared: false,
             finish: None,
             lead_radius: None,
             start: None,

@@ -1,26 +1,21 @@
 //! The moves of a contour, made one after the other: along a track at heights, over tabs, up and down.
 
-use glam::{DVec2, DVec3};
-
 use super::feed::centre_feed;
 use super::spec::ContourSpec;
 use super::tabs::{PlacedTab, lifted};
 use super::track::Track;
 use crate::base::Result;
-use crate::geom::{Arc, Curve, Line, OutlineEdge};
-use crate::holes::{FeedAt, PlannedMove, ToolpathPace, ToolpathRole};
+use crate::geom::OutlineEdge;
+use crate::holes::route::Route;
+use crate::holes::{FeedAt, ToolpathPace, ToolpathRole};
 
-/// Moves shorter than this are dropped [mm].
+/// Lengths and heights below this are rounding [mm].
 const NOTHING: f64 = 1e-9;
 
 /// The moves so far.
 pub(super) struct Travel<'a> {
     spec: &'a ContourSpec,
-    pub(super) moves: Vec<PlannedMove>,
-    here: Option<DVec3>,
-    pub(super) level: u32,
-    pub(super) finishing: bool,
-    pub(super) comp: bool,
+    pub(super) route: Route,
 }
 
 /// A stretch along a track while the height changes evenly.
@@ -36,69 +31,7 @@ pub(super) struct Stretch {
 
 impl<'a> Travel<'a> {
     pub(super) fn new(spec: &'a ContourSpec) -> Travel<'a> {
-        Travel { spec, moves: Vec::new(), here: None, level: 0, finishing: false, comp: false }
-    }
-
-    fn add(&mut self, role: ToolpathRole, pace: ToolpathPace, curve: Curve) {
-        let (level, finishing, comp) = (self.level, self.finishing, self.comp);
-        self.moves.push(PlannedMove { role, curve, pace, level, finishing, comp });
-    }
-
-    /// Straight to a place; the first call only says where the moves begin.
-    pub(super) fn to(&mut self, role: ToolpathRole, pace: ToolpathPace, end: DVec3) {
-        if let Some(start) = self.here
-            && start.distance(end) > NOTHING
-        {
-            self.add(role, pace, Line { start, end }.into());
-        }
-        self.here = Some(end);
-    }
-
-    /// Straight up or down.
-    pub(super) fn vertically(&mut self, role: ToolpathRole, pace: ToolpathPace, z: f64) {
-        if let Some(here) = self.here {
-            self.to(role, pace, DVec3::new(here.x, here.y, z));
-        }
-    }
-
-    /// Up, over to a place, and down to the height at which feeds begin.
-    pub(super) fn over(&mut self, at: DVec2) {
-        let spec = self.spec;
-        self.vertically(ToolpathRole::Retract, ToolpathPace::Rapid, spec.retract_z);
-        self.to(ToolpathRole::Link, ToolpathPace::Rapid, at.extend(spec.retract_z));
-        self.vertically(ToolpathRole::Approach, ToolpathPace::Rapid, spec.approach_z);
-    }
-
-    /// Height of the tip [mm].
-    pub(super) fn height(&self) -> f64 {
-        self.here.map_or(f64::INFINITY, |here| here.z)
-    }
-
-    /// Along edges at the present height.
-    ///
-    /// # Errors
-    /// Those of arcs.
-    pub(super) fn edges(&mut self, role: ToolpathRole, feed: f64, edges: &[OutlineEdge]) -> Result<()> {
-        let z = self.height();
-        edges.iter().try_for_each(|edge| self.edge(role, ToolpathPace::Feed(feed), edge, [z, z]))
-    }
-
-    fn edge(
-        &mut self,
-        role: ToolpathRole,
-        pace: ToolpathPace,
-        edge: &OutlineEdge,
-        [from, to]: [f64; 2],
-    ) -> Result<()> {
-        // From where the last move has ended: rounding of places along a track must not leave a gap.
-        let start = self.here.map_or(edge.start, DVec3::truncate).extend(from);
-        let curve = match edge.turn {
-            None => Line { start, end: edge.end.extend(to) }.into(),
-            Some(t) => Arc::new(start, t.centre.extend(from), DVec3::Z, t.sweep, to - from)?.into(),
-        };
-        self.add(role, pace, curve);
-        self.here = Some(edge.end.extend(to));
-        Ok(())
+        Travel { spec, route: Route::new(spec.retract_z, spec.approach_z) }
     }
 
     /// Along a track, lifted over its tabs.
@@ -115,14 +48,14 @@ impl<'a> Travel<'a> {
         let points = self.heights(track.length(), tabs, &way);
         if let Some([_, z]) = points.first() {
             // Where a tab has an upright end, the stretch before may have ended at its foot.
-            self.vertically(role, ToolpathPace::Feed(way.feed), *z);
+            self.route.vertically(role, ToolpathPace::Feed(way.feed), *z);
         }
         for pair in points.windows(2) {
             let ([from, z0], [to, z1]) = (pair[0], pair[1]);
             let down = z1 < z0 - NOTHING;
             let feed = if down { self.spec.plunge_feed } else { way.feed };
             if to - from <= NOTHING {
-                self.vertically(role, ToolpathPace::Feed(feed), z1);
+                self.route.vertically(role, ToolpathPace::Feed(feed), z1);
                 continue;
             }
             let mut gone = from;
@@ -130,7 +63,7 @@ impl<'a> Travel<'a> {
                 let end = gone + edge.length();
                 let z = [gone, end].map(|s| z0 + (z1 - z0) * ((s - from) / (to - from)).clamp(0.0, 1.0));
                 let feed = if down { feed } else { self.feed_of(&edge, feed) };
-                self.edge(role, ToolpathPace::Feed(feed), &edge, z)?;
+                self.route.edge(role, ToolpathPace::Feed(feed), &edge, z)?;
                 gone = end;
             }
         }
@@ -187,7 +120,7 @@ impl<'a> Travel<'a> {
     fn lift(&self, whole: f64, tabs: &[PlacedTab], [from, to]: [f64; 2]) -> Vec<[f64; 2]> {
         let spec = self.spec;
         let (top, bottom) = (spec.tab_top(), spec.bottom());
-        let slopes = spec.slopes(top - bottom, self.comp);
+        let slopes = spec.slopes(top - bottom, self.route.comp);
         let mut knots = vec![[f64::NEG_INFINITY, bottom]];
         for [begin, end] in lifted(tabs, whole, slopes, [from, to]) {
             let [up, down] = slopes;
