@@ -59,6 +59,15 @@ pub(super) struct Cleared {
 }
 
 impl Cleared {
+    /// Measures what is left of the area that `reached` has; its points, a cell apart.
+    fn measure(&mut self, clearing: &Clearing, reached: impl Fn(DVec2) -> bool) -> Vec<DVec2> {
+        let width = clearing.cell_width();
+        let rest = clearing.remains(reached);
+        self.left = rest.len() as f64 * width * width;
+        self.largest_left = largest(&rest, width);
+        rest
+    }
+
     /// With `y` and `-y` exchanged.
     pub(super) fn mirror(&mut self) {
         let flip = |p: DVec2| DVec2::new(p.x, -p.y);
@@ -132,9 +141,9 @@ impl Clearer<'_> {
         let along: Vec<Vec<Pose>> = self.region.loops.iter().map(|l| places(l, step)).collect();
         let [low, high] = self.region.bounds();
         let box_area = (high.x - low.x + 2.0 * self.radius) * (high.y - low.y + 2.0 * self.radius);
-        // A pass that removes nothing ends after the way through the air; more steps than this cannot be.
+        // Steps of all passes: so many that a pocket is cleared many times over.
         let step = step_of(self.radius);
-        let most = (20.0 * box_area / (step * self.radius * (1.0 - self.wanted.cos()))).max(1e4) as usize;
+        let mut most = (20.0 * box_area / (step * self.radius * (1.0 - self.wanted.cos()))).max(1e4) as usize;
         let mut here: Option<Pose> = None;
         let mut work = Scratch::default();
         for one in 0..self.region.loops.len() {
@@ -148,7 +157,7 @@ impl Clearer<'_> {
             if let Some((start, way)) = self.drilled(one) {
                 cleared.elements.push(Element::Down(start));
                 cleared.elements.push(Element::Link(vec![OutlineEdge::line(start, way.at)]));
-                let way = self.walk(way, most);
+                let way = self.walk(way, &mut most);
                 here = self.keep(&way, &mut cleared).or(here);
                 continue;
             }
@@ -158,7 +167,7 @@ impl Clearer<'_> {
             self.clearing.sweep(middle, middle, radius + self.radius);
             cleared.elements.push(Element::Helix { middle, radius, from });
             let start = Pose { at: middle + radius * DVec2::from_angle(from), heading: from + FRAC_PI_2 };
-            let way = self.walk(start, most);
+            let way = self.walk(start, &mut most);
             here = self.keep(&way, &mut cleared).or(here);
         }
         let mut open = Vec::new();
@@ -193,10 +202,14 @@ impl Clearer<'_> {
                     None => break,
                 },
             };
+            if most == 0 {
+                cleared.measure(self.clearing, |p| self.is_reached(p));
+                break;
+            }
             // Before the pass, as the link runs through what is cleared by then.
             let link = here.and_then(|here| self.link(here, start, &mut work));
             let down = if link.is_some() { None } else { Some(self.way_in(start, &mut work)) };
-            let way = self.walk(start, most);
+            let way = self.walk(start, &mut most);
             if way.cutting < 2.0 * step {
                 dead.push(start.at);
             }
@@ -279,7 +292,7 @@ impl Clearer<'_> {
         (start.at, Vec::new())
     }
 
-    fn walk(&mut self, start: Pose, most: usize) -> Way {
+    fn walk(&mut self, start: Pose, most: &mut usize) -> Way {
         let mut walker = Walker {
             region: self.region,
             clearing: self.clearing,
@@ -287,7 +300,9 @@ impl Clearer<'_> {
             wanted: self.wanted,
             work: Scratch::default(),
         };
-        walker.pass(start.at, start.heading, most)
+        let way = walker.pass(start.at, start.heading, *most);
+        *most = most.saturating_sub(way.points.len());
+        way
     }
 
     /// Moves the ends of a stretch along the wall past all that has been cleared.
@@ -312,13 +327,15 @@ impl Clearer<'_> {
         }
     }
 
+    /// Whether the cutter reaches a point, by more than a cell.
+    fn is_reached(&self, p: DVec2) -> bool {
+        self.region.room(p) > self.clearing.cell_width() - self.radius
+    }
+
     /// A place to begin at where stock is left that no way along the wall leads to.
     fn elsewhere(&self, hopeless: &[DVec2], here: DVec2, cleared: &mut Cleared) -> Option<(Pose, DVec2)> {
-        let width = self.clearing.cell_width();
-        let reach = self.radius - width;
-        let rest = self.clearing.remains(|p| self.region.room(p) > -reach);
-        let left = rest.len() as f64 * width * width;
-        (cleared.left, cleared.largest_left) = (left, largest(&rest, width));
+        let rest = cleared.measure(self.clearing, |p| self.is_reached(p));
+        let left = cleared.left;
         let [low, high] = self.region.bounds();
         let all = (high.x - low.x) * (high.y - low.y);
         if left <= LEFT.max(LEFT_SHARE * all) {

@@ -33,6 +33,11 @@ const FIT: f64 = 0.004;
 const ENGAGEMENT: [f64; 2] = [5.0, 120.0];
 /// Steepest helix [deg].
 const STEEPEST: f64 = 45.0;
+/// Least width of the region of the cutter's centre, how far a place may lie from where it is wider, and the step between looks,
+/// all in radii of the cutter.
+const NARROW: f64 = 0.06;
+const NECK: f64 = 0.3;
+const STEPS: f64 = 0.1;
 /// Area that may be left at one place, in squares of the cutter's radius: that of a corner.
 const LEFT: f64 = 0.15;
 /// Area at one place that the lap along the wall must not meet, in squares of the cutter's radius.
@@ -112,6 +117,7 @@ pub fn plan_pocket(spec: &PocketSpec) -> Result<PocketPlan> {
     let stock = spec.stock.as_ref().map(|s| if mirrored { s.mirrored() } else { s.clone() });
     let Some(region) = CentreRegion::new(&face, inset)? else { return Err(too_large(spec, &face)) };
     CELLS.check(Clearing::cells(region.bounds(), a))?;
+    wide_enough(spec, &face, &region, inset)?;
     let mut clearing = Clearing::new(region.bounds(), a);
     if let Some(stock) = &stock {
         clearing = clearing.with_stock(stock);
@@ -219,6 +225,36 @@ fn too_large(spec: &PocketSpec, face: &Outline) -> crate::base::Error {
         .help(format!("take a cutter of {:.1} mm (0.7 of the width) or less", 1.4 * low))
         .key("tool")
         .into()
+}
+
+/// Whether the region of the cutter's centre is everywhere so wide that passes go on in it.
+fn wide_enough(spec: &PocketSpec, face: &Outline, region: &CentreRegion, inset: f64) -> Result<()> {
+    let a = spec.radius();
+    let smaller = CentreRegion::new(face, inset + 0.5 * NARROW * a)?;
+    let step = STEPS * a;
+    for edge in region.loops.iter().flat_map(|l| &l.edges) {
+        let count = (edge.length() / step).ceil().max(1.0) as usize;
+        for k in 0..count {
+            let p = edge.at(k as f64 / count as f64);
+            let far = smaller.as_ref().map_or(f64::INFINITY, |s| s.nearest_inside(p).distance(p));
+            if far <= NECK * a {
+                continue;
+            }
+            let p = if spec.keeps_right() { p } else { DVec2::new(p.x, -p.y) };
+            let what = format!(
+                "the pocket is hardly wider than the cutter at ({:.3}, {:.3}): no pass goes on there within the engagement",
+                p.x, p.y
+            );
+            return Err(Finding::error(Code::POCKET_LEFT, what)
+                .value_mm(spec.cutter.diameter)
+                .bound_mm(spec.cutter.diameter - NARROW * a)
+                .point([p.x, p.y, 0.0])
+                .help("take a smaller cutter")
+                .key("tool")
+                .into());
+        }
+    }
+    Ok(())
 }
 
 /// Whether every helix finds room.

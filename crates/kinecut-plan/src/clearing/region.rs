@@ -99,10 +99,12 @@ impl CentreRegion {
         };
         let ([x0, x1], [y0, y1]) = (span(DVec2::X), span(DVec2::Y));
         let size = (x1 - x0).max(y1 - y0);
-        let mut best = (DVec2::new(0.5 * (x0 + x1), 0.5 * (y0 + y1)), f64::NEG_INFINITY);
+        let inside = |p: DVec2| winds(&of.edges, p);
+        // The middle, unless another place has more room by something.
+        let middle = DVec2::new(0.5 * (x0 + x1), 0.5 * (y0 + y1));
+        let mut best = (middle, if inside(middle) { self.room(middle) } else { f64::NEG_INFINITY });
         // Squares by the most room that a point of them may have, the largest first.
         let mut squares = vec![(f64::INFINITY, best.0, size)];
-        let inside = |p: DVec2| winds(&of.edges, p);
         while let Some(at) = (0..squares.len()).max_by(|&a, &b| squares[a].0.total_cmp(&squares[b].0)) {
             let (most, middle, size) = squares.swap_remove(at);
             if most <= best.1 + WORTH * best.1.abs().max(1e-3) {
@@ -111,7 +113,7 @@ impl CentreRegion {
             for (sx, sy) in [(-0.25, -0.25), (0.25, -0.25), (-0.25, 0.25), (0.25, 0.25)] {
                 let p = middle + size * DVec2::new(sx, sy);
                 let room = self.room(p);
-                if room > best.1 && inside(p) {
+                if room > best.1 + WORTH * best.1.abs().clamp(1e-3, 1e3) && inside(p) {
                     best = (p, room);
                 }
                 let half = 0.5 * size;

@@ -82,6 +82,14 @@ impl Band {
         }
     }
 
+    /// All inside of an outline, around its islands: a pocket, with so much left on its wall [mm].
+    pub(crate) fn inside_of(outline: &Outline, leave: f64) -> Band {
+        let [min, max] = outline.bounds();
+        // No point inside is so far from the wall that it would lie beyond the middle of the strip.
+        let size = min.distance(max);
+        Band { reach: 0.5 * size, ..Band::new(outline, false, leave, 2.0 * size) }
+    }
+
     /// Distance of a point from the wall, positive where it is cut; `None` far away.
     fn off_wall(&self, p: DVec2) -> Option<f64> {
         let nearest = self.near.at(p, self.width + self.leave)?;

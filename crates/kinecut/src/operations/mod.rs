@@ -20,6 +20,7 @@ pub mod outlines;
 pub mod path;
 mod pen;
 pub mod places;
+pub mod pocket;
 pub mod pocket_ellipse;
 mod posted;
 mod round_hole;
@@ -27,11 +28,12 @@ pub(crate) mod setting;
 mod table;
 pub mod tap;
 pub mod wall;
+mod uncut;
 pub(crate) mod wanted;
 
 pub(crate) use kind::{Attempt, Found, Judged, Probes, Shown, Tally, WearRegister};
 pub use milling::{JobPlane, Milling};
-pub(crate) use milling::{milling, milling_of, spindle, tool_of, whole_revolutions};
+pub(crate) use milling::{feed_of, milling, milling_of, spindle, tool_of, whole_revolutions};
 pub(crate) use pen::Pen;
 pub use posted::PostedPlan;
 pub(crate) use round_hole::{MadeHole, RoundHole};
@@ -45,6 +47,8 @@ kinds! {
     /// Milling of an elliptic pocket.
     PocketEllipse "pocket-ellipse"
         (pocket_ellipse::EllipseTable, pocket_ellipse::EllipseOperation, pocket_ellipse::PlannedEllipse),
+    /// Milling of a pocket with any outline and islands, at a bounded engagement.
+    Pocket "pocket" (pocket::PocketTable, pocket::PocketOperation, pocket::PlannedPocket),
     /// Milling along the edges of an outline.
     Contour "contour" (contour::ContourTable, contour::ContourOperation, contour::PlannedContour),
     /// Drilling, centring, countersinking, reaming: what a tool does along its axis.

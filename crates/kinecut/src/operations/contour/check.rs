@@ -11,7 +11,7 @@ use crate::geom::Outline;
 use crate::operations::kind::{self, Attempt};
 use crate::operations::outlines::{Drawn, OutlineEntry, OutlineKeys};
 use crate::operations::{
-    Around, Milling, PlaneTable, Setting, milling_of, spindle, tool_of, whole_revolutions,
+    Around, Milling, PlaneTable, Setting, feed_of, milling_of, spindle, tool_of, whole_revolutions,
 };
 use crate::tool::{Cutter, Hand};
 
@@ -126,7 +126,7 @@ fn operation(t: &ContourTable, around: &Around<'_>) -> Result<ContourOperation> 
         return Err(finding.help("use an end mill").key("tool").into());
     };
     let speed = whole_revolutions(spindle(t.speed, t.cutting_speed, ("tool", diameter))?);
-    let feed = feed(t, speed, tool.teeth)?;
+    let feed = feed_of("contour", t.feed, t.feed_per_tooth, speed, tool.teeth)?;
     let per_second = |key: &str, value: Option<f64>, usual: f64| match value {
         Some(value) => Ok(positive(key, value, 1e6, "mm/min")? / 60.0),
         None => Ok::<f64, crate::base::Error>(usual),
@@ -168,25 +168,6 @@ fn operation(t: &ContourTable, around: &Around<'_>) -> Result<ContourOperation> 
         milling: milling_of(tool, speed, t.coolant, t.tolerance)?,
         table: t.clone(),
     })
-}
-
-/// Feed along the contour [mm/s].
-fn feed(t: &ContourTable, speed: f64, teeth: u32) -> Result<f64> {
-    match (t.feed, t.feed_per_tooth) {
-        (Some(feed), None) => Ok(positive("feed", feed, 1e6, "mm/min")? / 60.0),
-        (None, Some(per_tooth)) => {
-            let per_tooth = positive("feed_per_tooth", per_tooth, 100.0, "mm")?;
-            Ok(per_tooth * f64::from(teeth) * speed / std::f64::consts::TAU)
-        }
-        (Some(_), Some(_)) => {
-            let finding = Finding::error(Code::JOB_SHAPE, "`feed` and `feed_per_tooth` exclude each other");
-            Err(finding.help("give one of them").key("feed").into())
-        }
-        (None, None) => {
-            let finding = Finding::error(Code::JOB_SHAPE, "the contour needs a feed");
-            Err(finding.help("give feed (mm/min) or feed_per_tooth (mm)").into())
-        }
-    }
 }
 
 fn checked_tabs(t: &TabsTable, outline: &Outline) -> Result<Tabs> {

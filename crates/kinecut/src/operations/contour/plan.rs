@@ -11,16 +11,14 @@ use crate::base::{Code, Finding, Result};
 use crate::contouring::{ContourFinish, ContourPlan, ContourSide, ContourSpec, plan_contour};
 use crate::geom::Aabb;
 use crate::holes::CutterData;
-use crate::operations::band::{Band, Fillet, TabPlace};
+use crate::operations::band::{Band, TabPlace};
+use crate::operations::uncut;
 use crate::operations::kind::{self, Attempt, Checked as _};
-use crate::operations::wall::{CLEARANCE, WearKeys, write_moves};
+use crate::operations::wall::{CLEARANCE, OUTLINE_WEAR, WearKeys, write_moves};
 use crate::operations::wanted::{Wall, WantedWall};
 use crate::operations::{Found, Judged, Pen, PostedPlan, Setting, Shown, WearRegister};
 use crate::page::Section;
 use crate::program::Comp;
-
-/// Largest wear of a register where the job does not say [mm].
-const USUAL_WEAR: f64 = 0.05;
 
 /// A planned contour.
 #[derive(Clone, Debug)]
@@ -54,7 +52,7 @@ fn spec(setting: &Setting<'_>, of: &ContourOperation) -> Result<ContourSpec> {
         largest: f.wear_largest,
         value: f.wear_value,
     });
-    let wear = keys.map(|keys| keys.wear(USUAL_WEAR)).transpose().map_err(|e| e.under("finish"))?.flatten();
+    let wear = keys.map(|keys| keys.wear(OUTLINE_WEAR)).transpose().map_err(|e| e.under("finish"))?.flatten();
     if let Some(keys) = keys {
         keys.check(setting, of.milling.tool.number, wear).map_err(|e| e.under("finish"))?;
     }
@@ -149,8 +147,7 @@ impl kind::Plan for PlannedContour {
         let leave = spec.stock_to_leave + self.wear.map_or(0.0, |w| w.value);
         let mut band = Band::new(&outline, spec.side == ContourSide::Outside, leave, spec.cutter.diameter);
         let radius = spec.radius() + spec.stock_to_leave;
-        band.corners =
-            self.plan.uncut.iter().map(|c| Fillet { centre: c.at, radius, between: c.between }).collect();
+        band.corners = uncut::fillets(&self.plan.uncut, radius);
         band.tabs = self.tabs();
         let through = t.breakthrough > 0.0;
         let floor = spec.top - spec.depth;
@@ -197,26 +194,15 @@ impl PlannedContour {
 
     /// Parts of the wall that are not compared, in words.
     pub(super) fn not_looked_at(&self) -> Option<String> {
-        let count = |n: usize, one: &str, more: &str| format!("{n} {}", if n == 1 { one } else { more });
-        let gaps = self.plan.uncut.iter().filter(|c| c.thickness.is_none()).count();
-        let corners = self.plan.uncut.len() - gaps;
         let tabs = self.tabs();
-        let mut parts = Vec::new();
-        if corners > 0 {
-            let corners = count(corners, "corner", "corners");
-            parts.push(format!("{corners} beyond the cutter's fillet"));
-        }
-        if gaps > 0 {
-            let gaps = count(gaps, "place", "places");
-            parts.push(format!("{gaps} between two loops, where the cutter does not go"));
-        }
+        let mut parts = uncut::in_words(&self.plan.uncut);
         if let Some(longest) = tabs.iter().map(|tab| 2.0 * tab.radius).max_by(f64::total_cmp) {
             // Roughing and finishing have their tabs at one place.
             let tabs = self.plan.loops.iter().filter(|l| !l.finishing).map(|l| l.tabs.len()).sum::<usize>();
             let each = if tabs == 1 { "" } else { " at each" };
             let length = crate::page::trimmed(longest, 1);
             let top = crate::page::trimmed(self.spec.bottom() + self.tab_height(), 2);
-            let tabs = count(tabs, "tab", "tabs");
+            let tabs = uncut::count(tabs, "tab", "tabs");
             parts.push(format!("the wall at {tabs}, over a length of {length} mm{each}, below Z {top}"));
         }
         (!parts.is_empty()).then(|| parts.join("; "))

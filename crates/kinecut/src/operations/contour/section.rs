@@ -3,7 +3,7 @@
 use super::PlannedContour;
 use crate::contouring::ContourSide;
 use crate::geom::OutlineEdge;
-use crate::operations::Shown;
+use crate::operations::{Shown, uncut};
 use crate::operations::measured::BoreMeasure;
 use crate::page::{
     Cell, Circle, Colour, Column, Dash, Fact, Ink, Plan, PlanLine, Row, Section, Table, Width, fixed,
@@ -56,31 +56,11 @@ fn facts(plan: &PlannedContour, wall: Option<&BoreMeasure>) -> Vec<Fact> {
         crate::holes::FeedAt::Wall => "at the wall",
         crate::holes::FeedAt::Centre => "of the cutter\u{2019}s centre",
     }));
-    let uncut = &plan.plan.uncut;
-    let thick: Vec<f64> = uncut.iter().filter_map(|c| c.thickness).collect();
-    if let Some(worst) = thick.iter().copied().max_by(f64::total_cmp) {
-        facts.push(
-            Fact::new("Corners that stay", format!("{}", thick.len()))
-                .note(format!("up to {} mm thick", fixed(worst, 3))),
-        );
-    }
-    let between: Vec<String> = uncut.iter().filter(|c| c.thickness.is_none()).map(|c| place(c.at)).collect();
-    if let Some(first) = between.first() {
-        let ends =
-            if between.len() == 1 { "1 place".to_owned() } else { format!("{} places", between.len()) };
-        facts.push(
-            Fact::new("Not cut between two loops", ends)
-                .note(format!("the cutter does not go there: for example near {first}")),
-        );
-    }
+    facts.extend(uncut::facts(&plan.plan.uncut));
     for note in &of.notes {
         facts.push(Fact::new("Drawing", note.clone()));
     }
     facts
-}
-
-fn place(at: glam::DVec2) -> String {
-    format!("X{} Y{}", trimmed(at.x, 3), trimmed(at.y, 3))
 }
 
 /// The range of stock on a wall.
@@ -142,7 +122,7 @@ fn table(plan: &PlannedContour) -> Table {
     for one in plan.plan.loops.iter().take(LISTED) {
         let which = if one.outer { "outer" } else { "inner" };
         let what = if one.finishing { "finishing" } else { "roughing" };
-        let start = one.edges.first().map(|e| place(e.start)).unwrap_or_default();
+        let start = one.edges.first().map(|e| uncut::place(e.start)).unwrap_or_default();
         table.rows.push(Row::new(vec![
             Cell::new(format!("{what}, {which}")),
             Cell::new(start),

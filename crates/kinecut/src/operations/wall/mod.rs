@@ -11,4 +11,4 @@ pub(crate) use lead_figures::lead_drawings;
 pub(crate) use moves::{CLEARANCE, write_moves};
 pub(crate) use section::{ShownWall, sections};
 pub use table::*;
-pub(crate) use wear::WearKeys;
+pub(crate) use wear::{OUTLINE_WEAR, WearKeys};

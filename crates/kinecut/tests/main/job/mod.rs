@@ -15,6 +15,7 @@ mod kept;
 mod machine_bodies;
 mod picture;
 mod playback;
+mod pocket;
 mod prove_motion;
 mod prove_rules;
 mod rest;

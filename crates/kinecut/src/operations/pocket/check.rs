@@ -1,0 +1,192 @@
+//! Pockets, checked: the outline read and placed, speeds and feeds, the tool.
+
+use std::sync::Arc;
+
+use super::PocketTable;
+use super::plan::{PlannedPocket, planned};
+use crate::base::bounded::{MAX_LENGTH, bounded, length, positive};
+use crate::base::{Code, Finding, Result};
+use crate::geom::Outline;
+use crate::operations::kind::{self, Attempt};
+use crate::operations::outlines::{Drawn, OutlineEntry, OutlineKeys};
+use crate::operations::{
+    Around, Milling, PlaneTable, Setting, feed_of, milling_of, spindle, tool_of, whole_revolutions,
+};
+use crate::tool::{Cutter, Hand};
+
+/// Engagement where the job does not say it [deg].
+const USUAL_ENGAGEMENT: f64 = 60.0;
+/// Range of the engagement [deg].
+const ENGAGEMENTS: [f64; 2] = [5.0, 120.0];
+/// Angle of the helix where neither the job nor the tool says one [deg].
+const USUAL_HELIX: f64 = 3.0;
+/// Share of the feed at which the cutter goes down, and by which it goes faster through what is cleared.
+const DOWN: f64 = 0.5;
+const THROUGH: f64 = 2.0;
+/// Largest corner of a cutter, in its radius: beyond it passes leave ridges on the floor.
+const CORNER: f64 = 0.25;
+
+/// Milling of a pocket.
+#[derive(Clone, Debug)]
+pub struct PocketOperation {
+    /// As written.
+    pub table: PocketTable,
+    /// Tool, speed, coolant, tolerance.
+    pub milling: Milling,
+    /// The outline in coordinates of the work offset.
+    pub outline: Outline,
+    /// Notes of the outline's reader.
+    pub notes: Vec<String>,
+    /// Engagement [rad].
+    pub engagement: f64,
+    /// Feeds of passes, down, through what is cleared, and of finishing [mm/s].
+    pub feeds: PocketFeeds,
+    /// Angle of the helix [rad].
+    pub helix: f64,
+}
+
+/// Feeds of a pocket [mm/s].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PocketFeeds {
+    /// Of passes and along the wall.
+    pub pass: f64,
+    /// Down.
+    pub down: f64,
+    /// Through what is cleared.
+    pub link: f64,
+    /// Of finishing.
+    pub finish: f64,
+}
+
+impl PocketOperation {
+    /// Radius of the tool's corner [mm]: a wall is cut to size above it.
+    pub(super) fn corner(&self) -> f64 {
+        match self.milling.tool.cutter {
+            Cutter::BullNose { corner_radius, .. } => corner_radius,
+            _ => 0.0,
+        }
+    }
+
+    /// Whether the spindle turns counter-clockwise.
+    pub(super) fn left_hand(&self) -> bool {
+        self.milling.tool.limits.hand == Hand::Left
+    }
+}
+
+impl kind::Checked for PocketOperation {
+    type Plan = PlannedPocket;
+
+    const NOUN: &'static str = "pocket";
+
+    fn milling(&self) -> &Milling {
+        &self.milling
+    }
+
+    fn milling_mut(&mut self) -> &mut Milling {
+        &mut self.milling
+    }
+
+    fn name(&self) -> String {
+        let [min, max] = self.outline.bounds();
+        let size = max - min;
+        let shown = |mm: f64| crate::page::trimmed(mm, 2);
+        format!("pocket {} x {} x {}", shown(size.x), shown(size.y), shown(self.table.depth))
+    }
+
+    fn is_left_hand(&self) -> bool {
+        self.left_hand()
+    }
+
+    fn plan(self: &Arc<Self>, setting: &Setting<'_>) -> Result<Attempt<PlannedPocket>> {
+        planned(self, setting)
+    }
+}
+
+impl kind::Table for PocketTable {
+    type Of = PocketOperation;
+
+    fn check(&self, around: &Around<'_>) -> Result<PocketOperation> {
+        operation(self, around)
+    }
+
+    fn plane(&self) -> Option<&PlaneTable> {
+        self.plane.as_ref()
+    }
+
+    fn file(&self) -> Option<(&'static str, &str)> {
+        match &self.outline {
+            Some(OutlineEntry::Name(name)) => Some(("outline", name)),
+            _ => None,
+        }
+    }
+}
+
+fn operation(t: &PocketTable, around: &Around<'_>) -> Result<PocketOperation> {
+    let tool = tool_of(t.tool, around.tools)?;
+    let (diameter, corner) = match tool.cutter {
+        Cutter::EndMill { diameter } => (diameter, 0.0),
+        Cutter::BullNose { diameter, corner_radius } => (diameter, corner_radius),
+        _ => {
+            let what = format!("{} has no cylindrical edge and flat end", tool.number);
+            let finding = Finding::error(Code::JOB_REFERENCE, what);
+            return Err(finding.help("use an end mill").key("tool").into());
+        }
+    };
+    if corner > CORNER * 0.5 * diameter {
+        let what = "the cutter's corner is too large for a pocket: its passes leave ridges on the floor";
+        return Err(Finding::error(Code::JOB_REFERENCE, what)
+            .value_mm(corner)
+            .bound_mm(CORNER * 0.5 * diameter)
+            .help("use an end mill with a smaller corner")
+            .key("tool")
+            .into());
+    }
+    let speed = whole_revolutions(spindle(t.speed, t.cutting_speed, ("tool", diameter))?);
+    let pass = feed_of("pocket", t.feed, t.feed_per_tooth, speed, tool.teeth)?;
+    let per_second = |key: &str, value: Option<f64>, usual: f64| match value {
+        Some(value) => Ok(positive(key, value, 1e6, "mm/min")? / 60.0),
+        None => Ok::<f64, crate::base::Error>(usual),
+    };
+    length("top", t.top, -MAX_LENGTH, MAX_LENGTH)?;
+    positive("depth", t.depth, MAX_LENGTH, "mm")?;
+    length("breakthrough", t.breakthrough, 0.0, MAX_LENGTH)?;
+    length("lift", t.lift.unwrap_or(0.0), 0.0, MAX_LENGTH)?;
+    let engagement = t.engagement.unwrap_or(USUAL_ENGAGEMENT);
+    let engagement = bounded("engagement", engagement, ENGAGEMENTS[0], ENGAGEMENTS[1], "deg")?.to_radians();
+    let entry = t.entry.unwrap_or_default();
+    let usual = USUAL_HELIX.to_radians();
+    let helix = match entry.helix {
+        Some(angle) => positive("entry.helix", angle, 45.0, "deg")?.to_radians(),
+        None => tool.max_ramp_angle.map_or(usual, |most| most.min(usual)),
+    };
+    let drawing = t.outline.as_ref().map(|outline| Drawn {
+        outline,
+        unit: t.unit,
+        layers: t.layers.as_deref(),
+        snap: t.snap,
+        at: t.at,
+        angle: t.angle,
+    });
+    let keys = OutlineKeys {
+        rectangle: t.rectangle.as_ref(),
+        circle: t.circle.as_ref(),
+        polygon: t.polygon.as_deref(),
+        drawing,
+    };
+    let read = keys.read(around.loader)?;
+    let feeds = PocketFeeds {
+        pass,
+        down: per_second("plunge_feed", t.plunge_feed, DOWN * pass)?,
+        link: per_second("link_feed", t.link_feed, THROUGH * pass)?,
+        finish: per_second("finish.feed", t.finish.as_ref().and_then(|f| f.feed), pass)?,
+    };
+    Ok(PocketOperation {
+        outline: read.outline,
+        notes: read.notes,
+        engagement,
+        feeds,
+        helix,
+        milling: milling_of(tool, speed, t.coolant, t.tolerance)?,
+        table: t.clone(),
+    })
+}

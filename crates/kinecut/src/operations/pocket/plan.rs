@@ -1,0 +1,218 @@
+//! A planned pocket: its table in the planners' words, its moves, its wall.
+
+use std::sync::Arc;
+
+use glam::{DVec2, DVec3};
+
+use super::PocketOperation;
+use super::json::PocketJson;
+use super::section::section;
+use crate::base::Result;
+use crate::clearing::{PocketPlan, PocketSpec, WALL_STOCK, plan_pocket};
+use crate::contouring::{ContourFinish, ContourPlan, ContourSide, ContourSpec, plan_contour};
+use crate::geom::{Line, Outline};
+use crate::holes::{CutterData, PlannedMove, ToolpathPace, ToolpathRole};
+use crate::operations::band::Band;
+use crate::operations::kind::{self, Attempt};
+use crate::operations::setting::corners;
+use crate::operations::uncut;
+use crate::operations::wall::{CLEARANCE, OUTLINE_WEAR, WearKeys, write_moves};
+use crate::operations::wanted::{Wall, WantedWall};
+use crate::operations::{Found, Judged, Pen, PostedPlan, Setting, Shown, WearRegister};
+use crate::page::Section;
+use crate::program::Comp;
+
+/// A planned pocket.
+#[derive(Clone, Debug)]
+pub struct PlannedPocket {
+    /// The operation.
+    pub of: Arc<PocketOperation>,
+    /// Its clearing in the planner's words.
+    pub spec: PocketSpec,
+    /// The plan of the clearing.
+    pub clearing: PocketPlan,
+    /// The lap along the wall in the planner's words.
+    pub lap: ContourSpec,
+    /// The plan of the lap.
+    pub wall: ContourPlan,
+    /// The wear register of the finish.
+    wear: Option<WearRegister>,
+}
+
+/// Plans a pocket.
+pub(super) fn planned(of: &Arc<PocketOperation>, setting: &Setting<'_>) -> Result<Attempt<PlannedPocket>> {
+    let (spec, lap) = specs(setting, of)?;
+    let clearing = plan_pocket(&spec)?;
+    let wall = plan_contour(&lap)?;
+    let value = of.table.finish.as_ref().and_then(|f| f.wear_value).unwrap_or(0.0);
+    let wear = lap.finish.and_then(|f| f.wear).map(|w| WearRegister { number: w.register, value });
+    let findings = clearing.findings.iter().chain(&wall.findings).cloned().collect();
+    Ok(Attempt::SetupPlan(PlannedPocket { of: Arc::clone(of), spec, clearing, lap, wall, wear }, findings))
+}
+
+/// The operation in the planners' words.
+fn specs(setting: &Setting<'_>, of: &PocketOperation) -> Result<(PocketSpec, ContourSpec)> {
+    let t = &of.table;
+    let keys = t.finish.as_ref().map(|f| WearKeys {
+        register: f.wear_offset.as_deref(),
+        largest: f.wear_largest,
+        value: f.wear_value,
+    });
+    let wear = keys.map(|keys| keys.wear(OUTLINE_WEAR)).transpose().map_err(|e| e.under("finish"))?.flatten();
+    if let Some(keys) = keys {
+        keys.check(setting, of.milling.tool.number, wear).map_err(|e| e.under("finish"))?;
+    }
+    let cutter = CutterData::of(&of.milling.tool);
+    let retract_z = setting.clamping.safe_height;
+    let approach_z = (t.top + CLEARANCE).clamp(f64::NEG_INFINITY, retract_z);
+    let bottom = t.top - t.depth - t.breakthrough;
+    let spec = PocketSpec {
+        stock: over_stock(setting, of)?,
+        holes: open_holes(setting, t.top, bottom),
+        left_hand: of.left_hand(),
+        sense: t.direction,
+        engagement: of.engagement,
+        top: t.top,
+        breakthrough: t.breakthrough,
+        stepdown: t.stepdown,
+        allowance: t.stock_to_leave + t.finish.as_ref().map_or(0.0, |f| f.allowance),
+        plunge_feed: of.feeds.down,
+        link_feed: of.feeds.link,
+        ramp: of.helix,
+        helix_radius: t.entry.and_then(|e| e.radius),
+        lift: t.lift.unwrap_or(0.2),
+        retract_z,
+        approach_z,
+        ..PocketSpec::new(of.outline.clone(), t.depth, cutter, of.feeds.pass)
+    };
+    let lap = ContourSpec {
+        side: ContourSide::Inside,
+        left_hand: of.left_hand(),
+        sense: t.direction,
+        top: t.top,
+        breakthrough: t.breakthrough,
+        stock_to_leave: t.stock_to_leave,
+        stepdown: t.stepdown,
+        feed_at: t.feed_at,
+        plunge_feed: of.feeds.down,
+        ramp: None,
+        cleared: true,
+        finish: t.finish.as_ref().map(|f| ContourFinish {
+            allowance: f.allowance + WALL_STOCK,
+            feed: of.feeds.finish,
+            stepdown: f.stepdown,
+            spring_passes: f.spring_passes,
+            wear,
+        }),
+        lead_radius: t.lead_radius,
+        retract_z,
+        approach_z,
+        ..ContourSpec::new(of.outline.clone(), t.depth, cutter, of.feeds.pass)
+    };
+    Ok((spec, lap))
+}
+
+/// The outline of the stock's box where the pocket reaches over it.
+fn over_stock(setting: &Setting<'_>, of: &PocketOperation) -> Result<Option<Outline>> {
+    let to_work = setting.clamping.to_operation(&of.milling);
+    let (mut low, mut high) = (DVec2::INFINITY, DVec2::NEG_INFINITY);
+    for corner in corners(&setting.stock.bounds(), &to_work) {
+        (low, high) = (low.min(corner.truncate()), high.max(corner.truncate()));
+    }
+    let [min, max] = of.outline.bounds();
+    let reaches_over = min.x < low.x || min.y < low.y || max.x > high.x || max.y > high.y;
+    let around = [low, DVec2::new(high.x, low.y), high, DVec2::new(low.x, high.y)];
+    reaches_over.then(|| Outline::polygon(&around)).transpose()
+}
+
+/// The round holes that are open from the top down to the bottom of a pocket: centre and radius.
+fn open_holes(setting: &Setting<'_>, top: f64, bottom: f64) -> Vec<(DVec2, f64)> {
+    let holes = setting.holes().into_iter();
+    let open = holes.filter(|h| h.top >= top - 1e-6 && (h.through || h.bottom <= bottom + 1e-6));
+    open.map(|h| (h.centre, 0.5 * h.diameter)).collect()
+}
+
+impl kind::Plan for PlannedPocket {
+    type Json = PocketJson;
+
+    const LIST: &'static str = "pockets";
+
+    fn wear(&self) -> Option<WearRegister> {
+        self.wear
+    }
+
+    fn write(&mut self, pen: &mut Pen<'_>) -> Result<()> {
+        let milling = &self.of.milling;
+        if let Some(wear) = self.wear {
+            pen.text(pen.setting.post.control.wear_note(milling.tool.number, wear.number));
+            pen.text("0 AS PLANNED, POSITIVE LEAVES STOCK ON THE WALL");
+        }
+        let comp = self.wear.map(|w| match self.lap.keeps_right() {
+            true => Comp::Left(w.number),
+            false => Comp::Right(w.number),
+        });
+        write_moves(pen, &self.moves(), milling.coolant, comp);
+        Ok(())
+    }
+
+    fn breakthrough(&self) -> f64 {
+        self.of.table.breakthrough
+    }
+
+    fn walls(&self) -> Vec<WantedWall> {
+        let (spec, t) = (&self.lap, &self.of.table);
+        // A wear register moves the wall: positive values leave stock.
+        let leave = spec.stock_to_leave + self.wear.map_or(0.0, |w| w.value);
+        let mut band = Band::inside_of(&self.of.outline, leave);
+        band.corners = uncut::fillets(&self.wall.uncut, spec.radius() + spec.stock_to_leave);
+        // The wall is cut to size above the cutter's corner.
+        band.foot = self.of.corner();
+        let through = t.breakthrough > 0.0;
+        let floor = spec.top - spec.depth;
+        let wall = WantedWall {
+            centre: band.middle,
+            top: spec.top,
+            floor: (!through).then_some(floor),
+            bottom: floor + if through { 0.0 } else { band.foot },
+            slug: 0.0,
+            wall: Wall::Band(Arc::new(band)),
+        };
+        vec![wall]
+    }
+
+    fn judge(&mut self, name: &str, _posted: &PostedPlan<'_>, _found: &Found<'_>) -> Judged {
+        let unchecked = self.not_looked_at().map(|what| format!("{name}: {what}"));
+        Judged { unchecked, ..Judged::default() }
+    }
+
+    fn sections(all: &[(&PlannedPocket, &Shown<'_>)]) -> Vec<Section> {
+        all.iter().map(|(plan, shown)| section(plan, shown)).collect()
+    }
+
+    fn json(&self, shown: &Shown<'_>) -> Option<PocketJson> {
+        Some(PocketJson::new(self, shown.number))
+    }
+}
+
+impl PlannedPocket {
+    /// All moves: the passes, then the laps along the wall.
+    fn moves(&self) -> Vec<PlannedMove> {
+        let mut moves = self.clearing.moves.clone();
+        let ends = (moves.last().map(|m| m.curve.end()), self.wall.moves.first().map(|m| m.curve.start()));
+        if let (Some(start), Some(end)) = ends
+            && start.distance(end) > 1e-9
+            && let Some(last) = moves.last().cloned()
+        {
+            let curve = Line { start, end: DVec3::new(end.x, end.y, end.z) }.into();
+            moves.push(PlannedMove { role: ToolpathRole::Link, curve, pace: ToolpathPace::Rapid, ..last });
+        }
+        moves.extend(self.wall.moves.iter().cloned());
+        moves
+    }
+
+    /// Parts of the wall that are not compared, in words.
+    pub(super) fn not_looked_at(&self) -> Option<String> {
+        let parts = uncut::in_words(&self.wall.uncut);
+        (!parts.is_empty()).then(|| parts.join("; "))
+    }
+}

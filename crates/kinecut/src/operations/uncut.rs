@@ -1,0 +1,53 @@
+//! Inside corners that a cutter does not reach, as the parts of an operation along an outline say them.
+
+use glam::DVec2;
+
+use super::band::Fillet;
+use crate::contouring::UncutCorner;
+use crate::page::{Fact, fixed, trimmed};
+
+/// A number with its noun.
+pub(crate) fn count(n: usize, one: &str, more: &str) -> String {
+    format!("{n} {}", if n == 1 { one } else { more })
+}
+
+/// A place in words.
+pub(crate) fn place(at: DVec2) -> String {
+    format!("X{} Y{}", trimmed(at.x, 3), trimmed(at.y, 3))
+}
+
+/// The corners as fillets of a radius [mm], from which the wall is compared.
+pub(crate) fn fillets(uncut: &[UncutCorner], radius: f64) -> Vec<Fillet> {
+    uncut.iter().map(|c| Fillet { centre: c.at, radius, between: c.between }).collect()
+}
+
+/// Parts of the wall that are not compared.
+pub(crate) fn in_words(uncut: &[UncutCorner]) -> Vec<String> {
+    let gaps = uncut.iter().filter(|c| c.thickness.is_none()).count();
+    let corners = uncut.len() - gaps;
+    let mut parts = Vec::new();
+    if corners > 0 {
+        parts.push(format!("{} beyond the cutter's fillet", count(corners, "corner", "corners")));
+    }
+    if gaps > 0 {
+        let gaps = count(gaps, "place", "places");
+        parts.push(format!("{gaps} between two loops, where the cutter does not go"));
+    }
+    parts
+}
+
+/// The corners as the report has them.
+pub(crate) fn facts(uncut: &[UncutCorner]) -> Vec<Fact> {
+    let mut facts = Vec::new();
+    let thick: Vec<f64> = uncut.iter().filter_map(|c| c.thickness).collect();
+    if let Some(worst) = thick.iter().copied().max_by(f64::total_cmp) {
+        let note = format!("up to {} mm thick", fixed(worst, 3));
+        facts.push(Fact::new("Corners that stay", format!("{}", thick.len())).note(note));
+    }
+    let between: Vec<String> = uncut.iter().filter(|c| c.thickness.is_none()).map(|c| place(c.at)).collect();
+    if let Some(first) = between.first() {
+        let note = format!("the cutter does not go there: for example near {first}");
+        facts.push(Fact::new("Not cut between two loops", count(between.len(), "place", "places")).note(note));
+    }
+    facts
+}
