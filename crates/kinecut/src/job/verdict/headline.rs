@@ -96,7 +96,10 @@ fn shape(job: &Job, deviation: &Deviation) -> String {
         .filter_map(|(_, number)| job.operation(number).map(Operation::noun))
         .collect();
     let count = |noun: &'static str| (noun, measured.iter().filter(|of| **of == noun).count());
-    let counts = Operation::NOUNS.iter().filter(|noun| !noun.is_empty()).map(|noun| count(noun));
+    // Kinds may share their noun.
+    let is_first = |i: usize| !Operation::NOUNS[..i].contains(&Operation::NOUNS[i]);
+    let nouns = (0..Operation::NOUNS.len()).filter(|i| is_first(*i)).map(|i| Operation::NOUNS[i]);
+    let counts = nouns.filter(|noun| !noun.is_empty()).map(count);
     let counted = counts.filter(|(_, n)| *n > 0).map(|(noun, n)| match n {
         1 => format!("1 {noun}"),
         n => format!("{n} {noun}s"),
