@@ -14,6 +14,8 @@ const CELLS: f64 = 6.0;
 const SLOTS: usize = 72;
 /// Margin by which a cell is larger than its square, in widths of a cell: half the way between two slots.
 const MARGIN: f64 = 0.27;
+/// Longest piece, in radii of the cutter: what it covers of a circle is one stretch without doubt.
+const LONGEST: f64 = 0.5;
 /// Share of the cutter's radius below which a piece of stock is rounding.
 const ROUNDING: f64 = 1e-9;
 
@@ -167,8 +169,17 @@ impl Clearing {
         at(p.y, self.low.y, self.rows) * self.columns + at(p.x, self.low.x, self.columns)
     }
 
-    /// A disc of a radius [mm] has moved straight between two points.
+    /// A disc of a radius, that of the cutter at least [mm], has moved straight between two points.
     pub fn sweep(&mut self, from: DVec2, to: DVec2, radius: f64) {
+        let parts = (from.distance(to) / (LONGEST * self.radius)).ceil().max(1.0);
+        let at = |k: f64| from + (to - from) * (k / parts);
+        for k in 0..parts as usize {
+            let k = k as f64;
+            self.add(at(k), if k + 1.0 < parts { at(k + 1.0) } else { to }, radius);
+        }
+    }
+
+    fn add(&mut self, from: DVec2, to: DVec2, radius: f64) {
         let index = self.pieces.len() as u32;
         let along = to - from;
         let squared = along.length_squared();
@@ -422,6 +433,9 @@ impl Piece {
     /// covers nothing of it. The disc is at least as large as the circle, so that it is one stretch.
     fn covers(&self, centre: DVec2, radius: f64) -> Option<[f64; 2]> {
         let size = self.radius;
+        if self.squared(centre).sqrt() + radius <= size {
+            return Some([0.0, TAU]);
+        }
         let along = self.to - self.from;
         let length = along.length();
         // The part of the way from which the disc reaches the circle.
@@ -453,7 +467,7 @@ impl Piece {
         high = high.max(middle + half);
         if length > 0.0 && high - low < TAU {
             // Where the sides of the swept strip meet the circle.
-            let t = (to - from) / length;
+            let t = along / length;
             for side in [t.perp(), -t.perp()] {
                 let off = size - side.dot(centre - from);
                 if off.abs() >= radius {
@@ -490,4 +504,32 @@ fn disc(at: DVec2, size: f64, centre: DVec2, radius: f64) -> Option<[f64; 2]> {
     let half = cosine.clamp(-1.0, 1.0).acos();
     let middle = off.to_angle();
     Some([middle - half, middle + half])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::num::random::Random;
+
+    #[test]
+    fn a_piece_covers_one_stretch_of_a_circle() {
+        let mut random = Random(3);
+        let mut unit = || 2.0 * random.share() - 1.0;
+        for round in 0..20_000 {
+            let radius = 5.0;
+            let size = if round % 4 == 0 { 5.0 + 3.0 * unit().abs() } else { radius };
+            let from = DVec2::new(11.0 * unit(), 11.0 * unit());
+            let to = from + 2.5 * unit() * DVec2::from_angle(PI * unit());
+            let along = to - from;
+            let piece = Piece { from, to, along, per_squared: 1.0 / along.length_squared(), radius: size };
+            let found = piece.covers(DVec2::ZERO, radius);
+            let counted = (0..720)
+                .filter(|k| piece.holds(radius * DVec2::from_angle((f64::from(*k) + 0.5) * TAU / 720.0)))
+                .count() as f64
+                * TAU
+                / 720.0;
+            let covered = found.map_or(0.0, |[low, high]| high - low);
+            assert!((covered - counted).abs() < 0.02, "{round}: {piece:?} {found:?} {counted}");
+        }
+    }
 }

@@ -27,8 +27,8 @@ mod round_hole;
 pub(crate) mod setting;
 mod table;
 pub mod tap;
-pub mod wall;
 mod uncut;
+pub mod wall;
 pub(crate) mod wanted;
 
 pub(crate) use kind::{Attempt, Found, Judged, Probes, Shown, Tally, WearRegister};

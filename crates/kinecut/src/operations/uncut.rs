@@ -47,7 +47,8 @@ pub(crate) fn facts(uncut: &[UncutCorner]) -> Vec<Fact> {
     let between: Vec<String> = uncut.iter().filter(|c| c.thickness.is_none()).map(|c| place(c.at)).collect();
     if let Some(first) = between.first() {
         let note = format!("the cutter does not go there: for example near {first}");
-        facts.push(Fact::new("Not cut between two loops", count(between.len(), "place", "places")).note(note));
+        facts
+            .push(Fact::new("Not cut between two loops", count(between.len(), "place", "places")).note(note));
     }
     facts
 }

@@ -12,8 +12,8 @@ use crate::contouring::{ContourFinish, ContourPlan, ContourSide, ContourSpec, pl
 use crate::geom::Aabb;
 use crate::holes::CutterData;
 use crate::operations::band::{Band, TabPlace};
-use crate::operations::uncut;
 use crate::operations::kind::{self, Attempt, Checked as _};
+use crate::operations::uncut;
 use crate::operations::wall::{CLEARANCE, OUTLINE_WEAR, WearKeys, write_moves};
 use crate::operations::wanted::{Wall, WantedWall};
 use crate::operations::{Found, Judged, Pen, PostedPlan, Setting, Shown, WearRegister};

@@ -3,8 +3,8 @@
 use super::PlannedContour;
 use crate::contouring::ContourSide;
 use crate::geom::OutlineEdge;
-use crate::operations::{Shown, uncut};
 use crate::operations::measured::BoreMeasure;
+use crate::operations::{Shown, uncut};
 use crate::page::{
     Cell, Circle, Colour, Column, Dash, Fact, Ink, Plan, PlanLine, Row, Section, Table, Width, fixed,
     micrometres, trimmed,

@@ -38,14 +38,17 @@ fn facts(plan: &PlannedPocket, wall: Option<&BoreMeasure>) -> Vec<Fact> {
     );
     let share = |length: f64| format!("{} mm", trimmed(length, 0));
     let ratio = if f.bound > 0.0 { fixed(f.cutting / f.bound, 2) } else { "\u{2013}".to_owned() };
-    facts.push(Fact::new("Passes", uncut::count(f.passes, "pass", "passes")).note(format!(
-        "{} on each level, {ratio} of the least length at this engagement",
-        share(f.cutting)
-    )));
     facts.push(
-        Fact::new("Links", share(f.links))
-            .note(format!("at {}; {} over the part", per_minute(spec.link_feed), f.retracts)),
+        Fact::new("Passes", uncut::count(f.passes, "pass", "passes")).note(format!(
+            "{} on each level, {ratio} of the least length at this engagement",
+            share(f.cutting)
+        )),
     );
+    facts.push(Fact::new("Links", share(f.links)).note(format!(
+        "at {}; {} over the part",
+        per_minute(spec.link_feed),
+        f.retracts
+    )));
     let entry = match f.entries {
         0 => "by an open side or a hole".to_owned(),
         n => {

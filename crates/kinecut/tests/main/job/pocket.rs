@@ -112,7 +112,8 @@ fn islands_open_sides_and_holes_are_what_they_are() {
         { centre = [5, 0], radius = 9 } ] }\ndepth = 5\n";
     let open = "rectangle = { at = [60, 0], size = [60, 30], corner = 6 }\ndepth = 6\n";
     let through = "circle = { diameter = 50 }\ndepth = 20\nbreakthrough = 0.5\n";
-    let conventional = "rectangle = { size = [50, 40], angle = 20 }\ndepth = 5\ndirection = \"conventional\"\n";
+    let conventional =
+        "rectangle = { size = [50, 40], angle = 20 }\ndepth = 5\ndirection = \"conventional\"\n";
     for (name, keys, helices) in
         [("open", open, 0), ("through", through, 1), ("conventional", conventional, 1), ("island", island, 1)]
     {
@@ -125,7 +126,7 @@ fn islands_open_sides_and_holes_are_what_they_are() {
 
 #[test]
 fn a_drilled_hole_is_the_way_in() {
-    let drilled = "[[setup.operation]]\ntype = \"drill\"\ntool = 3\nspeed = 1500\nfeed_per_rev = { steady = 0.15 }\ndepth = 20\n\
+    let drilled = "[[setup.operation]]\ntype = \"drill\"\ntool = 3\nspeed = 1500\nfeed_per_rev = { steady = 0.15 }\n\
         points = [[10, 5]]\n";
     let outcome = done("fanuc", &format!("{drilled}{POCKET}{RECTANGLE}"));
     assert!(outcome.verdict.is_safe(), "{:?}", outcome.verdict.found);
@@ -154,13 +155,20 @@ fn the_simulator_measures_the_engagement_that_was_planned() {
         let blocks = all["setups"][0]["blocks"].as_array().unwrap();
         // Blocks of passes that cut all along; the helix cuts all around.
         let cuts = |b: &&serde_json::Value| {
-            number(b, "length") > 1.5 && number(b, "air") < 0.2 * number(b, "length") && number(b, "arc") < 180.0
+            number(b, "length") > 1.5
+                && number(b, "air") < 0.2 * number(b, "length")
+                && number(b, "arc") < 180.0
         };
         let mut arcs: Vec<f64> = blocks.iter().filter(cuts).map(|b| number(b, "arc")).collect();
         arcs.sort_by(f64::total_cmp);
         let at = |share: f64| arcs[(share * arcs.len() as f64) as usize];
         assert!(arcs.len() > 200, "{}", arcs.len());
-        assert!((at(0.5) - degrees).abs() < 3.0 && at(0.95) < degrees + 6.0, "{degrees}: {} {}", at(0.5), at(0.95));
+        assert!(
+            (at(0.5) - degrees).abs() < 3.0 && at(0.95) < degrees + 6.0,
+            "{degrees}: {} {}",
+            at(0.5),
+            at(0.95)
+        );
     }
 }
 
