@@ -46,6 +46,32 @@ pub(crate) fn milling(
     milling_of(tool, positive("speed", speed, 200_000.0, "rev/min")? * TAU / 60.0, coolant, tolerance)
 }
 
+/// The feed of the cutter's centre [mm/s] from the keys `feed` [mm/min] or `feed_per_tooth` [mm] of an operation with a noun, at a
+/// speed [rad/s].
+pub(crate) fn feed_of(
+    noun: &str,
+    feed: Option<f64>,
+    per_tooth: Option<f64>,
+    speed: f64,
+    teeth: u32,
+) -> Result<f64> {
+    match (feed, per_tooth) {
+        (Some(feed), None) => Ok(positive("feed", feed, 1e6, "mm/min")? / 60.0),
+        (None, Some(per_tooth)) => {
+            let per_tooth = positive("feed_per_tooth", per_tooth, 100.0, "mm")?;
+            Ok(per_tooth * f64::from(teeth) * speed / TAU)
+        }
+        (Some(_), Some(_)) => {
+            let finding = Finding::error(Code::JOB_SHAPE, "`feed` and `feed_per_tooth` exclude each other");
+            Err(finding.help("give one of them").key("feed").into())
+        }
+        (None, None) => {
+            let finding = Finding::error(Code::JOB_SHAPE, format!("the {noun} needs a feed"));
+            Err(finding.help("give feed (mm/min) or feed_per_tooth (mm)").into())
+        }
+    }
+}
+
 /// The tool of a number.
 pub(crate) fn tool_of(number: u32, tools: &[Tool]) -> Result<Tool> {
     let found = tools.iter().find(|t| t.number.0 == number).cloned();

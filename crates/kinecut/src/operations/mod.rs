@@ -9,6 +9,7 @@ mod list;
 
 pub(crate) mod band;
 pub mod bore;
+pub mod chamfer;
 pub mod contour;
 pub mod drill;
 pub mod face;
@@ -16,6 +17,7 @@ pub(crate) mod kind;
 pub(crate) mod known;
 pub mod measured;
 mod milling;
+mod named;
 pub mod outlines;
 pub mod path;
 mod pen;
@@ -31,7 +33,7 @@ pub(crate) mod wanted;
 
 pub(crate) use kind::{Attempt, Found, Judged, Probes, Shown, Tally, WearRegister};
 pub use milling::{JobPlane, Milling};
-pub(crate) use milling::{milling, milling_of, spindle, tool_of, whole_revolutions};
+pub(crate) use milling::{feed_of, milling, milling_of, spindle, tool_of, whole_revolutions};
 pub(crate) use pen::Pen;
 pub use posted::PostedPlan;
 pub(crate) use round_hole::{MadeHole, RoundHole};
@@ -47,6 +49,8 @@ kinds! {
         (pocket_ellipse::EllipseTable, pocket_ellipse::EllipseOperation, pocket_ellipse::PlannedEllipse),
     /// Milling along the edges of an outline.
     Contour "contour" (contour::ContourTable, contour::ContourOperation, contour::PlannedContour),
+    /// Chamfering of the upper edge of an outline.
+    Chamfer "chamfer" (chamfer::ChamferTable, chamfer::ChamferOperation, chamfer::PlannedChamfer),
     /// Drilling, centring, countersinking, reaming: what a tool does along its axis.
     Drill "drill" (drill::DrillTable, drill::DrillOperation, drill::PlannedDrilling),
     /// Threads by a tap.

@@ -9,9 +9,10 @@ use crate::base::{Code, Finding, Result};
 use crate::contouring::{ContourSide, Tabs};
 use crate::geom::Outline;
 use crate::operations::kind::{self, Attempt};
+use crate::operations::named::NamedOutline;
 use crate::operations::outlines::{Drawn, OutlineEntry, OutlineKeys};
 use crate::operations::{
-    Around, Milling, PlaneTable, Setting, milling_of, spindle, tool_of, whole_revolutions,
+    Around, Milling, PlaneTable, Setting, feed_of, milling_of, spindle, tool_of, whole_revolutions,
 };
 use crate::tool::{Cutter, Hand};
 
@@ -111,6 +112,20 @@ impl kind::Table for ContourTable {
         self.plane.as_ref()
     }
 
+    fn named_outline(&self) -> Option<NamedOutline<'_>> {
+        let (side, loops) = (self.side, self.loops);
+        let (top, stock_to_leave, plane) = (self.top, self.stock_to_leave, self.plane());
+        self.name.as_deref().map(|name| NamedOutline {
+            name,
+            keys: keys(self),
+            side,
+            loops,
+            top,
+            stock_to_leave,
+            plane,
+        })
+    }
+
     fn file(&self) -> Option<(&'static str, &str)> {
         match &self.outline {
             Some(OutlineEntry::Name(name)) => Some(("outline", name)),
@@ -126,7 +141,7 @@ fn operation(t: &ContourTable, around: &Around<'_>) -> Result<ContourOperation> 
         return Err(finding.help("use an end mill").key("tool").into());
     };
     let speed = whole_revolutions(spindle(t.speed, t.cutting_speed, ("tool", diameter))?);
-    let feed = feed(t, speed, tool.teeth)?;
+    let feed = feed_of("contour", t.feed, t.feed_per_tooth, speed, tool.teeth)?;
     let per_second = |key: &str, value: Option<f64>, usual: f64| match value {
         Some(value) => Ok(positive(key, value, 1e6, "mm/min")? / 60.0),
         None => Ok::<f64, crate::base::Error>(usual),
@@ -137,21 +152,7 @@ fn operation(t: &ContourTable, around: &Around<'_>) -> Result<ContourOperation> 
     for (i, v) in t.start.iter().flatten().enumerate() {
         length(&format!("start[{i}]"), *v, -MAX_LENGTH, MAX_LENGTH)?;
     }
-    let drawing = t.outline.as_ref().map(|outline| Drawn {
-        outline,
-        unit: t.unit,
-        layers: t.layers.as_deref(),
-        snap: t.snap,
-        at: t.at,
-        angle: t.angle,
-    });
-    let keys = OutlineKeys {
-        rectangle: t.rectangle.as_ref(),
-        circle: t.circle.as_ref(),
-        polygon: t.polygon.as_deref(),
-        drawing,
-    };
-    let read = keys.read(around.loader)?;
+    let read = keys(t).read(around.loader)?;
     let tabs = t.tabs.as_ref().map(|tabs| checked_tabs(tabs, &read.outline).map_err(|e| e.under("tabs")));
     Ok(ContourOperation {
         outline: read.outline,
@@ -170,22 +171,21 @@ fn operation(t: &ContourTable, around: &Around<'_>) -> Result<ContourOperation> 
     })
 }
 
-/// Feed along the contour [mm/s].
-fn feed(t: &ContourTable, speed: f64, teeth: u32) -> Result<f64> {
-    match (t.feed, t.feed_per_tooth) {
-        (Some(feed), None) => Ok(positive("feed", feed, 1e6, "mm/min")? / 60.0),
-        (None, Some(per_tooth)) => {
-            let per_tooth = positive("feed_per_tooth", per_tooth, 100.0, "mm")?;
-            Ok(per_tooth * f64::from(teeth) * speed / std::f64::consts::TAU)
-        }
-        (Some(_), Some(_)) => {
-            let finding = Finding::error(Code::JOB_SHAPE, "`feed` and `feed_per_tooth` exclude each other");
-            Err(finding.help("give one of them").key("feed").into())
-        }
-        (None, None) => {
-            let finding = Finding::error(Code::JOB_SHAPE, "the contour needs a feed");
-            Err(finding.help("give feed (mm/min) or feed_per_tooth (mm)").into())
-        }
+/// The keys that say the outline.
+fn keys(t: &ContourTable) -> OutlineKeys<'_> {
+    let drawing = t.outline.as_ref().map(|outline| Drawn {
+        outline,
+        unit: t.unit,
+        layers: t.layers.as_deref(),
+        snap: t.snap,
+        at: t.at,
+        angle: t.angle,
+    });
+    OutlineKeys {
+        rectangle: t.rectangle.as_ref(),
+        circle: t.circle.as_ref(),
+        polygon: t.polygon.as_deref(),
+        drawing,
     }
 }
 
