@@ -148,7 +148,7 @@ impl kind::Plan for PlannedContour {
         // A wear register moves the wall: positive values leave stock.
         let leave = spec.stock_to_leave + self.wear.map_or(0.0, |w| w.value);
         let mut band = Band::new(&outline, spec.side == ContourSide::Outside, leave, spec.cutter.diameter);
-        let radius = spec.radius() + spec.stock_to_leave;
+        let radius = spec.radius();
         band.corners =
             self.plan.uncut.iter().map(|c| Fillet { centre: c.at, radius, between: c.between }).collect();
         band.tabs = self.tabs();
