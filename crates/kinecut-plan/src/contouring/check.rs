@@ -28,6 +28,7 @@ pub(super) fn check(spec: &ContourSpec) -> Result<()> {
         ("depth", Some(spec.depth)),
         ("stepdown", spec.stepdown),
         ("tool", Some(spec.cutter.diameter)),
+        ("room", spec.room),
         ("lead_radius", spec.lead_radius),
         ("finish.allowance", finish.map(|f| f.allowance)),
         ("finish.stepdown", finish.and_then(|f| f.stepdown)),

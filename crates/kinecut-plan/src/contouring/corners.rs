@@ -15,6 +15,8 @@ pub struct UncutCorner {
     pub between: [DVec2; 2],
     /// Stock that stays, at its thickest [mm]; none where the walls belong to two loops, between which the cutter does not go.
     pub thickness: Option<f64>,
+    /// Length of the wall between the places where the fillet begins and ends [mm]; none where the walls belong to two loops.
+    pub length: Option<f64>,
 }
 
 /// Least thickness that counts [mm].
@@ -43,24 +45,35 @@ pub(super) fn uncut(
         let at = edge.end;
         let to_wall = |heading: f64| -side * DVec2::from_angle(heading).perp();
         let between = [to_wall(edge.heading(1.0)), to_wall(next.heading(0.0))];
-        let thickness = thickest(at, between, wall, (edges, loops), near);
+        let stays = left(at, between, wall, (edges, loops), near);
+        let (thickness, length) = (stays.map(|s| s.thickness), stays.map(|s| s.length));
         if thickness.is_none_or(|t| t > LEAST) {
-            found.push(UncutCorner { at, between, thickness });
+            found.push(UncutCorner { at, between, thickness, length });
         }
     }
     found
 }
 
-/// Greatest distance of the wall's corner beyond the cutter [mm]; none between walls of two loops.
-fn thickest(
+/// The wall beyond the cutter in a corner.
+#[derive(Clone, Copy, Debug)]
+struct Left {
+    /// Its greatest distance from the cutter [mm].
+    thickness: f64,
+    /// Its length [mm].
+    length: f64,
+}
+
+/// The wall that stays in a corner; none between walls of two loops.
+fn left(
     at: DVec2,
     between: [DVec2; 2],
     wall: f64,
     (edges, loops): (&[OutlineEdge], &[OutlineLoop]),
     near: &NearestEdge,
-) -> Option<f64> {
-    let foot = |towards: DVec2| near.at(at + wall * towards, 0.1 * wall + 1e-3).map(|n| n.edge);
-    let (first, last) = (foot(between[0])?, foot(between[1])?);
+) -> Option<Left> {
+    let foot = |towards: DVec2| near.at(at + wall * towards, 0.1 * wall + 1e-3);
+    let feet = [foot(between[0])?, foot(between[1])?];
+    let [first, last] = feet.map(|foot| foot.edge);
     let one = loops.iter().find(|l| l.edges.contains(&first) && l.edges.contains(&last))?;
     let step = |i: usize, on: bool| match on {
         true if i + 1 == one.edges.end => one.edges.start,
@@ -70,17 +83,20 @@ fn thickest(
     };
     // The shorter way along the loop from one foot to the other.
     let ways = [true, false].map(|on| {
-        let (mut i, mut most, mut gone) = (first, 0.0_f64, 0.0);
+        // Of the first edge what lies beyond its foot, of the last one what lies before.
+        let share = |s: f64| if on { s } else { 1.0 - s };
+        let of = |i: usize, s: f64| share(s) * edges[i].length();
+        let (mut i, mut thickness, mut length) = (first, 0.0_f64, -of(first, feet[0].share));
         while i != last {
             let corner = if on { edges[i].end } else { edges[i].start };
-            most = most
+            thickness = thickness
                 .max(corner.distance(at))
                 .max(edges[step(i, on)].at(0.5).distance(at) * f64::from(u8::from(step(i, on) != last)));
+            length += edges[i].length();
             i = step(i, on);
-            gone += edges[i].length();
         }
-        (gone, most)
+        Left { thickness: thickness - wall, length: length + of(last, feet[1].share) }
     });
-    let shorter = if ways[0].0 <= ways[1].0 { ways[0].1 } else { ways[1].1 };
-    Some(shorter - wall)
+    let [on, back] = ways;
+    Some(if on.length.abs() <= back.length.abs() { on } else { back })
 }

@@ -9,17 +9,20 @@
 //! clockwise around a part and counter-clockwise inside one. Feeds are those of the cutter's centre; where the feed at the
 //! wall is meant, that at each arc is `F (R - a) / R` inside and `F (R + a) / R` outside of a wall of radius `R`.
 
+mod chamfer;
 mod check;
 mod corners;
 mod feed;
 mod lead;
 mod plan;
+mod room;
 mod spec;
 mod tabs;
 mod track;
 mod travel;
 mod wear;
 
+pub use chamfer::Chamfer;
 pub use corners::UncutCorner;
 pub use feed::centre_feed;
 pub use plan::{ContourPlan, PlannedLoop, plan_contour};

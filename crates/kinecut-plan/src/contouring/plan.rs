@@ -7,6 +7,7 @@ use glam::DVec2;
 use super::check::{check, out_of_range};
 use super::corners::{UncutCorner, uncut};
 use super::lead::Lead;
+use super::room::{nearer, reaching};
 use super::spec::{ContourFinish, ContourLoops, ContourSide, ContourSpec, Tabs};
 use super::tabs::{PlacedTab, lifted, placed};
 use super::track::Track;
@@ -204,6 +205,7 @@ impl Planner<'_> {
         let spec = self.spec;
         let loops = self.paths(distance)?;
         self.covered(&loops)?;
+        self.spares_others(&loops)?;
         // Material of the face lies on the right of an offset's loops; inside of it, that is not the material kept.
         let keeps_right = spec.side != ContourSide::Inside;
         let tracks = loops.iter().map(|l| {
@@ -259,6 +261,29 @@ impl Planner<'_> {
         Ok(())
     }
 
+    /// No path comes too near to a loop of the outline that is not cut.
+    fn spares_others(&self, loops: &[OffsetLoop]) -> Result<()> {
+        let (Some(room), outline) = (self.spec.room, &self.spec.outline) else { return Ok(()) };
+        let others = outline.loops().iter().filter(|l| !self.is_wanted(l.outer));
+        let others: Vec<OutlineEdge> =
+            others.flat_map(|l| outline.edges()[l.edges.clone()].iter().copied()).collect();
+        if others.is_empty() {
+            return Ok(());
+        }
+        let near = NearestEdge::new(&others);
+        let Some(at) = loops.iter().flat_map(|l| &l.edges).find_map(|e| nearer(e, &near, room)) else {
+            return Ok(());
+        };
+        let what = format!("the cutter also cuts the edge of another loop at ({:.3}, {:.3})", at.x, at.y);
+        Err(Finding::error(Code::CUTTER_TOO_LARGE, what)
+            .value_mm(near.at(at, room).map_or(room, |n| n.distance.abs()))
+            .bound_mm(room)
+            .point([at.x, at.y, 0.0])
+            .help("cut that loop too: loops = \"all\"")
+            .key("loops")
+            .into())
+    }
+
     /// Tracks in the order of cutting: those of holes first, each time the nearest one.
     fn ordered<'t>(&self, tracks: &'t [(Track, bool)]) -> Vec<(&'t Track, bool)> {
         let mut left: Vec<&(Track, bool)> = tracks.iter().collect();
@@ -305,9 +330,15 @@ impl Planner<'_> {
         let left = spec.keeps_right();
         let fits = |at: f64, radius: f64| {
             let (p, along) = track.at(at);
-            let lead = lead(radius, p, along);
             // It is left a little beyond its beginning.
             let (q, on_from_there) = track.at(at + self.overlap());
+            let lead = lead(radius, p, along);
+            let lead = match spec.room {
+                Some(room) => {
+                    reaching(lead, [(p, along), (q, on_from_there)], left, self.near, (wall, room))?
+                }
+                None => lead,
+            };
             let (on, off) = (lead.on(p, along, left), lead.off(q, on_from_there, left));
             let open = |edges: &[OutlineEdge]| {
                 edges.iter().all(|e| (0..=8).all(|i| self.is_free(e.at(f64::from(i) / 8.0), wall)))

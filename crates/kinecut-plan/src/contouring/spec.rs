@@ -119,6 +119,9 @@ pub struct ContourSpec {
     pub cleared: bool,
     /// Finishing.
     pub finish: Option<ContourFinish>,
+    /// Distance from all edges at which the cutter comes down and goes up, and below which it comes only towards the contour: for
+    /// one that is wider above its tip; `None`: that of the path.
+    pub room: Option<f64>,
     /// Radius of the lead arcs; `None`: half the cutter's radius, 1 mm at least.
     pub lead_radius: Option<f64>,
     /// A point near which the contour begins.
@@ -201,6 +204,7 @@ impl ContourSpec {
             ramp: Some(3.0_f64.to_radians()),
             cleared: false,
             finish: None,
+            room: None,
             lead_radius: None,
             start: None,
             overlap: None,

@@ -25,6 +25,29 @@ pub(crate) struct Band {
     pub(crate) tabs: Vec<TabPlace>,
     /// Radius of the fillet that the cutter leaves along the foot of the strip's sides.
     pub(crate) foot: f64,
+    /// The lean of the wall, if it does not stand upright.
+    slope: Option<Slope>,
+}
+
+/// The lean of a wall that a conical cutter leaves: a chamfer.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Slope {
+    /// Height of its upper edge.
+    pub(crate) top: f64,
+    /// Distance by which it lies behind the upright wall there.
+    pub(crate) width: f64,
+    /// Tangent of the angle between it and the upright wall.
+    pub(crate) lean: f64,
+    /// Height of the cutter's tip.
+    pub(crate) tip: f64,
+}
+
+impl Slope {
+    /// Distance by which it lies behind the upright wall at a height; before it below its lower edge.
+    fn behind(&self, z: f64) -> f64 {
+        let below = if z < self.top { self.top - z } else { 0.0 };
+        self.width - below * self.lean
+    }
 }
 
 /// A fillet that a cutter leaves in a corner.
@@ -54,13 +77,15 @@ const FILLET: f64 = 1e-3;
 
 impl Fillet {
     /// Distance of a point on the corner's side from the fillet, positive on the side of its centre.
-    fn inside(&self, p: DVec2) -> Option<f64> {
+    ///
+    /// `wider`: what is added to the radius.
+    fn inside(&self, p: DVec2, wider: f64) -> Option<f64> {
         let off = p - self.centre;
         let [from, to] = self.between;
         let turn = from.perp_dot(to);
         let within =
             from.perp_dot(off) * turn >= 0.0 && off.perp_dot(to) * turn >= 0.0 && off.dot(from + to) > 0.0;
-        within.then(|| self.radius - off.length())
+        within.then(|| self.radius + wider - off.length())
     }
 }
 
@@ -79,6 +104,7 @@ impl Band {
             corners: Vec::new(),
             tabs: Vec::new(),
             foot: 0.0,
+            slope: None,
         }
     }
 
@@ -90,31 +116,64 @@ impl Band {
         Band { reach: 0.5 * size, ..Band::new(outline, false, leave, 2.0 * size) }
     }
 
+    /// With a wall that leans: its width and fillets are those at its lower edge.
+    pub(crate) fn leaning(self, slope: Slope) -> Band {
+        Band { reach: self.reach + slope.width, slope: Some(slope), ..self }
+    }
+
+    /// The lean of the wall.
+    pub(crate) fn slope(&self) -> Option<Slope> {
+        self.slope
+    }
+
+    /// Distance by which the wall lies behind its upright part at a height.
+    fn behind(&self, z: f64) -> f64 {
+        self.slope.map_or(0.0, |s| s.behind(z))
+    }
+
+    /// Width of the strip at a height.
+    fn width(&self, z: f64) -> f64 {
+        self.width + 2.0 * self.behind(z)
+    }
+
+    /// Distance from the wall within which edges are looked for.
+    fn search(&self) -> f64 {
+        self.width + self.leave + self.slope.map_or(0.0, |s| 2.0 * s.width)
+    }
+
     /// Distance of a point from the wall, positive where it is cut; `None` far away.
-    fn off_wall(&self, p: DVec2) -> Option<f64> {
-        let nearest = self.near.at(p, self.width + self.leave)?;
+    fn off_wall(&self, p: DVec2, z: f64) -> Option<f64> {
+        let nearest = self.near.at(p, self.search())?;
         let away = if self.keeps_face { nearest.distance } else { -nearest.distance };
-        Some(away - self.leave)
+        Some(away - self.leave + self.behind(z))
     }
 
     /// Distance from the border of the strip, positive inside.
-    pub(crate) fn inside(&self, p: DVec2) -> f64 {
-        match self.off_wall(p) {
+    pub(crate) fn inside(&self, p: DVec2, z: f64) -> f64 {
+        let width = self.width(z);
+        match self.off_wall(p, z) {
+            _ if self.slope.is_some_and(|s| z < s.tip) => -self.width,
             None => -self.width,
-            Some(d) if 2.0 * d > self.width => self.width - d,
+            Some(d) if 2.0 * d > width => width - d,
             Some(d) => d,
         }
+    }
+
+    /// Whether a point lies on the face beside the upper edge of a wall that leans, not farther behind it than the wall is wide.
+    pub(crate) fn beside_edge(&self, p: DVec2) -> bool {
+        let Some(slope) = self.slope else { return false };
+        self.off_wall(p, slope.top).is_some_and(|d| d < 0.0 && d > -slope.width)
     }
 
     /// The same on the half beside the wall, which alone is compared, from the fillets in its corners where the cutter leaves
     /// them; not a number elsewhere, beyond fillets, and at tabs.
     pub(crate) fn compared(&self, p: DVec2, z: f64) -> f64 {
-        let d = self.off_wall(p).unwrap_or(f64::NAN);
-        let is_free = 2.0 * d > self.width;
+        let d = self.off_wall(p, z).unwrap_or(f64::NAN);
+        let is_free = 2.0 * d > self.width(z);
         if is_free || self.is_tab(p, z) {
             return f64::NAN;
         }
-        match self.fillet(p).filter(|_| d > 0.0) {
+        match self.fillet(p, z).filter(|_| d > 0.0) {
             // Beyond the fillet stock stays, and what else cuts there is no matter of this wall.
             Some(inside) if inside < -FILLET => f64::NAN,
             Some(inside) => inside,
@@ -128,8 +187,8 @@ impl Band {
         if self.is_tab(p, z) {
             return f64::NAN;
         }
-        let inside = self.inside(p);
-        let nearer = self.fillet(p).filter(|fillet| *fillet < inside).unwrap_or(inside);
+        let inside = self.inside(p, z);
+        let nearer = self.fillet(p, z).filter(|fillet| *fillet < inside).unwrap_or(inside);
         nearer - self.foot
     }
 
@@ -138,13 +197,14 @@ impl Band {
     }
 
     /// Distance of a point in a corner from the fillet that stays there, positive where the cutter passes.
-    fn fillet(&self, p: DVec2) -> Option<f64> {
-        self.corners.iter().filter_map(|f| f.inside(p)).min_by(f64::total_cmp)
+    fn fillet(&self, p: DVec2, z: f64) -> Option<f64> {
+        let wider = self.behind(z);
+        self.corners.iter().filter_map(|f| f.inside(p, wider)).min_by(f64::total_cmp)
     }
 
     /// Whether a face with a normal looks away from the material that stays.
     pub(crate) fn faces_cut(&self, p: DVec2, normal: DVec2) -> bool {
-        self.near.at(p, self.width + self.leave).is_some_and(|nearest| {
+        self.near.at(p, self.search()).is_some_and(|nearest| {
             let edge = &self.outline.edges()[nearest.edge];
             let out = DVec2::from_angle(edge.outward(nearest.share));
             (normal.dot(out) > 0.0) == self.keeps_face
@@ -182,7 +242,7 @@ mod tests {
             for (aside, inside) in [(0.5, 0.5), (-0.5, -0.5), (4.0, 4.0), (7.0, 3.0), (11.0, -1.0)] {
                 let p = dvec2(20.0, -sign * aside);
                 assert!(
-                    (band.inside(p) - inside).abs() < 1e-12 || aside > 10.0 && band.inside(p) < 0.0,
+                    (band.inside(p, 0.0) - inside).abs() < 1e-12 || aside > 10.0 && band.inside(p, 0.0) < 0.0,
                     "{aside}"
                 );
             }
@@ -190,6 +250,28 @@ mod tests {
             assert!(band.compared(dvec2(20.0, -sign * 6.0), 0.0).is_nan());
             assert!(band.faces_cut(dvec2(20.0, 0.1), dvec2(0.0, -sign)));
         }
+    }
+
+    #[test]
+    fn a_wall_that_leans_lies_farther_behind_the_higher() {
+        let slope = Slope { top: 2.0, width: 1.5, lean: 0.5, tip: -2.0 };
+        let band = Band::new(&square(), true, 0.0, 2.0).leaning(slope);
+        // At its lower edge, at its upper one, and above.
+        for (z, behind, width) in [(-1.0, 0.0, 2.0), (0.0, 0.5, 3.0), (2.0, 1.5, 5.0), (3.0, 1.5, 5.0)] {
+            for (aside, inside) in
+                [(0.1, 0.1), (-0.1, -0.1), (0.4 * width, 0.4 * width), (0.6 * width, f64::NAN)]
+            {
+                let found = band.compared(dvec2(20.0, behind - aside), z);
+                assert!(
+                    (found - inside).abs() < 1e-12 || found.is_nan() && inside.is_nan(),
+                    "{z} {aside} {found}"
+                );
+            }
+            assert!((band.inside(dvec2(20.0, behind - 0.9 * width), z) - 0.1 * width).abs() < 1e-12);
+        }
+        assert!(band.inside(dvec2(20.0, -1.0), -2.1) < 0.0);
+        assert!([1.6, 2.9].iter().all(|y| band.beside_edge(dvec2(20.0, *y))));
+        assert!([1.4, 3.1, -1.0].iter().all(|y| !band.beside_edge(dvec2(20.0, *y))));
     }
 
     #[test]

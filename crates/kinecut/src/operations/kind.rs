@@ -5,6 +5,7 @@ use std::sync::Arc;
 use serde::Serialize;
 
 use super::measured::{BoreMeasure, FaceMeasure, Loose, Probe, Proof, TakenOut, WallProbe};
+use super::named::NamedOutline;
 use super::wanted::{PlannedOutline, WantedPlane, WantedWall};
 use super::{Around, Milling, Pen, PlaneTable, PostedPlan, RoundHole, Setting};
 use crate::base::{Finding, Result};
@@ -25,6 +26,11 @@ pub(crate) trait Table {
 
     /// The tilted plane in which it works, if it names one.
     fn plane(&self) -> Option<&PlaneTable> {
+        None
+    }
+
+    /// The outline along which it works, under the name by which others may refer to it.
+    fn named_outline(&self) -> Option<NamedOutline<'_>> {
         None
     }
 

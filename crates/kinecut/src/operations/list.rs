@@ -9,6 +9,7 @@ macro_rules! kinds {
         use serde::{Deserialize, Serialize};
 
         use self::kind::{Checked as _, Plan as _, Table as _};
+        use self::named::NamedOutline;
         use self::measured::{Loose, Proof, TakenOut};
         use self::wanted::{PlannedOutline, WantedPlane, WantedWall};
         use crate::base::{Finding, Result};
@@ -64,6 +65,11 @@ macro_rules! kinds {
                         Ok(Operation::$kind(Arc::new(checked)))
                     })*
                 }
+            }
+
+            /// The outline along which it works, under the name by which others may refer to it.
+            pub(crate) fn named_outline(&self) -> Option<NamedOutline<'_>> {
+                match self { $(OperationTable::$kind(table) => table.named_outline(),)* }
             }
 
             /// The file that it names, with the role that the file has in a verdict.

@@ -9,6 +9,7 @@ mod list;
 
 pub(crate) mod band;
 pub mod bore;
+pub mod chamfer;
 pub mod contour;
 pub mod drill;
 pub mod face;
@@ -16,6 +17,7 @@ pub(crate) mod kind;
 pub(crate) mod known;
 pub mod measured;
 mod milling;
+mod named;
 pub mod outlines;
 pub mod path;
 mod pen;
@@ -51,6 +53,8 @@ kinds! {
     Pocket "pocket" (pocket::PocketTable, pocket::PocketOperation, pocket::PlannedPocket),
     /// Milling along the edges of an outline.
     Contour "contour" (contour::ContourTable, contour::ContourOperation, contour::PlannedContour),
+    /// Chamfering of the upper edge of an outline.
+    Chamfer "chamfer" (chamfer::ChamferTable, chamfer::ChamferOperation, chamfer::PlannedChamfer),
     /// Drilling, centring, countersinking, reaming: what a tool does along its axis.
     Drill "drill" (drill::DrillTable, drill::DrillOperation, drill::PlannedDrilling),
     /// Threads by a tap.

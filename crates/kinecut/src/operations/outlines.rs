@@ -70,6 +70,11 @@ pub(crate) struct Drawn<'a> {
 }
 
 impl OutlineKeys<'_> {
+    /// Whether none of them is given.
+    pub(crate) fn is_empty(&self) -> bool {
+        self.rectangle.is_none() && self.circle.is_none() && self.polygon.is_none() && self.drawing.is_none()
+    }
+
     /// The outline, in coordinates of the work offset.
     ///
     /// # Errors

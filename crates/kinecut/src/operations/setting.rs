@@ -4,7 +4,7 @@ use std::borrow::Cow;
 
 use glam::DVec3;
 
-use super::{MadeHole, Milling, OrientationName};
+use super::{MadeHole, Milling, OperationTable, OrientationName};
 use crate::base::{Loader, Progress};
 use crate::geom::{Aabb, Rigid, Solid};
 use crate::machine::Machine;
@@ -79,6 +79,8 @@ pub(crate) struct Around<'a> {
     pub(crate) control: Control,
     /// Reads the files that the table names.
     pub(crate) loader: &'a dyn Loader,
+    /// The tables of the operations before it in its setup.
+    pub(crate) before: &'a [OperationTable],
 }
 
 /// Surroundings of an operation when it is planned.

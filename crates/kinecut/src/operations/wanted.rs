@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use glam::DVec2;
 
-use super::band::Band;
+use super::band::{Band, Slope};
 
 use crate::geom::{Outline, ellipse_distance};
 
@@ -98,7 +98,7 @@ impl Wall {
             Wall::Ellipse { half_axes, turned, leave } => {
                 ellipse_distance(*half_axes, DVec2::from_angle(-turned).rotate(off)) - leave
             }
-            Wall::Band(band) => band.inside(band.middle + off),
+            Wall::Band(band) => band.inside(band.middle + off, height),
         }
     }
 
@@ -116,6 +116,19 @@ impl Wall {
             Wall::Band(band) => band.over_floor(band.middle + off, floor),
             _ => self.inside(off, floor),
         }
+    }
+
+    /// The lean of a wall along a contour that a conical cutter leaves.
+    pub(crate) fn slope(&self) -> Option<Slope> {
+        match self {
+            Wall::Band(band) => band.slope(),
+            _ => None,
+        }
+    }
+
+    /// Whether a point lies on the face beside the upper edge of a wall that leans.
+    pub(crate) fn beside_edge(&self, off: DVec2) -> bool {
+        matches!(self, Wall::Band(band) if band.beside_edge(band.middle + off))
     }
 
     /// Whether a face with a normal looks to where is cut.

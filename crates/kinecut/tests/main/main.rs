@@ -8,6 +8,7 @@
 mod common;
 
 // What a job is made of.
+mod chamfering;
 mod clearing;
 mod contour;
 mod contouring;

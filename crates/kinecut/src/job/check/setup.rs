@@ -57,9 +57,11 @@ pub(super) fn setup(
         }
     };
     let outline = StockOutline { stock, drilled, to_work: part_in_work };
-    let around = Around { tools, stock: &outline, machine, orientation: post.0, control: post.1, loader };
+    let around =
+        Around { tools, stock: &outline, machine, orientation: post.0, control: post.1, loader, before: &[] };
     let complete = |table: &PlaneTable| plane(table, &part_in_work, &bounds, machine);
     let operations = t.operations.iter().enumerate().map(|(i, operation)| {
+        let around = Around { before: &t.operations[..i], ..around };
         operation.check(&around, complete).map_err(|e| e.under(&format!("operation[{i}]")))
     });
     let mut work_offsets = BTreeMap::from([(offset, work_on_table)]);

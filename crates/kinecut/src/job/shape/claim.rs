@@ -18,6 +18,8 @@ pub(super) enum Side {
     Wall,
     /// Its floor, or a milled face.
     Floor,
+    /// The face beside its edge, which it does not cut: that of a chamfer.
+    Beside,
     /// Nothing of it: the end lies inside of what is to be cut, on a face that is no wall.
     Within,
 }
@@ -90,13 +92,30 @@ impl Wanted<'_> {
             let others = above < -EDGE && elsewhere(end.cut, p);
             return if others { None } else { claim(Side::Floor, above) };
         }
+        if let Some(slope) = self.wall.slope()
+            && self.wall.beside_edge(off)
+            && normal.z > FACES_UP
+            && q.z > self.bottom
+        {
+            // A face that is higher or lower makes the chamfer wider or narrower; what another operation cuts there is its own.
+            let error = (q.z - self.top) * slope.lean;
+            return if elsewhere(end.cut, p) { None } else { claim(Side::Beside, error) };
+        }
+        let level = self.level();
         let between = q.z < self.top - EDGE && q.z > self.bottom + EDGE;
-        if !between || normal.z.abs() > FACES_UP {
+        if !between || normal.z.abs() > level {
             // Material above the floor inside the bore is stock left, whatever its face looks like.
             return if between && inside { claim(Side::Within, depth) } else { None };
         }
         let wall = inside || own(end.cut) && self.wall.faces_cut(off, normal.truncate());
         if wall { claim(Side::Wall, depth) } else { None }
+    }
+
+    /// Cosine above which a face counts as floor or ceiling: between that of the wall and that of a level face.
+    fn level(&self) -> f64 {
+        let upward = self.wall.slope().map_or(0.0, |slope| slope.lean / slope.lean.hypot(1.0));
+        let between = 0.5 * (1.0 + upward);
+        if between > FACES_UP { between } else { FACES_UP }
     }
 }
 

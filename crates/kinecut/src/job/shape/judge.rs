@@ -13,10 +13,24 @@ pub(super) fn bores(wanted: &[Wanted<'_>], measures: &[BoreMeasure], answer: &mu
     for (bore, m) in wanted.iter().zip(measures) {
         let tolerance = bore.operation.milling().tolerance;
         let name = bore.operation.name();
-        let sides = [
-            (Code::WALL_GOUGED, "the wanted surface is gouged", &m.gouge, "correct diameter, depth or tool"),
-            (Code::STOCK_LEFT, "stock is left", &m.left, "finish the wall, go deeper, or allow more"),
-        ];
+        let [gouged, left] = match bore.wall.slope() {
+            Some(_) => [
+                (
+                    "the chamfer is cut too deep, or the face beside it too low",
+                    "correct `top`, `width` or the tool",
+                ),
+                (
+                    "the chamfer is too narrow, or the face beside it too high",
+                    "correct `top`, `width` or the tool",
+                ),
+            ],
+            None => [
+                ("the wanted surface is gouged", "correct diameter, depth or tool"),
+                ("stock is left", "finish the wall, go deeper, or allow more"),
+            ],
+        };
+        let sides =
+            [(Code::WALL_GOUGED, gouged.0, &m.gouge, gouged.1), (Code::STOCK_LEFT, left.0, &m.left, left.1)];
         for (code, what, worst, help) in sides {
             answer.judge(code, &format!("{name}: {what}"), worst, tolerance, (help, Some(bore.number)));
         }
@@ -26,7 +40,11 @@ pub(super) fn bores(wanted: &[Wanted<'_>], measures: &[BoreMeasure], answer: &mu
         let operation = group[0].0.operation;
         // What goes through has no floor.
         let is_blind = group.iter().any(|(bore, _)| bore.floor.is_some());
-        let (what, lie) = if is_blind { ("wall and floor", "lie") } else { ("the wall", "lies") };
+        let (what, lie) = match group[0].0.wall.slope() {
+            Some(_) => ("the chamfer", "lies"),
+            None if is_blind => ("wall and floor", "lie"),
+            None => ("the wall", "lies"),
+        };
         let worst = group.iter().map(|(_, m)| m.worst()).fold(0.0, f64::max);
         let ends: usize = group.iter().map(|(_, m)| m.ends).sum();
         if worst <= operation.milling().tolerance && ends > 0 {

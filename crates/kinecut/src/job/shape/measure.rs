@@ -31,6 +31,11 @@ impl BoreMeasure {
             Side::Wall => self.wall = widened(self.wall),
             Side::Floor => self.floor = self.floor.map(widened),
             Side::Within => return self.left.note(d, point, cut),
+            // It is no place of the wanted surface.
+            Side::Beside => {
+                self.left.note(d, point, cut);
+                return self.gouge.note(-d, point, cut);
+            }
         }
         self.ends += 1;
         self.left.note(d, point, cut);

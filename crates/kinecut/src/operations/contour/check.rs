@@ -9,6 +9,7 @@ use crate::base::{Code, Finding, Result};
 use crate::contouring::{ContourSide, Tabs};
 use crate::geom::Outline;
 use crate::operations::kind::{self, Attempt};
+use crate::operations::named::NamedOutline;
 use crate::operations::outlines::{Drawn, OutlineEntry, OutlineKeys};
 use crate::operations::{
     Around, Milling, PlaneTable, Setting, feed_of, milling_of, spindle, tool_of, whole_revolutions,
@@ -111,6 +112,20 @@ impl kind::Table for ContourTable {
         self.plane.as_ref()
     }
 
+    fn named_outline(&self) -> Option<NamedOutline<'_>> {
+        let (side, loops) = (self.side, self.loops);
+        let (top, stock_to_leave, plane) = (self.top, self.stock_to_leave, self.plane());
+        self.name.as_deref().map(|name| NamedOutline {
+            name,
+            keys: keys(self),
+            side,
+            loops,
+            top,
+            stock_to_leave,
+            plane,
+        })
+    }
+
     fn file(&self) -> Option<(&'static str, &str)> {
         match &self.outline {
             Some(OutlineEntry::Name(name)) => Some(("outline", name)),
@@ -137,21 +152,7 @@ fn operation(t: &ContourTable, around: &Around<'_>) -> Result<ContourOperation> 
     for (i, v) in t.start.iter().flatten().enumerate() {
         length(&format!("start[{i}]"), *v, -MAX_LENGTH, MAX_LENGTH)?;
     }
-    let drawing = t.outline.as_ref().map(|outline| Drawn {
-        outline,
-        unit: t.unit,
-        layers: t.layers.as_deref(),
-        snap: t.snap,
-        at: t.at,
-        angle: t.angle,
-    });
-    let keys = OutlineKeys {
-        rectangle: t.rectangle.as_ref(),
-        circle: t.circle.as_ref(),
-        polygon: t.polygon.as_deref(),
-        drawing,
-    };
-    let read = keys.read(around.loader)?;
+    let read = keys(t).read(around.loader)?;
     let tabs = t.tabs.as_ref().map(|tabs| checked_tabs(tabs, &read.outline).map_err(|e| e.under("tabs")));
     Ok(ContourOperation {
         outline: read.outline,
@@ -168,6 +169,24 @@ fn operation(t: &ContourTable, around: &Around<'_>) -> Result<ContourOperation> 
         milling: milling_of(tool, speed, t.coolant, t.tolerance)?,
         table: t.clone(),
     })
+}
+
+/// The keys that say the outline.
+fn keys(t: &ContourTable) -> OutlineKeys<'_> {
+    let drawing = t.outline.as_ref().map(|outline| Drawn {
+        outline,
+        unit: t.unit,
+        layers: t.layers.as_deref(),
+        snap: t.snap,
+        at: t.at,
+        angle: t.angle,
+    });
+    OutlineKeys {
+        rectangle: t.rectangle.as_ref(),
+        circle: t.circle.as_ref(),
+        polygon: t.polygon.as_deref(),
+        drawing,
+    }
 }
 
 fn checked_tabs(t: &TabsTable, outline: &Outline) -> Result<Tabs> {

@@ -146,8 +146,7 @@ impl kind::Plan for PlannedContour {
         // A wear register moves the wall: positive values leave stock.
         let leave = spec.stock_to_leave + self.wear.map_or(0.0, |w| w.value);
         let mut band = Band::new(&outline, spec.side == ContourSide::Outside, leave, spec.cutter.diameter);
-        let radius = spec.radius() + spec.stock_to_leave;
-        band.corners = uncut::fillets(&self.plan.uncut, radius);
+        band.corners = uncut::fillets(&self.plan.uncut, spec.radius());
         band.tabs = self.tabs();
         let through = t.breakthrough > 0.0;
         let floor = spec.top - spec.depth;

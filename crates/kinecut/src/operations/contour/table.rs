@@ -18,6 +18,9 @@ pub struct ContourTable {
     /// with rotary axes.
     #[serde(default)]
     pub plane: Option<PlaneTable>,
+    /// Name by which a chamfer refers to it: `of`.
+    #[serde(default)]
+    pub name: Option<String>,
     /// Number of the tool, one with a cylindrical edge.
     pub tool: u32,
     /// The outline as a rectangle; or give `circle`, `polygon` or `outline`.

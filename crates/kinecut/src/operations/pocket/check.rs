@@ -6,8 +6,10 @@ use super::PocketTable;
 use super::plan::{PlannedPocket, planned};
 use crate::base::bounded::{MAX_LENGTH, bounded, length, positive};
 use crate::base::{Code, Finding, Result};
+use crate::contouring::{ContourLoops, ContourSide};
 use crate::geom::Outline;
 use crate::operations::kind::{self, Attempt};
+use crate::operations::named::NamedOutline;
 use crate::operations::outlines::{Drawn, OutlineEntry, OutlineKeys};
 use crate::operations::{
     Around, Milling, PlaneTable, Setting, feed_of, milling_of, spindle, tool_of, whole_revolutions,
@@ -113,6 +115,19 @@ impl kind::Table for PocketTable {
         self.plane.as_ref()
     }
 
+    fn named_outline(&self) -> Option<NamedOutline<'_>> {
+        let (top, stock_to_leave, plane) = (self.top, self.stock_to_leave, self.plane());
+        self.name.as_deref().map(|name| NamedOutline {
+            name,
+            keys: keys(self),
+            side: ContourSide::Inside,
+            loops: ContourLoops::All,
+            top,
+            stock_to_leave,
+            plane,
+        })
+    }
+
     fn file(&self) -> Option<(&'static str, &str)> {
         match &self.outline {
             Some(OutlineEntry::Name(name)) => Some(("outline", name)),
@@ -159,21 +174,7 @@ fn operation(t: &PocketTable, around: &Around<'_>) -> Result<PocketOperation> {
         Some(angle) => positive("entry.helix", angle, 45.0, "deg")?.to_radians(),
         None => tool.max_ramp_angle.map_or(usual, |most| most.min(usual)),
     };
-    let drawing = t.outline.as_ref().map(|outline| Drawn {
-        outline,
-        unit: t.unit,
-        layers: t.layers.as_deref(),
-        snap: t.snap,
-        at: t.at,
-        angle: t.angle,
-    });
-    let keys = OutlineKeys {
-        rectangle: t.rectangle.as_ref(),
-        circle: t.circle.as_ref(),
-        polygon: t.polygon.as_deref(),
-        drawing,
-    };
-    let read = keys.read(around.loader)?;
+    let read = keys(t).read(around.loader)?;
     let feeds = PocketFeeds {
         pass,
         down: per_second("plunge_feed", t.plunge_feed, DOWN * pass)?,
@@ -189,4 +190,22 @@ fn operation(t: &PocketTable, around: &Around<'_>) -> Result<PocketOperation> {
         milling: milling_of(tool, speed, t.coolant, t.tolerance)?,
         table: t.clone(),
     })
+}
+
+/// The keys that say the outline.
+fn keys(t: &PocketTable) -> OutlineKeys<'_> {
+    let drawing = t.outline.as_ref().map(|outline| Drawn {
+        outline,
+        unit: t.unit,
+        layers: t.layers.as_deref(),
+        snap: t.snap,
+        at: t.at,
+        angle: t.angle,
+    });
+    OutlineKeys {
+        rectangle: t.rectangle.as_ref(),
+        circle: t.circle.as_ref(),
+        polygon: t.polygon.as_deref(),
+        drawing,
+    }
 }

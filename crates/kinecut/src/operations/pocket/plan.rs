@@ -164,7 +164,7 @@ impl kind::Plan for PlannedPocket {
         // A wear register moves the wall: positive values leave stock.
         let leave = spec.stock_to_leave + self.wear.map_or(0.0, |w| w.value);
         let mut band = Band::inside_of(&self.of.outline, leave);
-        band.corners = uncut::fillets(&self.wall.uncut, spec.radius() + spec.stock_to_leave);
+        band.corners = uncut::fillets(&self.wall.uncut, spec.radius());
         // The wall is cut to size above the cutter's corner.
         band.foot = self.of.corner();
         let through = t.breakthrough > 0.0;

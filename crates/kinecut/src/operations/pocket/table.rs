@@ -15,6 +15,9 @@ use crate::program::Coolant;
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct PocketTable {
+    /// Name by which a chamfer refers to it: `of`.
+    #[serde(default)]
+    pub name: Option<String>,
     /// A tilted plane of the work: the tool is along its Z; default: along the Z of the work offset. Needs a machine
     /// with rotary axes.
     #[serde(default)]

@@ -95,6 +95,7 @@ fn walls_of_all_sides_are_measured() {
             0,
         ),
         (pocket, 6),
+        ("side = \"inside\"\nrectangle = { size = [60, 40] }\ndepth = 8\nstock_to_leave = 0.4\n", 4),
     ] {
         let outcome = cut("linuxcnc", operation);
         assert!(outcome.verdict.is_safe(), "{operation}: {:?}", outcome.verdict.found);

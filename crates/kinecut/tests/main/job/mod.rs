@@ -1,6 +1,7 @@
 //! Jobs as a whole: errors of the file, programs of others, rules of the proof, the cut part.
 
 mod budget;
+mod chamfer;
 mod contour;
 mod design;
 mod engagement;

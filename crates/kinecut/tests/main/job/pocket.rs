@@ -44,6 +44,15 @@ hand = "left"
 flute_length = 26
 stickout = 40
 gauge_length = 120
+[[tool]]
+number = 5
+type = "tapered"
+tip_diameter = 0
+half_angle = 45
+teeth = 4
+flute_length = 5
+stickout = 40
+gauge_length = 120
 [[setup]]
 offset = "G54"
 {operations}
@@ -199,4 +208,14 @@ fn pockets_that_cannot_be_are_refused_with_their_place() {
         let found = error.key.clone().unwrap_or_default();
         assert!(found.ends_with(key), "{keys}: {found}: {error:?}");
     }
+}
+
+#[test]
+fn the_edge_of_a_pocket_is_chamfered_by_its_name() {
+    let chamfer = "[[setup.operation]]\ntype = \"chamfer\"\ntool = 5\nspeed = 8000\nfeed = 800\n\
+        of = \"basin\"\nwidth = 0.5\n";
+    let outcome = done("fanuc", &format!("{POCKET}name = \"basin\"\n{RECTANGLE}{chamfer}"));
+    assert!(outcome.verdict.is_safe(), "{:?}", outcome.verdict.found);
+    let claims = outcome.verdict.proven.iter().filter(|p| p.claim.contains("the chamfer lies within"));
+    assert_eq!(claims.count(), 1, "{:?}", outcome.verdict.proven);
 }

@@ -1,0 +1,131 @@
+//! Chamfers along an outline as written in the job file.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use crate::contouring::{ContourLoops, ContourSide};
+use crate::geom::LengthUnit;
+use crate::holes::Sense;
+use crate::operations::PlaneTable;
+use crate::operations::outlines::{OutlineCircle, OutlineEntry, OutlineRectangle};
+use crate::program::Coolant;
+
+/// Chamfering of the upper edge of an outline by a V cutter.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct ChamferTable {
+    /// A tilted plane of the work: the tool is along its Z; default: along the Z of the work offset. Needs a machine
+    /// with rotary axes.
+    #[serde(default)]
+    pub plane: Option<PlaneTable>,
+    /// Name by which another chamfer refers to it: `of`.
+    #[serde(default)]
+    pub name: Option<String>,
+    /// Number of the tool, a tapered one.
+    pub tool: u32,
+    /// Name of a contour or chamfer before it in the setup, whose edge is chamfered: its outline with its place, `side`, `loops`,
+    /// `top` and `stock_to_leave`, unless they are said here; in place of an outline.
+    #[serde(default)]
+    pub of: Option<String>,
+    /// The outline as a rectangle; or give `circle`, `polygon` or `outline`.
+    #[serde(default)]
+    pub rectangle: Option<OutlineRectangle>,
+    /// The outline as a circle.
+    #[serde(default)]
+    pub circle: Option<OutlineCircle>,
+    /// The outline as a closed polygon: its corners, in coordinates of the work offset.
+    #[serde(default)]
+    pub polygon: Option<Vec<[f64; 2]>>,
+    /// The outline as a drawing ("plate.dxf", .svg, .json, or the top face of an .stl), or a table with the loops themselves.
+    #[serde(default)]
+    pub outline: Option<OutlineEntry>,
+    /// Unit of the drawing where it does not say: "mm", "cm", "m", "in".
+    #[serde(default)]
+    pub unit: Option<LengthUnit>,
+    /// Layers of the drawing that hold the outline; default: all.
+    #[serde(default)]
+    pub layers: Option<Vec<String>>,
+    /// Widest gap in a drawing that is closed; default 0.01.
+    #[serde(default)]
+    pub snap: Option<f64>,
+    /// Zero of the drawing, in coordinates of the work offset; default [0, 0].
+    #[serde(default)]
+    pub at: [f64; 2],
+    /// Angle by which the drawing is turned there, degrees, counter-clockwise; default 0.
+    #[serde(default)]
+    pub angle: f64,
+    /// Edge that is chamfered: "outside" that of the face and of its holes, "inside" that of the pocket or hole which the
+    /// outline is; default that of `of`, or outside.
+    #[serde(default)]
+    pub side: Option<ChamferSide>,
+    /// Loops whose edges are chamfered: "all", "outer", "inner"; default those of `of`, or all.
+    #[serde(default)]
+    pub loops: Option<ContourLoops>,
+    /// Height of the edge, in coordinates of the work offset; default that of `of`, or 0.
+    #[serde(default)]
+    pub top: Option<f64>,
+    /// Width of the chamfer, seen from above.
+    pub width: f64,
+    /// Depth of the tool's tip below the chamfer, 0.2 at least; default a tenth of the tool's diameter, 0.5 at most.
+    #[serde(default)]
+    pub tip_clearance: Option<f64>,
+    /// Height of the wall below the edge, down to a floor beside it that the tip is not to touch; left out, there is none.
+    #[serde(default)]
+    pub wall_height: Option<f64>,
+    /// Stock that was left on the wall: it lies so far before the outline; default that of `of`, or 0.
+    #[serde(default, alias = "leave")]
+    pub stock_to_leave: Option<f64>,
+    /// Largest allowed deviation of the chamfer's width; default 0.01.
+    #[serde(default)]
+    pub tolerance: Option<f64>,
+    /// Climb or conventional milling; default climb.
+    #[serde(default)]
+    pub direction: Sense,
+    /// Radius of the arcs on which the edge is joined and left; default 1, smaller where there is no room.
+    #[serde(default)]
+    pub lead_radius: Option<f64>,
+    /// Point near which the chamfer begins, in coordinates of the work offset; default: the middle of its longest line.
+    #[serde(default)]
+    pub start: Option<[f64; 2]>,
+    /// Way beyond the start that is cut twice; default 1.
+    #[serde(default)]
+    pub overlap: Option<f64>,
+    /// Spindle speed, rev/min; or give `cutting_speed`.
+    #[serde(default)]
+    pub speed: Option<f64>,
+    /// Cutting speed at the upper edge of the chamfer, m/min.
+    #[serde(default)]
+    pub cutting_speed: Option<f64>,
+    /// Feed along the edge, mm/min; or give `feed_per_tooth`.
+    #[serde(default)]
+    pub feed: Option<f64>,
+    /// Feed per tooth.
+    #[serde(default)]
+    pub feed_per_tooth: Option<f64>,
+    /// Feed straight down, mm/min; default: half the feed.
+    #[serde(default)]
+    pub plunge_feed: Option<f64>,
+    /// Coolant; default flood.
+    #[serde(default)]
+    pub coolant: Coolant,
+}
+
+/// Edge that is chamfered.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum ChamferSide {
+    /// That of the face and of its holes.
+    #[default]
+    Outside,
+    /// That of the pocket or hole which the outline is, and of its islands.
+    Inside,
+}
+
+impl From<ChamferSide> for ContourSide {
+    fn from(side: ChamferSide) -> ContourSide {
+        match side {
+            ChamferSide::Outside => ContourSide::Outside,
+            ChamferSide::Inside => ContourSide::Inside,
+        }
+    }
+}

@@ -1,0 +1,296 @@
+//! Chamfers through the whole: posted for each control, read back, cut, and their width measured.
+
+use std::f64::consts::PI;
+
+use kinecut::base::{Code, Error, MemoryLoader, Severity, Silent};
+use kinecut::job::{Outcome, run};
+
+/// A plate of 120 x 90 x 10 with an end mill of 10 mm and V cutters of 10 mm, one of 90 degrees and a point, one of 60 with a flat.
+fn job(control: &str, operations: &str) -> String {
+    format!(
+        r#"format = 1
+post = {{ control = "{control}" }}
+stock = {{ box = {{ min = [-60, -45, -10], max = [60, 45, 0] }} }}
+simulate = {{ step = 0.4, engagement = false }}
+[[tool]]
+number = 1
+type = "end-mill"
+diameter = 10
+teeth = 4
+flute_length = 26
+stickout = 40
+gauge_length = 120
+[[tool]]
+number = 5
+type = "tapered"
+diameter = 0
+half_angle = 45
+flute_length = 5
+shank_diameter = 10
+stickout = 30
+gauge_length = 110
+[[tool]]
+number = 6
+type = "tapered"
+diameter = 1
+half_angle = 30
+flute_length = 8
+shank_diameter = 10
+stickout = 30
+gauge_length = 110
+[[setup]]
+offset = "G54"
+{operations}
+"#
+    )
+}
+
+const CONTOUR: &str = "[[setup.operation]]\ntype = \"contour\"\ntool = 1\nspeed = 6000\nfeed = 1200\n";
+const CHAMFER: &str = "[[setup.operation]]\ntype = \"chamfer\"\ntool = 5\nspeed = 9000\nfeed = 900\n";
+
+fn cut(control: &str, operations: &str) -> Outcome {
+    run("job.toml", &job(control, operations), &MemoryLoader::default(), &Silent)
+        .unwrap_or_else(|e| panic!("{e}"))
+}
+
+fn refused(operation: &str) -> Error {
+    let operations = format!("{CHAMFER}{operation}");
+    run("job.toml", &job("fanuc", &operations), &MemoryLoader::default(), &Silent).unwrap_err()
+}
+
+/// A contour of a depth, and a chamfer of its edge.
+fn both(outline: &str, depth: f64, chamfer: &str) -> String {
+    format!("{CONTOUR}{outline}\ndepth = {depth}\n{CHAMFER}{outline}\n{chamfer}\n")
+}
+
+fn removed(outcome: &Outcome) -> f64 {
+    outcome.simulation.raw_volume - outcome.simulation.stock.volume()
+}
+
+const PLATE: &str = "rectangle = { size = [60, 40], corner = 6, angle = 20 }";
+
+#[test]
+fn the_width_is_measured_on_every_control() {
+    for control in ["sinumerik-840d", "heidenhain", "linuxcnc", "fanuc", "grbl"] {
+        let outcome = cut(control, &both(PLATE, 6.0, "width = 1"));
+        let verdict = &outcome.verdict;
+        assert!(verdict.is_safe() && verdict.found.is_empty(), "{control}: {:?}", verdict.found);
+        let claims: Vec<_> =
+            verdict.proven.iter().filter(|p| p.claim.contains("the chamfer lies within")).collect();
+        assert_eq!(claims.len(), 1, "{control}");
+        let chamfer = &outcome.deviation.bores[1];
+        assert!(chamfer.ends > 1000 && chamfer.worst() < 2e-3, "{control}: {chamfer:?}");
+        // The wall below is what it was.
+        assert!(outcome.deviation.bores[0].worst() < 2e-3, "{control}");
+    }
+}
+
+#[test]
+fn the_volume_is_that_of_the_chamfer() {
+    let contour = format!("{CONTOUR}{PLATE}\ndepth = 6\n");
+    let gone = removed(&cut("fanuc", &both(PLATE, 6.0, "width = 1.5"))) - removed(&cut("fanuc", &contour));
+    // At each height the area between the outline and itself, set back.
+    let perimeter = 2.0 * (48.0 + 28.0) + 12.0 * PI;
+    let wanted = 1.5 * (perimeter * 1.5 / 2.0 - PI * 1.5 * 1.5 / 3.0);
+    // Volumes are known to half a line at each wall.
+    assert!((gone / wanted - 1.0).abs() < 2e-2, "{gone} {wanted}");
+}
+
+#[test]
+fn lines_arcs_and_corners_of_all_sides_have_their_width() {
+    let notched =
+        "polygon = [[-40, -30], [40, -30], [40, 30], [10, 30], [10, 5], [-10, 5], [-10, 30], [-40, 30]]";
+    for (outline, more, webs) in [
+        ("circle = { at = [10, 5], diameter = 60 }", "width = 0.5", 0),
+        (
+            "side = \"inside\"\ncircle = { at = [3, 2], diameter = 40 }",
+            "width = 0.8\ndirection = \"conventional\"",
+            0,
+        ),
+        ("side = \"inside\"\nrectangle = { size = [60, 40], corner = 8 }", "width = 1\nwall_height = 6", 0),
+        // Sharp corners of a part are cut whole, those of a pocket keep a web.
+        ("polygon = [[-40, -30], [40, -30], [0, 30]]", "width = 1.2", 0),
+        (notched, "width = 1\ntip_clearance = 0.3", 2),
+        ("side = \"inside\"\nrectangle = { size = [60, 40] }", "width = 1", 4),
+    ] {
+        // The notched part by the cutter of 60 degrees.
+        let operations =
+            both(outline, 6.0, more).replace("tool = 5", if webs == 2 { "tool = 6" } else { "tool = 5" });
+        let outcome = cut("linuxcnc", &operations);
+        let verdict = &outcome.verdict;
+        let found: Vec<_> = verdict.found.iter().filter(|f| f.code != Code::CORNERS_STAY).collect();
+        assert!(verdict.is_safe() && found.is_empty(), "{outline}: {:?}", verdict.found);
+        let chamfer = &outcome.deviation.bores[1];
+        assert!(chamfer.ends > 500 && chamfer.worst() < 2e-3, "{outline}: {chamfer:?}");
+        let told: Vec<_> = verdict.found.iter().filter(|f| f.message.contains("a web stays")).collect();
+        assert_eq!(told.len(), usize::from(webs > 0), "{outline}");
+        let unchecked =
+            verdict.unchecked().filter(|item| format!("{item:?}").contains("mm of edge at")).count();
+        assert_eq!(unchecked, usize::from(webs > 0), "{outline}");
+        let json: serde_json::Value = serde_json::from_str(&kinecut::job::plan_json(&outcome)).unwrap();
+        let own = &json["setups"][0]["chamfers"][0];
+        assert_eq!(own["webs"].as_array().unwrap().len(), webs, "{outline}");
+    }
+}
+
+#[test]
+fn webs_are_told_with_the_length_of_the_edge() {
+    let outcome = cut("fanuc", &both("side = \"inside\"\nrectangle = { size = [60, 40] }", 6.0, "width = 1"));
+    let told = outcome.verdict.found.iter().find(|f| f.message.contains("a web stays")).unwrap();
+    // The chamfer ends 0.5 mm before a corner on both of its sides.
+    assert!(told.message.contains("4 mm of edge at 4 inside corners"), "{}", told.message);
+    assert_eq!((told.code, told.severity), (Code::CORNERS_STAY, Severity::Warning));
+}
+
+#[test]
+fn a_chamfer_before_the_contour_is_as_wide() {
+    let operations = format!("{CHAMFER}{PLATE}\nwidth = 1\n{CONTOUR}{PLATE}\ndepth = 6\n");
+    let outcome = cut("fanuc", &operations);
+    assert!(outcome.verdict.is_safe(), "{:?}", outcome.verdict.found);
+    assert!(outcome.deviation.bores.iter().all(|b| b.ends > 1000 && b.worst() < 2e-3));
+    // Alone, in the full stock, it is measured on its own side of the groove.
+    let alone = cut("fanuc", &format!("{CHAMFER}{PLATE}\nwidth = 1\n"));
+    assert!(alone.verdict.is_safe(), "{:?}", alone.verdict.found);
+    assert!(alone.deviation.bores[0].ends > 1000 && alone.deviation.bores[0].worst() < 2e-3);
+}
+
+#[test]
+fn a_wall_with_stock_on_it_is_chamfered_where_it_is() {
+    let outline = format!("{PLATE}\nstock_to_leave = 0.3");
+    let outcome = cut("fanuc", &both(&outline, 6.0, "width = 1"));
+    assert!(outcome.verdict.is_safe(), "{:?}", outcome.verdict.found);
+    assert!(outcome.deviation.bores.iter().all(|b| b.ends > 1000 && b.worst() < 2e-3));
+    // From the fillets of corners too.
+    let pocket = "side = \"inside\"\nrectangle = { size = [40, 30] }\nstock_to_leave = 0.3\nwidth = 1\n";
+    let corners = cut("fanuc", &format!("{CHAMFER}{pocket}"));
+    assert!(
+        corners.verdict.is_safe() && corners.deviation.bores[0].worst() < 2e-3,
+        "{:?}",
+        corners.deviation.bores
+    );
+    // The wall below it is that of the contour, and so it is said.
+    let told = outcome.verdict.unchecked().any(|item| format!("{item:?}").contains("the wall below it"));
+    assert!(told);
+}
+
+#[test]
+fn a_face_that_is_not_where_the_edge_is_said_to_be_is_found() {
+    for (top, code, words) in [(-0.2, Code::STOCK_LEFT, "too high"), (0.2, Code::WALL_GOUGED, "too low")] {
+        let outcome = cut("fanuc", &both(PLATE, 6.0, &format!("width = 1\ntop = {top}")));
+        let found = outcome.verdict.found.iter().find(|f| f.code == code && f.message.contains(words));
+        let value =
+            found.and_then(|f| f.value.as_ref()).unwrap_or_else(|| panic!("{:?}", outcome.verdict.found));
+        assert!((value.value - 0.2).abs() < 2e-3, "{value:?}");
+        assert!(!outcome.verdict.proven.iter().any(|p| p.claim.contains("the chamfer lies")));
+    }
+}
+
+#[test]
+fn an_edge_that_is_not_cut_is_not_claimed() {
+    // Beside the stock nothing is cut, and nothing measured.
+    let outcome = cut("fanuc", &format!("{CHAMFER}circle = {{ at = [200, 0], diameter = 40 }}\nwidth = 1\n"));
+    assert!(!outcome.verdict.is_safe());
+    assert!(
+        outcome.verdict.found.iter().any(|f| f.code == Code::NOT_MEASURED),
+        "{:?}",
+        outcome.verdict.found
+    );
+    assert!(!outcome.verdict.proven.iter().any(|p| p.claim.contains("the chamfer lies")));
+}
+
+/// A plate of 90 x 50 with a hole of 18 in it, `beside` its lower edge, as a drawing.
+fn drawing(beside: f64) -> MemoryLoader {
+    let y = 9.0 + beside;
+    let text = format!(
+        "0\nSECTION\n2\nHEADER\n9\n$INSUNITS\n70\n4\n0\nENDSEC\n0\nSECTION\n2\nENTITIES\n\
+        0\nLWPOLYLINE\n8\nPART\n90\n4\n70\n1\n10\n0\n20\n0\n10\n90\n20\n0\n42\n0.2\n10\n90\n20\n50\n10\n0\n20\n50\n\
+        0\nCIRCLE\n8\nHOLES\n10\n20\n20\n{y}\n40\n9\n0\nENDSEC\n0\nEOF\n"
+    );
+    MemoryLoader::default().with("plate.dxf", text)
+}
+
+#[test]
+fn a_chamfer_has_the_outline_of_the_contour_that_it_names() {
+    let contour = format!("{CONTOUR}name = \"edge\"\n{PLATE}\ntop = -0.5\ndepth = 6\nstock_to_leave = 0.2\n");
+    let named = cut("fanuc", &format!("{contour}{CHAMFER}of = \"edge\"\nwidth = 1\n"));
+    let said =
+        cut("fanuc", &format!("{contour}{CHAMFER}{PLATE}\ntop = -0.5\nstock_to_leave = 0.2\nwidth = 1\n"));
+    assert_eq!(named.setups[0].posted.text, said.setups[0].posted.text);
+    // Keys that are given here are not taken from there.
+    let higher = cut("fanuc", &format!("{contour}{CHAMFER}of = \"edge\"\ntop = 0\nwidth = 1\n"));
+    assert!(higher.verdict.is_safe(), "{:?}", higher.verdict.found);
+    let refused = |operations: &str| {
+        let error =
+            run("job.toml", &job("fanuc", operations), &MemoryLoader::default(), &Silent).unwrap_err();
+        assert_eq!(error.0.key.as_deref(), Some("setup[0].operation[1].of"), "{error}");
+        error
+    };
+    let unknown = refused(&format!("{contour}{CHAMFER}of = \"rim\"\nwidth = 1\n"));
+    assert!(unknown.code() == Code::JOB_REFERENCE && unknown.0.help.contains("`edge`"), "{unknown}");
+    let twice = refused(&format!("{contour}{CHAMFER}of = \"edge\"\n{PLATE}\nwidth = 1\n"));
+    assert_eq!(twice.code(), Code::JOB_SHAPE);
+    refused(&format!("{contour}side = \"on\"\n{CHAMFER}of = \"edge\"\nwidth = 1\n"));
+}
+
+#[test]
+fn holes_of_a_face_are_chamfered_by_their_loops() {
+    let outline = "outline = \"plate.dxf\"\nat = [-45, -25]\n";
+    let run_with = |beside: f64, chamfer: &str| {
+        let job = job("fanuc", &both(outline, 6.0, chamfer));
+        run("job.toml", &job, &drawing(beside), &Silent)
+    };
+    for (loops, count) in [("all", 2), ("outer", 1), ("inner", 1)] {
+        let outcome = run_with(16.0, &format!("width = 1\nloops = \"{loops}\"")).unwrap();
+        assert!(outcome.verdict.is_safe(), "{loops}: {:?}", outcome.verdict.found);
+        assert!(outcome.deviation.bores[1].worst() < 2e-3, "{loops}");
+        let json: serde_json::Value = serde_json::from_str(&kinecut::job::plan_json(&outcome)).unwrap();
+        assert_eq!(json["setups"][0]["chamfers"][0]["loops"].as_array().unwrap().len(), count, "{loops}");
+    }
+    // A wall so thin that the cutter comes to the edge of the hole.
+    let thin = run_with(0.9, "width = 1\nloops = \"outer\"").unwrap_err();
+    assert_eq!(thin.0.key.as_deref(), Some("setup[0].operation[1].loops"), "{thin}");
+    assert!((thin.0.bound.unwrap().value - 1.55).abs() < 1e-9);
+}
+
+#[test]
+fn what_makes_no_chamfer_is_refused_with_a_cure() {
+    let key = |e: &Error| e.0.key.clone().unwrap_or_default();
+    let under = |key: &str| format!("setup[0].operation[0].{key}");
+    let value = |e: &Error| e.0.value.as_ref().unwrap().value;
+    let bound = |e: &Error| e.0.bound.as_ref().unwrap().value;
+    // The tip on the floor.
+    let floor = refused(&format!("{PLATE}\nwidth = 0.5\ntip_clearance = 1\nwall_height = 1.2"));
+    assert_eq!((floor.code(), key(&floor)), (Code::PLAN_VALUE, under("tip_clearance")));
+    assert!(value(&floor) == 1.5 && bound(&floor) == 1.2, "{floor}");
+    assert!(floor.0.help.contains("tip_clearance = 0.7 with width = 0.5"), "{floor}");
+    let low = refused(&format!("{PLATE}\nwidth = 1\nwall_height = 0.9"));
+    assert_eq!(key(&low), under("width"));
+    assert!(low.0.help.contains("width = 0.7 with tip_clearance = 0.2"), "{low}");
+    let none = refused(&format!("{PLATE}\nwidth = 1\nwall_height = 0.1"));
+    assert_eq!(key(&none), under("wall_height"));
+    // Lengths that are told to fit do.
+    for fits in [
+        "width = 0.5\ntip_clearance = 0.7\nwall_height = 1.2",
+        "width = 0.7\ntip_clearance = 0.2\nwall_height = 0.9",
+    ] {
+        cut("fanuc", &format!("{CHAMFER}{PLATE}\n{fits}\n"));
+    }
+    // A cutter that is too small.
+    let wide = refused(&format!("{PLATE}\nwidth = 5.8\ntip_clearance = 0.5"));
+    assert_eq!((wide.code(), key(&wide)), (Code::PLAN_VALUE, under("width")));
+    assert!((value(&wide) - 6.3).abs() < 1e-9 && (bound(&wide) - 4.9).abs() < 1e-9, "{wide}");
+    assert!(wide.0.help.contains("width = 4.4"), "{wide}");
+    // Room, tools, keys.
+    let hole = refused("side = \"inside\"\ncircle = { diameter = 2.4 }\nwidth = 1");
+    assert_eq!(hole.code(), Code::LEAD_ROOM, "{hole}");
+    let small = refused("side = \"inside\"\ncircle = { diameter = 0.9 }\nwidth = 1");
+    assert_eq!((small.code(), key(&small)), (Code::CUTTER_TOO_LARGE, under("tip_clearance")), "{small}");
+    assert_eq!(key(&refused("circle = { diameter = 40 }\nwidth = 0")), under("width"));
+    assert_eq!(
+        key(&refused("circle = { diameter = 40 }\nwidth = 1\ntip_clearance = 0.1")),
+        under("tip_clearance")
+    );
+    let mill = job("fanuc", &format!("{CHAMFER}{PLATE}\nwidth = 1\n")).replace("tool = 5", "tool = 1");
+    let mill = run("job.toml", &mill, &MemoryLoader::default(), &Silent).unwrap_err();
+    assert_eq!((mill.code(), key(&mill)), (Code::JOB_REFERENCE, under("tool")));
+}
