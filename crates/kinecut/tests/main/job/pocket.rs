@@ -47,7 +47,7 @@ gauge_length = 120
 [[tool]]
 number = 5
 type = "tapered"
-tip_diameter = 0
+diameter = 0
 half_angle = 45
 teeth = 4
 flute_length = 5
