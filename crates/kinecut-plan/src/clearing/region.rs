@@ -74,6 +74,11 @@ impl CentreRegion {
         self.near.at(p, f64::INFINITY).map_or(f64::NEG_INFINITY, |n| n.distance)
     }
 
+    /// The same for a point inside, where it is below a distance; else at least that [mm].
+    pub(super) fn room_within(&self, p: DVec2, distance: f64) -> f64 {
+        self.near.at(p, distance).map_or(distance, |n| n.distance)
+    }
+
     /// Whether a point is inside, or on the border.
     pub(super) fn holds(&self, p: DVec2) -> bool {
         self.room(p) >= -ROUNDING

@@ -51,8 +51,6 @@ pub struct Clearing {
     stock: Option<Stock>,
     /// Middle of each slot of the circle, from its centre.
     around: [DVec2; SLOTS],
-    /// Where the slots begin, and where the last one ends.
-    ends: [DVec2; SLOTS + 1],
 }
 
 /// The stock that stands before anything is cleared.
@@ -124,7 +122,6 @@ impl Clearing {
             pieces: Vec::new(),
             stock: None,
             around,
-            ends: std::array::from_fn(|i| radius * DVec2::from_angle(i as f64 * SLOT)),
         }
     }
 
@@ -203,7 +200,15 @@ impl Clearing {
                 if away + reach <= radius {
                     self.cells[cell] = Cell { state: State::Clear, pieces: Vec::new() };
                 } else if away - reach < radius {
-                    self.cells[cell].pieces.push(index);
+                    // Within the cell, what another piece covers too is not kept: few are.
+                    let middle = self.middle(column, row);
+                    let all = &self.pieces;
+                    let hides = |a: u32, b: u32| all[a as usize].hides(&all[b as usize], middle, reach);
+                    let kept = &mut self.cells[cell].pieces;
+                    if !kept.iter().any(|&known| hides(known, index)) {
+                        kept.retain(|&known| !hides(index, known));
+                        kept.push(index);
+                    }
                 }
             }
         }
@@ -248,6 +253,8 @@ impl Clearing {
     /// call to call.
     pub(super) fn engaged(&self, centre: DVec2, heading: f64, radius: f64, work: &mut Scratch) -> Engagement {
         let scale = radius / self.radius;
+        // All of a slot lies so near to its middle.
+        let half = 0.51 * SLOT * radius;
         work.begin(self.pieces.len());
         // Angles from here on are from the right normal, counter-clockwise, 0 to a half turn.
         let right = heading - FRAC_PI_2;
@@ -265,11 +272,8 @@ impl Clearing {
                 clear_from.get_or_insert(begin);
                 continue;
             }
-            let ends = [centre + scale * self.ends[slot], centre + scale * self.ends[slot + 1]];
-            let covers_all = |i: u32| {
-                let piece = &self.pieces[i as usize];
-                piece.holds(ends[0]) && piece.holds(ends[1])
-            };
+            let middle = centre + scale * self.around[slot];
+            let covers_all = |i: u32| self.pieces[i as usize].covers_around(middle, half);
             // Pieces cover many slots, the latest most.
             let covering = hint
                 .filter(|&i| covers_all(i))
@@ -285,10 +289,9 @@ impl Clearing {
             }
             open = true;
             has_edge |= cell.state == State::Edge;
-            let middle = 0.5 * (ends[0] + ends[1]);
             for &index in &cell.pieces {
                 let piece = &self.pieces[index as usize];
-                if !piece.comes_within(middle, 0.6 * SLOT * radius) || !work.is_new(index) {
+                if !piece.comes_within(middle, half) || !work.is_new(index) {
                     continue;
                 }
                 let Some([from, to]) = piece.covers(centre, radius) else { continue };
@@ -413,9 +416,34 @@ impl Piece {
         (off - share * self.along).length_squared()
     }
 
+    /// Whether it surely covers, within a distance of a point [mm], all that another piece covers there.
+    ///
+    /// One of its ends `c` is nearer than every point of the other's way, `|x - c| <= |x - e|`, for all `x` there: linear in
+    /// `x` for an end `e` of that way, and between the ends the square falls short of theirs by a quarter of its length
+    /// squared at most.
+    fn hides(&self, other: &Piece, middle: DVec2, reach: f64) -> bool {
+        if self.radius < other.radius {
+            return false;
+        }
+        let short = 0.25 * other.along.length_squared();
+        [self.from, self.to].iter().any(|c| {
+            [other.from, other.to].iter().all(|e| {
+                let apart = *c - *e;
+                let nearer = (middle - 0.5 * (*c + *e)).dot(apart) - reach * apart.length();
+                2.0 * nearer >= short
+            })
+        })
+    }
+
     /// Whether it covers a point.
     fn holds(&self, p: DVec2) -> bool {
         self.squared(p) <= self.radius * self.radius
+    }
+
+    /// Whether it covers all within a distance of a point [mm].
+    fn covers_around(&self, p: DVec2, distance: f64) -> bool {
+        let reach = self.radius - distance;
+        self.squared(p) <= reach * reach
     }
 
     /// Whether it comes within a distance of a point [mm].

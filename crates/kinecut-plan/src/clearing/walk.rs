@@ -110,7 +110,7 @@ impl Walker<'_> {
         sharpest: f64,
         step: f64,
     ) -> Option<(DVec2, f64, f64)> {
-        let room = self.region.room(at);
+        let room = self.region.room_within(at, step);
         let wanted = self.wanted;
         let mut look = |turn: f64| {
             let mut along = heading + turn;
