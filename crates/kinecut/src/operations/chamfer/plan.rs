@@ -127,13 +127,15 @@ impl kind::Plan for PlannedChamfer {
     }
 
     fn judge(&mut self, name: &str, _posted: &PostedPlan<'_>, _found: &Found<'_>) -> Judged {
-        let mut left =
-            "the wall below it, which is compared where an operation of the job cuts it".to_owned();
         let webs = self.webs().in_words();
-        if !webs.is_empty() {
-            left = format!("{webs}; {left}");
+        let mut left = if webs.is_empty() { Vec::new() } else { vec![webs] };
+        // The wall of the operation to which it refers is compared there.
+        if self.of.table.of.is_none() {
+            left.push(
+                "the wall below it, which is compared where an operation of the job cuts it".to_owned(),
+            );
         }
-        let unchecked = Some(format!("{name}: {left}"));
+        let unchecked = (!left.is_empty()).then(|| format!("{name}: {}", left.join("; ")));
         Judged { unchecked, ..Judged::default() }
     }
 

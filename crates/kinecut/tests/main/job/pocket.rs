@@ -218,4 +218,6 @@ fn the_edge_of_a_pocket_is_chamfered_by_its_name() {
     assert!(outcome.verdict.is_safe(), "{:?}", outcome.verdict.found);
     let claims = outcome.verdict.proven.iter().filter(|p| p.claim.contains("the chamfer lies within"));
     assert_eq!(claims.count(), 1, "{:?}", outcome.verdict.proven);
+    // Its wall is that of the pocket, which is compared.
+    assert!(!outcome.verdict.unchecked().any(|item| format!("{item:?}").contains("the wall below it")));
 }
