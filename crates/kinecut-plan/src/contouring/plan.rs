@@ -144,14 +144,26 @@ pub fn plan_contour(spec: &ContourSpec) -> Result<ContourPlan> {
 fn remark(corners: &[UncutCorner], a: f64) -> Option<Finding> {
     let places = |count: usize| if count == 1 { "1 place".to_owned() } else { format!("{count} places") };
     let thick = |c: &UncutCorner| c.thickness.map(|t| (t, c.at));
-    let worst = corners.iter().filter_map(thick).max_by(|x, y| x.0.total_cmp(&y.0));
+    // What is thicker than the cutter is no corner: a part of the outline that it does not enter.
+    let part = |of: &(f64, DVec2)| of.0 > 2.0 * a;
+    let thickest = |narrow: bool| {
+        let of_kind = corners.iter().filter_map(thick).filter(|of| part(of) == narrow);
+        of_kind.max_by(|x, y| x.0.total_cmp(&y.0))
+    };
+    let (worst, narrow) = (thickest(false), thickest(true));
     let between: Vec<&UncutCorner> = corners.iter().filter(|c| c.thickness.is_none()).collect();
     let radius = (a * 1e3).round() / 1e3;
     let mut parts = Vec::new();
     if let Some((thickness, _)) = worst {
-        let places = places(corners.len() - between.len());
+        let places = places(corners.iter().filter_map(thick).filter(|of| !part(of)).count());
         parts.push(format!(
             "inside corners stay at {places}: a cutter of radius {radius} leaves up to {thickness:.3} mm"
+        ));
+    }
+    if let Some((thickness, at)) = narrow {
+        parts.push(format!(
+            "a cutter of radius {radius} does not go into a part of the outline: up to {thickness:.1} mm stay near ({:.3}, {:.3})",
+            at.x, at.y
         ));
     }
     if let Some(first) = between.first() {
@@ -162,7 +174,7 @@ fn remark(corners: &[UncutCorner], a: f64) -> Option<Finding> {
             first.at.y
         ));
     }
-    let at = worst.map(|(_, at)| at).or(between.first().map(|c| c.at))?;
+    let at = narrow.or(worst).map(|(_, at)| at).or(between.first().map(|c| c.at))?;
     let finding = Finding::warning(Code::CORNERS_STAY, parts.join("; ")).point([at.x, at.y, 0.0]);
     Some(finding.help("finish the corners with a smaller cutter, or give them its radius in the drawing"))
 }

@@ -211,6 +211,16 @@ fn pockets_that_cannot_be_are_refused_with_their_place() {
 }
 
 #[test]
+fn a_leg_that_is_narrower_than_the_cutter_is_named() {
+    let leg = "polygon = [[-40, -20], [40, -20], [40, -11], [0, -11], [0, 20], [-40, 20]]\ndepth = 5\n";
+    let outcome = cut("fanuc", leg);
+    let found = &outcome.verdict.found;
+    let words = "does not go into a part of the outline: up to 38.3 mm stay near";
+    assert!(found.len() == 1 && found[0].message.contains(words), "{found:?}");
+    assert!(found[0].message.contains("inside corners stay at 3 places"), "{found:?}");
+}
+
+#[test]
 fn the_edge_of_a_pocket_is_chamfered_by_its_name() {
     let chamfer = "[[setup.operation]]\ntype = \"chamfer\"\ntool = 5\nspeed = 8000\nfeed = 800\n\
         of = \"basin\"\nwidth = 0.5\n";
