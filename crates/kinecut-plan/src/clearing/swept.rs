@@ -31,7 +31,7 @@ const ROUNDING: f64 = 1e-9;
 /// // A slot of a cutter of radius 5, and a pass beside it, 2.5 mm aside: cos E = 1 - 2.5 / 5.
 /// let mut clearing = Clearing::new([dvec2(-40.0, -40.0), dvec2(40.0, 40.0)], 5.0);
 /// clearing.sweep(dvec2(-30.0, 0.0), dvec2(30.0, 0.0), 5.0);
-/// clearing.sweep(dvec2(-30.0, -2.5), dvec2(0.0, -2.5), 5.0);
+/// clearing.sweep(dvec2(-30.0, -2.5), dvec2(-0.1, -2.5), 5.0);
 /// let cut: Engagement = clearing.engagement(dvec2(0.0, -2.5), 0.0);
 /// assert!((cut.total.to_degrees() - 60.0).abs() < 1e-9);
 /// assert!(cut.from_right.to_degrees() < 1e-9);
@@ -244,7 +244,7 @@ impl Clearing {
         self.width
     }
 
-    /// The arc with which the cutter cuts at a centre on its way in a direction [rad].
+    /// The arc with which the cutter cuts as it comes to a centre in a direction [rad]; nothing where it has been already.
     pub fn engagement(&self, centre: DVec2, heading: f64) -> Engagement {
         self.engaged(centre, heading, self.radius, &mut Scratch::default())
     }
