@@ -8,7 +8,6 @@
 mod common;
 
 // What a job is made of.
-mod chamfering;
 mod clearing;
 mod contour;
 mod contouring;

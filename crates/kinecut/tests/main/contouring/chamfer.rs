@@ -2,12 +2,13 @@
 
 use std::f64::consts::TAU;
 
-use glam::{DVec2, dvec2};
+use glam::dvec2;
 use kinecut::base::Code;
 use kinecut::contouring::{Chamfer, ContourLoops, ContourPlan, ContourSide, ContourSpec, plan_contour};
 use kinecut::geom::{Outline, OutlineEdge};
 use kinecut::holes::{CutterData, PlannedMove, Sense, ToolpathPace, ToolpathRole};
 
+use super::{signed, star};
 use crate::common::golden::{file, number};
 use crate::common::random::Random;
 
@@ -28,12 +29,6 @@ fn spec(outline: Outline, chamfer: Chamfer) -> ContourSpec {
         overlap: Some(1.0),
         ..ContourSpec::new(outline, chamfer.depth(), cutter, 15.0)
     }
-}
-
-/// Distance of a point from the outline by all of its edges: positive outside of the face.
-fn signed(outline: &Outline, p: DVec2) -> f64 {
-    let far = outline.edges().iter().map(|e| e.nearest(p).1).fold(f64::INFINITY, f64::min);
-    if outline.contains(p) { -far } else { far }
 }
 
 /// Distances of a move from the wall along it.
@@ -102,22 +97,7 @@ fn random_outlines_are_not_gouged_by_the_cone() {
     let mut random = Random(23);
     let mut planned = 0;
     for round in 0..120 {
-        let count = 3 + random.below(7);
-        let star: Vec<DVec2> = (0..count)
-            .map(|i| {
-                DVec2::from_angle(TAU * (i as f64 + 0.5 * random.share()) / count as f64)
-                    * random.between(12.0, 30.0)
-            })
-            .collect();
-        let bulge = |r: &mut Random| if r.share() < 0.5 { 0.0 } else { r.between(-0.3, 0.3) };
-        let edges = (0..count)
-            .map(|i| OutlineEdge::bulge(star[i], star[(i + 1) % count], bulge(&mut random)))
-            .collect();
-        let mut loops = vec![edges];
-        if random.share() < 0.5 {
-            loops.push(vec![OutlineEdge::arc(dvec2(1.0, -1.0), random.between(2.0, 5.0), 0.3, TAU)]);
-        }
-        let Ok(outline) = Outline::new(loops, vec![]) else { continue };
+        let Some(outline) = star(&mut random, [12.0, 30.0], (dvec2(1.0, -1.0), [2.0, 5.0])) else { continue };
         let chamfer = Chamfer {
             width: random.between(0.2, 2.5),
             half_angle: random.between(0.4, 1.1),
