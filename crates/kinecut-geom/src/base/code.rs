@@ -116,6 +116,8 @@ codes! {
         "A cutter leaves a fillet of its own radius in inside corners that are sharper. They are not cut, and not compared with the outline. Finish them with a smaller cutter, or draw them as they will be.";
     POCKET_LEFT = "KC0410", "stock is left that no pass reaches within the engagement",
         "Passes of a pocket stop where every way on would cut with a larger engagement than is allowed: between walls that are hardly wider apart than the cutter, and in corners. The lap along the wall cuts what is left there, at the engagement that comes. Allow a larger one, or take a smaller cutter.";
+    POCKET_PARTS = "KC0411", "a pocket falls into parts for this cutter",
+        "Between two parts of the pocket there is a neck that is narrower than the cutter. Each part is entered and cleared by itself; the neck stays, and is named among the corners that stay. A smaller cutter passes through it.";
 
     RAPID_IN_STOCK = "KC0501", "a rapid move goes through stock",
         "The cutter meets material in a rapid move. On most machines this breaks the cutter, and at times the spindle.";

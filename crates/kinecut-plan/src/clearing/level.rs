@@ -5,10 +5,10 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use glam::DVec2;
 
 use super::link::{Pose, ways};
-use super::region::{CentreRegion, WallLoop, winds};
+use super::region::{CentreRegion, WallLoop};
 use super::swept::{Clearing, Scratch};
 use super::walk::{Walker, Way, step_of};
-use crate::geom::{OutlineEdge, arcs_near};
+use crate::geom::{Outline, OutlineEdge, arcs_near};
 
 /// Places along the wall at which passes may begin, in radii of the cutter.
 const ALONG_WALL: f64 = 0.1;
@@ -111,7 +111,7 @@ fn places(of: &WallLoop, step: f64) -> Vec<Pose> {
     found
 }
 
-/// What clears a region.
+/// A region that is being cleared.
 pub(super) struct Clearer<'a> {
     pub(super) region: &'a CentreRegion,
     pub(super) clearing: &'a mut Clearing,
@@ -134,6 +134,12 @@ impl Clearer<'_> {
         uncut(heading) > ROUNDING || uncut(heading + PI) > ROUNDING
     }
 
+    /// Area of the stock that the cutter reaches, by the middles of cells [mm2].
+    pub(super) fn stock_area(&self) -> f64 {
+        let width = self.clearing.cell_width();
+        self.clearing.remains(|p| self.region.room(p) > -self.radius).len() as f64 * width * width
+    }
+
     /// Clears all that the cutter reaches.
     pub(super) fn run(&mut self) -> Cleared {
         let mut cleared = Cleared::default();
@@ -146,22 +152,22 @@ impl Clearer<'_> {
         let mut most = (20.0 * box_area / (step * self.radius * (1.0 - self.wanted.cos()))).max(1e4) as usize;
         let mut here: Option<Pose> = None;
         let mut work = Scratch::default();
-        for one in 0..self.region.loops.len() {
-            if !self.region.loops[one].outer {
-                continue;
-            }
+        let region = self.region;
+        for (one, around) in
+            region.loops.iter().enumerate().filter_map(|(i, l)| Some((i, l.around.as_ref()?)))
+        {
             // An open side, or a place that is free already, needs no entry.
             if along[one].iter().any(|p| !self.touches(p.at, p.heading, &mut work)) {
                 continue;
             }
-            if let Some((start, way)) = self.drilled(one) {
+            if let Some((start, way)) = self.drilled(around) {
                 cleared.elements.push(Element::Down(start));
                 cleared.elements.push(Element::Link(vec![OutlineEdge::line(start, way.at)]));
                 let way = self.walk(way, &mut most);
                 here = self.keep(&way, &mut cleared).or(here);
                 continue;
             }
-            let (middle, room) = self.region.widest(&self.region.loops[one]);
+            let (middle, room) = region.widest(around);
             let radius = self.helix.min(room);
             let from = 0.0;
             self.clearing.sweep(middle, middle, radius + self.radius);
@@ -232,8 +238,8 @@ impl Clearer<'_> {
 
     /// The hole in a part of the region, if there is one, in which the cutter goes down with room around it: its centre, and
     /// where the first pass begins.
-    fn drilled(&self, of: usize) -> Option<(DVec2, Pose)> {
-        let inside = |p: DVec2| self.region.holds(p) && winds(&self.region.loops[of].edges, p);
+    fn drilled(&self, of: &Outline) -> Option<(DVec2, Pose)> {
+        let inside = |p: DVec2| self.region.holds(p) && of.contains(p);
         let wide = self.holes.iter().filter(|(p, r)| *r >= self.radius + HOLE_ROOM && inside(*p));
         let (middle, radius) = wide.max_by(|a, b| a.1.total_cmp(&b.1))?;
         // So far out that the cutter does not cut yet.

@@ -137,6 +137,7 @@ pub fn plan_pocket(spec: &PocketSpec) -> Result<PocketPlan> {
         helix: spec.helix_radius.unwrap_or(HELIX * a),
         tolerance: most.min(share * a),
     };
+    let stock_area = clearer.stock_area();
     let mut cleared = clearer.run();
     if mirrored {
         cleared.mirror();
@@ -150,8 +151,10 @@ pub fn plan_pocket(spec: &PocketSpec) -> Result<PocketPlan> {
         run(spec, &cleared, &mut route, [level.above, level.floor])?;
     }
     route.retract();
-    let figures = figures(spec, &region, &cleared)?;
-    let mut findings = Vec::new();
+    let area = region.reached(a)?;
+    let uncut = if stock.is_none() && holes.is_empty() { area } else { stock_area.min(area) };
+    let figures = figures(spec, [area, uncut], &cleared);
+    let mut findings: Vec<Finding> = parts(&region).into_iter().collect();
     if let Some((area, at)) = cleared.largest_left
         && area > LEFT * a * a
     {
@@ -195,6 +198,12 @@ fn check(spec: &PocketSpec) -> Result<()> {
     Ok(())
 }
 
+/// A place in words; no zero has a sign.
+fn place(at: DVec2) -> String {
+    let [x, y] = [at.x, at.y].map(|v| (v * 1e3).round() / 1e3 + 0.0);
+    format!("({x:.3}, {y:.3})")
+}
+
 /// The cutter does not fit anywhere.
 fn too_large(spec: &PocketSpec, face: &Outline) -> crate::base::Error {
     // The widest place is where the last offset vanishes.
@@ -213,10 +222,9 @@ fn too_large(spec: &PocketSpec, face: &Outline) -> crate::base::Error {
     let at = if spec.keeps_right() { at } else { DVec2::new(at.x, -at.y) };
     let widest = 2.0 * (low - spec.allowance - WALL_STOCK).max(0.0);
     let what = format!(
-        "the cutter does not fit: the widest place of the pocket is {:.3} mm, at ({:.3}, {:.3})",
+        "the cutter does not fit: the widest place of the pocket is {:.3} mm, at {}",
         2.0 * low,
-        at.x,
-        at.y
+        place(at)
     );
     Finding::error(Code::CUTTER_TOO_LARGE, what)
         .value_mm(spec.cutter.diameter)
@@ -242,8 +250,8 @@ fn wide_enough(spec: &PocketSpec, face: &Outline, region: &CentreRegion, inset: 
             }
             let p = if spec.keeps_right() { p } else { DVec2::new(p.x, -p.y) };
             let what = format!(
-                "the pocket is hardly wider than the cutter at ({:.3}, {:.3}): no pass goes on there within the engagement",
-                p.x, p.y
+                "the pocket is hardly wider than the cutter at {}: no pass goes on there within the engagement",
+                place(p)
             );
             return Err(Finding::error(Code::POCKET_LEFT, what)
                 .value_mm(spec.cutter.diameter)
@@ -265,7 +273,7 @@ fn entries(spec: &PocketSpec, cleared: &Cleared) -> Result<()> {
         if *radius >= least * (1.0 - 1e-9) || spec.cutter.centre_cutting && *radius > 1e-3 {
             continue;
         }
-        let what = format!("no way in at ({:.3}, {:.3}): the helix has no room", middle.x, middle.y);
+        let what = format!("no way in at {}: the helix has no room", place(*middle));
         return Err(Finding::error(Code::ENTRY_IMPOSSIBLE, what)
             .value_mm(*radius)
             .bound_mm(least)
@@ -353,9 +361,10 @@ fn helix(
     route.edges(ToolpathRole::Entry, spec.plunge_feed, &[half(0.0), half(1.0)])
 }
 
-fn figures(spec: &PocketSpec, region: &CentreRegion, cleared: &Cleared) -> Result<PocketFigures> {
+/// The figures; `area`, `uncut`: areas that the cutter reaches, and that of the stock in it [mm2].
+fn figures(spec: &PocketSpec, [area, uncut]: [f64; 2], cleared: &Cleared) -> PocketFigures {
     let a = spec.radius();
-    let mut f = PocketFigures { left: cleared.left, area: region.reached(a)?, ..PocketFigures::default() };
+    let mut f = PocketFigures { left: cleared.left, area, ..PocketFigures::default() };
     let mut entered = 0.0;
     for element in &cleared.elements {
         match element {
@@ -372,15 +381,23 @@ fn figures(spec: &PocketSpec, region: &CentreRegion, cleared: &Cleared) -> Resul
             }
         }
     }
-    f.bound = (f.area - entered).max(0.0) / (a * (1.0 - spec.engagement.cos()));
-    Ok(f)
+    f.bound = (uncut - entered).max(0.0) / (a * (1.0 - spec.engagement.cos()));
+    f
 }
 
-/// What stays for the lap along the wall.
+/// A note where the pocket has parts between which the cutter does not pass.
+fn parts(region: &CentreRegion) -> Option<Finding> {
+    let count = region.loops.iter().filter(|l| l.around.is_some()).count();
+    let what = format!("the pocket has {count} parts for this cutter: each is entered by itself");
+    let help = "a smaller cutter may pass between them";
+    (count > 1).then(|| Finding::note(Code::POCKET_PARTS, what).help(help).key("tool"))
+}
+
+/// A finding about stock that passes leave to the lap along the wall.
 fn left(area: f64, at: DVec2) -> Finding {
     let what = format!(
-        "{area:.1} mm2 at ({:.3}, {:.3}) are left to the lap along the wall: no pass reaches them within the engagement",
-        at.x, at.y
+        "{area:.1} mm2 at {} are left to the lap along the wall: no pass reaches them within the engagement",
+        place(at)
     );
     Finding::error(Code::POCKET_LEFT, what)
         .point([at.x, at.y, 0.0])

@@ -1,4 +1,4 @@
-//! Where the centre of the cutter may be.
+//! The region in which the cutter's centre may be.
 
 use glam::DVec2;
 
@@ -18,8 +18,8 @@ pub(super) struct CentreRegion {
 #[derive(Clone, Debug)]
 pub(super) struct WallLoop {
     pub(super) edges: Vec<OutlineEdge>,
-    /// Whether the region lies inside of it.
-    pub(super) outer: bool,
+    /// What it goes around, where the region lies inside of it.
+    pub(super) around: Option<Outline>,
 }
 
 /// Distance beyond the border that is rounding [mm].
@@ -32,25 +32,20 @@ impl CentreRegion {
     /// Those of offsets.
     pub(super) fn new(face: &Outline, distance: f64) -> Result<Option<CentreRegion>> {
         let made = offset(face, distance)?;
-        let open = made.loops.iter().filter(|l| !l.collapsed);
-        let loops: Vec<WallLoop> = open
-            .map(|l| WallLoop {
-                outer: l.area() > 0.0,
-                edges: l.edges.iter().rev().map(OutlineEdge::reversed).collect(),
-            })
-            .collect();
+        let mut loops = Vec::new();
+        for one in made.loops.iter().filter(|l| !l.collapsed) {
+            let around = (one.area() > 0.0).then(|| Outline::new(vec![one.edges.clone()], Vec::new()));
+            let edges = one.edges.iter().rev().map(OutlineEdge::reversed).collect();
+            loops.push(WallLoop { edges, around: around.transpose()? });
+        }
         if loops.is_empty() {
             return Ok(None);
         }
         let edges: Vec<OutlineEdge> = loops.iter().flat_map(|l| l.edges.iter().copied()).collect();
-        let span = |axis: DVec2| {
-            edges
-                .iter()
-                .map(|e| e.extent(axis))
-                .fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], e| [low.min(e[0]), high.max(e[1])])
-        };
-        let ([x0, x1], [y0, y1]) = (span(DVec2::X), span(DVec2::Y));
-        let bounds = [DVec2::new(x0, y0), DVec2::new(x1, y1)];
+        let ends = loops.iter().filter_map(|l| l.around.as_ref()).map(Outline::bounds);
+        let bounds = ends.fold([DVec2::INFINITY, DVec2::NEG_INFINITY], |all, [low, high]| {
+            [all[0].min(low), all[1].max(high)]
+        });
         Ok(Some(CentreRegion { loops, near: NearestEdge::new(&edges), bounds }))
     }
 
@@ -92,21 +87,15 @@ impl CentreRegion {
         }
     }
 
-    /// The point with the most room around it inside one of the loops, and that room [mm].
-    pub(super) fn widest(&self, of: &WallLoop) -> (DVec2, f64) {
+    /// The point with the most room around it inside an outline of a loop, and that room [mm].
+    pub(super) fn widest(&self, of: &Outline) -> (DVec2, f64) {
         /// Share of the room that a better point would have to add.
         const WORTH: f64 = 1e-3;
-        let span = |axis: DVec2| {
-            of.edges
-                .iter()
-                .map(|e| e.extent(axis))
-                .fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], e| [low.min(e[0]), high.max(e[1])])
-        };
-        let ([x0, x1], [y0, y1]) = (span(DVec2::X), span(DVec2::Y));
-        let size = (x1 - x0).max(y1 - y0);
-        let inside = |p: DVec2| winds(&of.edges, p);
+        let [low, high] = of.bounds();
+        let size = (high - low).max_element();
+        let inside = |p: DVec2| of.contains(p);
         // The middle, unless another place has more room by something.
-        let middle = DVec2::new(0.5 * (x0 + x1), 0.5 * (y0 + y1));
+        let middle = 0.5 * (low + high);
         let mut best = (middle, if inside(middle) { self.room(middle) } else { f64::NEG_INFINITY });
         // Squares by the most room that a point of them may have, the largest first.
         let mut squares = vec![(f64::INFINITY, best.0, size)];
@@ -127,21 +116,4 @@ impl CentreRegion {
         }
         best
     }
-}
-
-/// Whether a closed loop goes around a point.
-pub(super) fn winds(edges: &[OutlineEdge], p: DVec2) -> bool {
-    // A ray to the right, past each edge as two or more chords would see it: arcs are cut at their highest and lowest points.
-    let mut inside = false;
-    for edge in edges {
-        let pieces = if edge.turn.is_some() { 16 } else { 1 };
-        for k in 0..pieces {
-            let (a, b) =
-                (edge.at(f64::from(k) / f64::from(pieces)), edge.at(f64::from(k + 1) / f64::from(pieces)));
-            if (a.y > p.y) != (b.y > p.y) && p.x < a.x + (p.y - a.y) / (b.y - a.y) * (b.x - a.x) {
-                inside = !inside;
-            }
-        }
-    }
-    inside
 }

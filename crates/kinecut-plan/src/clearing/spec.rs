@@ -10,7 +10,7 @@ use crate::holes::{CutterData, Sense};
 pub struct PocketSpec {
     /// The face that is cleared, in coordinates of the work offset; its holes are islands that stay.
     pub outline: Outline,
-    /// Where the stock is; `None`: everywhere. A pocket that reaches over it is open there.
+    /// Outline of the stock; `None`: stock everywhere. A pocket that reaches over it is open there.
     pub stock: Option<Outline>,
     /// Round holes that are open down to the lowest level already: centre and radius.
     pub holes: Vec<(DVec2, f64)>,

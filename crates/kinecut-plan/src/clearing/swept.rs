@@ -1,4 +1,4 @@
-//! What a cutter has cleared, and the arc with which it cuts where it is.
+//! The area that a cutter has cleared, and the arc with which it cuts at a place.
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
@@ -47,7 +47,7 @@ pub struct Clearing {
     rows: usize,
     cells: Vec<Cell>,
     pieces: Vec<Piece>,
-    /// Where there is stock at first; `None`: everywhere.
+    /// Outline of the stock at first; `None`: stock everywhere.
     stock: Option<Stock>,
     /// Middle of each slot of the circle, from its centre.
     around: [DVec2; SLOTS],

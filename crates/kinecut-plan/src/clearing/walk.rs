@@ -67,6 +67,8 @@ impl Walker<'_> {
         let (mut at, mut heading, mut bend) = (start, heading, 0.0_f64);
         let mut air = 0.0;
         let mut solid = 1;
+        // Steps in the air, swept only when the pass goes on: its end in the air is not run.
+        let mut held: Vec<[DVec2; 2]> = Vec::new();
         while way.points.len() < most {
             // Where the way turns much, by smaller steps.
             let mut share = 1.0;
@@ -80,9 +82,9 @@ impl Walker<'_> {
             if length < 0.1 * step * share {
                 break;
             }
-            self.clearing.sweep(at, next, self.radius);
             way.points.push(next);
             way.largest = way.largest.max(engaged);
+            held.push([at, next]);
             if engaged < AIR {
                 air += length;
                 if air > AIR_WAY * self.radius {
@@ -92,12 +94,14 @@ impl Walker<'_> {
                 air = 0.0;
                 way.cutting += length;
                 solid = way.points.len();
+                for [from, to] in held.drain(..) {
+                    self.clearing.sweep(from, to, self.radius);
+                }
             }
             bend = wrap(along - heading) / share;
             (at, heading) = (next, along);
         }
-        // The end in the air is left out, but for what leads off the stock.
-        way.points.truncate(solid.max(2));
+        way.points.truncate(solid);
         way
     }
 

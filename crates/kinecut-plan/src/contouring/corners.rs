@@ -19,6 +19,14 @@ pub struct UncutCorner {
     pub length: Option<f64>,
 }
 
+impl UncutCorner {
+    /// Whether it is no corner but a part of the outline that a cutter of a radius [mm] does not enter: it is thicker than the cutter
+    /// is wide.
+    pub fn is_part(&self, radius: f64) -> bool {
+        self.thickness.is_some_and(|t| t > 2.0 * radius)
+    }
+}
+
 /// Least thickness that counts [mm].
 const LEAST: f64 = 1e-3;
 /// Least turn of a path that is a corner of it [rad].

@@ -143,11 +143,9 @@ pub fn plan_contour(spec: &ContourSpec) -> Result<ContourPlan> {
 /// Corners that stay, in a sentence.
 fn remark(corners: &[UncutCorner], a: f64) -> Option<Finding> {
     let places = |count: usize| if count == 1 { "1 place".to_owned() } else { format!("{count} places") };
-    let thick = |c: &UncutCorner| c.thickness.map(|t| (t, c.at));
-    // What is thicker than the cutter is no corner: a part of the outline that it does not enter.
-    let part = |of: &(f64, DVec2)| of.0 > 2.0 * a;
-    let thickest = |narrow: bool| {
-        let of_kind = corners.iter().filter_map(thick).filter(|of| part(of) == narrow);
+    let thickest = |part: bool| {
+        let of_kind =
+            corners.iter().filter(|c| c.is_part(a) == part).filter_map(|c| Some((c.thickness?, c.at)));
         of_kind.max_by(|x, y| x.0.total_cmp(&y.0))
     };
     let (worst, narrow) = (thickest(false), thickest(true));
@@ -155,7 +153,7 @@ fn remark(corners: &[UncutCorner], a: f64) -> Option<Finding> {
     let radius = (a * 1e3).round() / 1e3;
     let mut parts = Vec::new();
     if let Some((thickness, _)) = worst {
-        let places = places(corners.iter().filter_map(thick).filter(|of| !part(of)).count());
+        let places = places(corners.iter().filter(|c| c.thickness.is_some() && !c.is_part(a)).count());
         parts.push(format!(
             "inside corners stay at {places}: a cutter of radius {radius} leaves up to {thickness:.3} mm"
         ));

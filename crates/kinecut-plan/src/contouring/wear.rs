@@ -12,7 +12,7 @@ use crate::geom::{NearestEdge, OffsetLoop, OutlineEdge};
 
 /// Shortest edge of a path that counts [mm]: less than a control resolves.
 const LEAST: f64 = 2e-5;
-/// Digits in which the largest wear is told [mm].
+/// Step in which messages show the largest wear [mm].
 const TOLD: f64 = 1e-4;
 
 /// Looks whether a path keeps its loops and edges under a wear. `paths` has the path farther from the wall by as much; `radius`:

@@ -69,6 +69,26 @@ pub(crate) struct Drawn<'a> {
     pub(crate) angle: f64,
 }
 
+/// The outline keys of a table that has all of them.
+macro_rules! outline_keys {
+    ($table:expr) => {
+        $crate::operations::outlines::OutlineKeys {
+            rectangle: $table.rectangle.as_ref(),
+            circle: $table.circle.as_ref(),
+            polygon: $table.polygon.as_deref(),
+            drawing: $table.outline.as_ref().map(|outline| $crate::operations::outlines::Drawn {
+                outline,
+                unit: $table.unit,
+                layers: $table.layers.as_deref(),
+                snap: $table.snap,
+                at: $table.at,
+                angle: $table.angle,
+            }),
+        }
+    };
+}
+pub(crate) use outline_keys;
+
 impl OutlineKeys<'_> {
     /// Whether none of them is given.
     pub(crate) fn is_empty(&self) -> bool {

@@ -113,6 +113,21 @@ pub(crate) struct Setting<'a> {
 }
 
 impl Setting<'_> {
+    /// The box of the raw stock in the coordinates of an operation.
+    pub(crate) fn around(&self, milling: &Milling) -> Aabb {
+        let to_operation = self.clamping.to_operation(milling);
+        let far = (DVec3::INFINITY, DVec3::NEG_INFINITY);
+        let (min, max) = corners(&self.stock.bounds(), &to_operation)
+            .into_iter()
+            .fold(far, |(min, max), c| (min.min(c), max.max(c)));
+        Aabb { min, max }
+    }
+
+    /// Whether a cut down to a height goes through the raw stock.
+    pub(crate) fn is_through(&self, milling: &Milling, bottom: f64) -> bool {
+        bottom <= self.around(milling).min.z + 1e-6
+    }
+
     /// Least step of the control's coordinates [mm].
     pub(crate) fn resolution(&self) -> f64 {
         self.post.resolution.unwrap_or(self.post.control.resolution(self.post.decimals))

@@ -21,11 +21,15 @@ pub(crate) fn fillets(uncut: &[UncutCorner], radius: f64) -> Vec<Fillet> {
     uncut.iter().map(|c| Fillet { centre: c.at, radius, between: c.between }).collect()
 }
 
-/// Parts of the wall that are not compared.
-pub(crate) fn in_words(uncut: &[UncutCorner]) -> Vec<String> {
+/// Parts of the wall that are not compared; `radius`: that of the cutter [mm].
+pub(crate) fn in_words(uncut: &[UncutCorner], radius: f64) -> Vec<String> {
     let gaps = uncut.iter().filter(|c| c.thickness.is_none()).count();
-    let corners = uncut.len() - gaps;
+    let narrow = uncut.iter().filter(|c| c.is_part(radius)).count();
+    let corners = uncut.len() - gaps - narrow;
     let mut parts = Vec::new();
+    if narrow > 0 {
+        parts.push(format!("{} that the cutter does not enter", count(narrow, "part", "parts")));
+    }
     if corners > 0 {
         parts.push(format!("{} beyond the cutter's fillet", count(corners, "corner", "corners")));
     }
@@ -36,10 +40,15 @@ pub(crate) fn in_words(uncut: &[UncutCorner]) -> Vec<String> {
     parts
 }
 
-/// The corners as the report has them.
-pub(crate) fn facts(uncut: &[UncutCorner]) -> Vec<Fact> {
+/// The corners as the report has them; `radius`: that of the cutter [mm].
+pub(crate) fn facts(uncut: &[UncutCorner], radius: f64) -> Vec<Fact> {
     let mut facts = Vec::new();
-    let thick: Vec<f64> = uncut.iter().filter_map(|c| c.thickness).collect();
+    for part in uncut.iter().filter(|c| c.is_part(radius)) {
+        let note =
+            format!("up to {} mm stay near {}", fixed(part.thickness.unwrap_or(0.0), 1), place(part.at));
+        facts.push(Fact::new("Not entered", "a part of the outline").note(note));
+    }
+    let thick: Vec<f64> = uncut.iter().filter(|c| !c.is_part(radius)).filter_map(|c| c.thickness).collect();
     if let Some(worst) = thick.iter().copied().max_by(f64::total_cmp) {
         let note = format!("up to {} mm thick", fixed(worst, 3));
         facts.push(Fact::new("Corners that stay", format!("{}", thick.len())).note(note));

@@ -79,7 +79,7 @@ impl Swept {
     }
 }
 
-/// What the judge has found.
+/// Findings of the judge.
 #[derive(Debug, Default)]
 struct Judged {
     /// Largest engagement of passes and of links [deg].
@@ -293,7 +293,8 @@ fn random_pockets_are_cleared_and_nothing_else() {
         planned += 1;
         let found = judge(&spec, &plan, 997);
         assert!(found.left < 1e-3, "{round}: {found:?}");
-        assert!(plan.figures.cutting < 1.7 * plan.figures.bound, "{round}: {:?}", plan.figures);
+        // Rings that are hardly wider than the cutter cost the most.
+        assert!(plan.figures.cutting < 1.9 * plan.figures.bound, "{round}: {:?}", plan.figures);
         let area = swept_area(&plan, spec.radius());
         let bound = 0.01 * plan.figures.area + plan.figures.left;
         assert!((area - plan.figures.area).abs() < bound, "{round}: {area} of {:?}", plan.figures);
@@ -323,8 +324,34 @@ fn holes_and_open_sides_need_no_helix() {
     assert_eq!([helices(&stock(49.0)), helices(&stock(58.0))], [0, 1]);
     let open = stock(45.0);
     let plan = plan_pocket(&open).expect("a plan");
+    // The least length counts stock only: 45 mm of 60, less what corners keep.
+    let least = |area: f64| area / (5.0 * (1.0 - open.engagement.cos()));
+    let bound = plan.figures.bound;
+    assert!(bound < least(45.0 * 40.0) && bound > least(44.0 * 38.0), "{bound}");
     let found = judge(&open, &plan, 101);
     assert!(found.pass < 61.0 && found.left == 0.0, "{found:?}");
+}
+
+#[test]
+fn parts_between_which_the_cutter_does_not_pass_are_named() {
+    let bone = polygon(&[
+        [0.0, 0.0],
+        [30.0, 0.0],
+        [30.0, 11.0],
+        [50.0, 11.0],
+        [50.0, 0.0],
+        [80.0, 0.0],
+        [80.0, 30.0],
+        [50.0, 30.0],
+        [50.0, 19.0],
+        [30.0, 19.0],
+        [30.0, 30.0],
+        [0.0, 30.0],
+    ]);
+    let plan = plan_pocket(&spec(bone.clone(), 10.0, 60.0)).expect("a plan");
+    assert!(plan.findings.len() == 1 && plan.findings[0].message.contains("2 parts"), "{:?}", plan.findings);
+    assert_eq!(plan.figures.entries, 2);
+    assert!(plan_pocket(&spec(bone, 6.0, 60.0)).expect("a plan").findings.is_empty());
 }
 
 #[test]

@@ -10,7 +10,7 @@ use crate::contouring::{Chamfer, ContourLoops, ContourSide};
 use crate::geom::Outline;
 use crate::operations::kind::{self, Attempt};
 use crate::operations::named::NamedOutline;
-use crate::operations::outlines::{Drawn, OutlineEntry, OutlineKeys};
+use crate::operations::outlines::{OutlineEntry, outline_keys};
 use crate::operations::{
     Around, Milling, PlaneTable, Setting, feed_of, milling_of, spindle, tool_of, whole_revolutions,
 };
@@ -100,7 +100,7 @@ impl kind::Table for ChamferTable {
 
     fn named_outline(&self) -> Option<NamedOutline<'_>> {
         // One that refers to another has no outline of its own to give.
-        let own = keys(self);
+        let own = outline_keys!(self);
         let name = self.name.as_deref().filter(|_| !own.is_empty())?;
         Some(NamedOutline {
             name,
@@ -154,27 +154,9 @@ fn operation(t: &ChamferTable, around: &Around<'_>) -> Result<ChamferOperation> 
     })
 }
 
-/// The keys that say the outline.
-fn keys(t: &ChamferTable) -> OutlineKeys<'_> {
-    let drawing = t.outline.as_ref().map(|outline| Drawn {
-        outline,
-        unit: t.unit,
-        layers: t.layers.as_deref(),
-        snap: t.snap,
-        at: t.at,
-        angle: t.angle,
-    });
-    OutlineKeys {
-        rectangle: t.rectangle.as_ref(),
-        circle: t.circle.as_ref(),
-        polygon: t.polygon.as_deref(),
-        drawing,
-    }
-}
-
 /// The edge: that which the table says, the rest of it that of the operation to which it refers.
 fn edge<'a>(t: &'a ChamferTable, around: &Around<'a>) -> Result<NamedOutline<'a>> {
-    let own = keys(t);
+    let own = outline_keys!(t);
     let name = t.name.as_deref().unwrap_or_default();
     let of = match &t.of {
         Some(of) if own.is_empty() => NamedOutline { name, ..NamedOutline::find(of, around.before)? },
@@ -270,7 +252,7 @@ fn chamfer(t: &ChamferTable, tool: &Tool) -> Result<Chamfer> {
     Ok(chamfer)
 }
 
-/// A length as it is told [mm].
+/// A length as messages show it [mm].
 fn rounded(mm: f64) -> f64 {
     (mm * 1e4).round() / 1e4
 }

@@ -11,11 +11,11 @@ use super::webs::{Webs, warning};
 use crate::base::{Code, Error, Result};
 use crate::contouring::{ContourLoops, ContourPlan, ContourSide, ContourSpec, plan_contour};
 use crate::holes::CutterData;
-use crate::operations::band::{Band, Fillet, Slope};
+use crate::operations::band::{Band, Slope};
 use crate::operations::kind::{self, Attempt, Checked as _};
 use crate::operations::wall::{CLEARANCE, write_moves};
 use crate::operations::wanted::{Wall, WantedWall};
-use crate::operations::{Found, Judged, Pen, PostedPlan, Setting, Shown};
+use crate::operations::{Found, Judged, Pen, PostedPlan, Setting, Shown, uncut};
 use crate::page::Section;
 
 /// Distance of the cutter from the edge where it comes down [mm].
@@ -113,9 +113,7 @@ impl kind::Plan for PlannedChamfer {
             lean: chamfer.half_angle.tan(),
             tip: spec.bottom(),
         });
-        let radius = spec.radius();
-        band.corners =
-            self.plan.uncut.iter().map(|c| Fillet { centre: c.at, radius, between: c.between }).collect();
+        band.corners = uncut::fillets(&self.plan.uncut, spec.radius());
         vec![WantedWall {
             centre: band.middle,
             top: spec.top,

@@ -69,7 +69,7 @@ pub struct ChamferTable {
     /// Depth of the tool's tip below the chamfer, 0.2 at least; default a tenth of the tool's diameter, 0.5 at most.
     #[serde(default)]
     pub tip_clearance: Option<f64>,
-    /// Height of the wall below the edge, down to a floor beside it that the tip is not to touch; left out, there is none.
+    /// Height of the wall below the edge, down to a floor beside it that the tip must not touch; default: no floor.
     #[serde(default)]
     pub wall_height: Option<f64>,
     /// Stock that was left on the wall: it lies so far before the outline; default that of `of`, or 0.

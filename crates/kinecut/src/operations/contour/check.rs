@@ -10,7 +10,7 @@ use crate::contouring::{ContourSide, Tabs};
 use crate::geom::Outline;
 use crate::operations::kind::{self, Attempt};
 use crate::operations::named::NamedOutline;
-use crate::operations::outlines::{Drawn, OutlineEntry, OutlineKeys};
+use crate::operations::outlines::{OutlineEntry, outline_keys};
 use crate::operations::{
     Around, Milling, PlaneTable, Setting, feed_of, milling_of, spindle, tool_of, whole_revolutions,
 };
@@ -117,7 +117,7 @@ impl kind::Table for ContourTable {
         let (top, stock_to_leave, plane) = (self.top, self.stock_to_leave, self.plane());
         self.name.as_deref().map(|name| NamedOutline {
             name,
-            keys: keys(self),
+            keys: outline_keys!(self),
             side,
             loops,
             top,
@@ -152,7 +152,7 @@ fn operation(t: &ContourTable, around: &Around<'_>) -> Result<ContourOperation> 
     for (i, v) in t.start.iter().flatten().enumerate() {
         length(&format!("start[{i}]"), *v, -MAX_LENGTH, MAX_LENGTH)?;
     }
-    let read = keys(t).read(around.loader)?;
+    let read = outline_keys!(t).read(around.loader)?;
     let tabs = t.tabs.as_ref().map(|tabs| checked_tabs(tabs, &read.outline).map_err(|e| e.under("tabs")));
     Ok(ContourOperation {
         outline: read.outline,
@@ -169,24 +169,6 @@ fn operation(t: &ContourTable, around: &Around<'_>) -> Result<ContourOperation> 
         milling: milling_of(tool, speed, t.coolant, t.tolerance)?,
         table: t.clone(),
     })
-}
-
-/// The keys that say the outline.
-fn keys(t: &ContourTable) -> OutlineKeys<'_> {
-    let drawing = t.outline.as_ref().map(|outline| Drawn {
-        outline,
-        unit: t.unit,
-        layers: t.layers.as_deref(),
-        snap: t.snap,
-        at: t.at,
-        angle: t.angle,
-    });
-    OutlineKeys {
-        rectangle: t.rectangle.as_ref(),
-        circle: t.circle.as_ref(),
-        polygon: t.polygon.as_deref(),
-        drawing,
-    }
 }
 
 fn checked_tabs(t: &TabsTable, outline: &Outline) -> Result<Tabs> {

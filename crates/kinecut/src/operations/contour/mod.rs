@@ -1,6 +1,7 @@
 //! Milling along a contour: from the table over tracks, leads, ramps and tabs to moves, its wall measured on the simulated stock.
 
 mod check;
+mod finish;
 mod json;
 mod plan;
 mod section;

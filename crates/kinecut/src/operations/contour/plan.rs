@@ -9,16 +9,14 @@ use super::json::ContourJson;
 use super::section::section;
 use crate::base::{Code, Finding, Result};
 use crate::contouring::{ContourFinish, ContourPlan, ContourSide, ContourSpec, plan_contour};
-use crate::geom::Aabb;
 use crate::holes::CutterData;
 use crate::operations::band::{Band, TabPlace};
 use crate::operations::kind::{self, Attempt, Checked as _};
 use crate::operations::uncut;
-use crate::operations::wall::{CLEARANCE, OUTLINE_WEAR, WearKeys, write_moves};
+use crate::operations::wall::{CLEARANCE, write_worn_moves};
 use crate::operations::wanted::{Wall, WantedWall};
 use crate::operations::{Found, Judged, Pen, PostedPlan, Setting, Shown, WearRegister};
 use crate::page::Section;
-use crate::program::Comp;
 
 /// A planned contour.
 #[derive(Clone, Debug)]
@@ -37,8 +35,8 @@ pub struct PlannedContour {
 pub(super) fn planned(of: &Arc<ContourOperation>, setting: &Setting<'_>) -> Result<Attempt<PlannedContour>> {
     let spec = spec(setting, of)?;
     let plan = plan_contour(&spec)?;
-    let value = of.table.finish.as_ref().and_then(|f| f.wear_value).unwrap_or(0.0);
-    let wear = spec.finish.and_then(|f| f.wear).map(|w| WearRegister { number: w.register, value });
+    let wear =
+        of.table.finish.as_ref().zip(spec.finish.and_then(|f| f.wear)).map(|(t, wear)| t.register(wear));
     let mut findings = plan.findings.clone();
     findings.extend(loose(of, setting, &spec));
     Ok(Attempt::SetupPlan(PlannedContour { of: Arc::clone(of), spec, plan, wear }, findings))
@@ -47,15 +45,7 @@ pub(super) fn planned(of: &Arc<ContourOperation>, setting: &Setting<'_>) -> Resu
 /// The operation in the planner's words.
 fn spec(setting: &Setting<'_>, of: &ContourOperation) -> Result<ContourSpec> {
     let t = &of.table;
-    let keys = t.finish.as_ref().map(|f| WearKeys {
-        register: f.wear_offset.as_deref(),
-        largest: f.wear_largest,
-        value: f.wear_value,
-    });
-    let wear = keys.map(|keys| keys.wear(OUTLINE_WEAR)).transpose().map_err(|e| e.under("finish"))?.flatten();
-    if let Some(keys) = keys {
-        keys.check(setting, of.milling.tool.number, wear).map_err(|e| e.under("finish"))?;
-    }
+    let wear = t.finish.as_ref().map(|f| f.wear(setting, &of.milling.tool)).transpose()?.flatten();
     let safe = setting.clamping.safe_height;
     Ok(ContourSpec {
         side: t.side,
@@ -91,20 +81,14 @@ fn loose(of: &ContourOperation, setting: &Setting<'_>, spec: &ContourSpec) -> Op
     if spec.tabs.is_some() || spec.side == ContourSide::On {
         return None;
     }
-    let to_work = setting.clamping.to_operation(&of.milling);
-    let Aabb { min, max } = setting.stock.bounds();
-    let corners = super::super::setting::corners(&Aabb { min, max }, &to_work);
-    let low = corners.iter().fold(f64::INFINITY, |low, c| if c.z < low { c.z } else { low });
-    let is_through = spec.bottom() <= low + 1e-6;
+    let around = setting.around(&of.milling);
     // Stock that stays beside the contour may be what is held.
-    let a = spec.cutter.diameter;
     let [from, to] = of.outline.bounds();
-    let wide = corners
-        .iter()
-        .fold([DVec2::INFINITY, DVec2::NEG_INFINITY], |[l, h], c| [l.min(c.truncate()), h.max(c.truncate())]);
-    let around = (from - wide[0]).max(wide[1] - to).max_element() > a;
+    let (low, high) = (around.min.truncate(), around.max.truncate());
+    let is_wide = (from - low).max(high - to).max_element() > spec.cutter.diameter;
     let inside = spec.side == ContourSide::Inside || of.outline.loops().iter().any(|l| !l.outer);
-    (is_through && (around || inside)).then(|| {
+    let is_through = setting.is_through(&of.milling, spec.bottom());
+    (is_through && (is_wide || inside)).then(|| {
         Finding::warning(Code::SLUG, format!("{}: what it cuts out comes loose", of.name()))
             .help("leave tabs, for example tabs = { width = 4, height = 1 }, or hold it from below")
     })
@@ -120,16 +104,7 @@ impl kind::Plan for PlannedContour {
     }
 
     fn write(&mut self, pen: &mut Pen<'_>) -> Result<()> {
-        let milling = &self.of.milling;
-        if let Some(wear) = self.wear {
-            pen.text(pen.setting.post.control.wear_note(milling.tool.number, wear.number));
-            pen.text("0 AS PLANNED, POSITIVE LEAVES STOCK ON THE WALL");
-        }
-        let comp = self.wear.map(|w| match self.spec.keeps_right() {
-            true => Comp::Left(w.number),
-            false => Comp::Right(w.number),
-        });
-        write_moves(pen, &self.plan.moves, milling.coolant, comp);
+        write_worn_moves(pen, &self.plan.moves, &self.of.milling, self.wear, self.spec.keeps_right());
         Ok(())
     }
 
@@ -194,7 +169,7 @@ impl PlannedContour {
     /// Parts of the wall that are not compared, in words.
     pub(super) fn not_looked_at(&self) -> Option<String> {
         let tabs = self.tabs();
-        let mut parts = uncut::in_words(&self.plan.uncut);
+        let mut parts = uncut::in_words(&self.plan.uncut, self.spec.radius());
         if let Some(longest) = tabs.iter().map(|tab| 2.0 * tab.radius).max_by(f64::total_cmp) {
             // Roughing and finishing have their tabs at one place.
             let tabs = self.plan.loops.iter().filter(|l| !l.finishing).map(|l| l.tabs.len()).sum::<usize>();

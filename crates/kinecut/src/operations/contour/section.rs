@@ -56,7 +56,7 @@ fn facts(plan: &PlannedContour, wall: Option<&BoreMeasure>) -> Vec<Fact> {
         crate::holes::FeedAt::Wall => "at the wall",
         crate::holes::FeedAt::Centre => "of the cutter\u{2019}s centre",
     }));
-    facts.extend(uncut::facts(&plan.plan.uncut));
+    facts.extend(uncut::facts(&plan.plan.uncut, plan.spec.radius()));
     for note in &of.notes {
         facts.push(Fact::new("Drawing", note.clone()));
     }

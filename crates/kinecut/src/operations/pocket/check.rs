@@ -4,13 +4,13 @@ use std::sync::Arc;
 
 use super::PocketTable;
 use super::plan::{PlannedPocket, planned};
-use crate::base::bounded::{MAX_LENGTH, bounded, length, positive};
+use crate::base::bounded::{MAX_LENGTH, length, positive};
 use crate::base::{Code, Finding, Result};
 use crate::contouring::{ContourLoops, ContourSide};
 use crate::geom::Outline;
 use crate::operations::kind::{self, Attempt};
 use crate::operations::named::NamedOutline;
-use crate::operations::outlines::{Drawn, OutlineEntry, OutlineKeys};
+use crate::operations::outlines::{OutlineEntry, outline_keys};
 use crate::operations::{
     Around, Milling, PlaneTable, Setting, feed_of, milling_of, spindle, tool_of, whole_revolutions,
 };
@@ -18,8 +18,6 @@ use crate::tool::{Cutter, Hand};
 
 /// Engagement where the job does not say it [deg].
 const USUAL_ENGAGEMENT: f64 = 60.0;
-/// Range of the engagement [deg].
-const ENGAGEMENTS: [f64; 2] = [5.0, 120.0];
 /// Angle of the helix where neither the job nor the tool says one [deg].
 const USUAL_HELIX: f64 = 3.0;
 /// Share of the feed at which the cutter goes down, and by which it goes faster through what is cleared.
@@ -119,7 +117,7 @@ impl kind::Table for PocketTable {
         let (top, stock_to_leave, plane) = (self.top, self.stock_to_leave, self.plane());
         self.name.as_deref().map(|name| NamedOutline {
             name,
-            keys: keys(self),
+            keys: outline_keys!(self),
             side: ContourSide::Inside,
             loops: ContourLoops::All,
             top,
@@ -165,16 +163,14 @@ fn operation(t: &PocketTable, around: &Around<'_>) -> Result<PocketOperation> {
     length("top", t.top, -MAX_LENGTH, MAX_LENGTH)?;
     positive("depth", t.depth, MAX_LENGTH, "mm")?;
     length("breakthrough", t.breakthrough, 0.0, MAX_LENGTH)?;
-    length("lift", t.lift.unwrap_or(0.0), 0.0, MAX_LENGTH)?;
-    let engagement = t.engagement.unwrap_or(USUAL_ENGAGEMENT);
-    let engagement = bounded("engagement", engagement, ENGAGEMENTS[0], ENGAGEMENTS[1], "deg")?.to_radians();
+    let engagement = t.engagement.unwrap_or(USUAL_ENGAGEMENT).to_radians();
     let entry = t.entry.unwrap_or_default();
     let usual = USUAL_HELIX.to_radians();
     let helix = match entry.helix {
         Some(angle) => positive("entry.helix", angle, 45.0, "deg")?.to_radians(),
         None => tool.max_ramp_angle.map_or(usual, |most| most.min(usual)),
     };
-    let read = keys(t).read(around.loader)?;
+    let read = outline_keys!(t).read(around.loader)?;
     let feeds = PocketFeeds {
         pass,
         down: per_second("plunge_feed", t.plunge_feed, DOWN * pass)?,
@@ -190,22 +186,4 @@ fn operation(t: &PocketTable, around: &Around<'_>) -> Result<PocketOperation> {
         milling: milling_of(tool, speed, t.coolant, t.tolerance)?,
         table: t.clone(),
     })
-}
-
-/// The keys that say the outline.
-fn keys(t: &PocketTable) -> OutlineKeys<'_> {
-    let drawing = t.outline.as_ref().map(|outline| Drawn {
-        outline,
-        unit: t.unit,
-        layers: t.layers.as_deref(),
-        snap: t.snap,
-        at: t.at,
-        angle: t.angle,
-    });
-    OutlineKeys {
-        rectangle: t.rectangle.as_ref(),
-        circle: t.circle.as_ref(),
-        polygon: t.polygon.as_deref(),
-        drawing,
-    }
 }

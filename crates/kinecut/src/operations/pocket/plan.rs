@@ -7,20 +7,18 @@ use glam::{DVec2, DVec3};
 use super::PocketOperation;
 use super::json::PocketJson;
 use super::section::section;
-use crate::base::Result;
+use crate::base::{Code, Finding, Result};
 use crate::clearing::{PocketPlan, PocketSpec, WALL_STOCK, plan_pocket};
 use crate::contouring::{ContourFinish, ContourPlan, ContourSide, ContourSpec, plan_contour};
 use crate::geom::{Line, Outline};
 use crate::holes::{CutterData, PlannedMove, ToolpathPace, ToolpathRole};
 use crate::operations::band::Band;
-use crate::operations::kind::{self, Attempt};
-use crate::operations::setting::corners;
+use crate::operations::kind::{self, Attempt, Checked as _};
 use crate::operations::uncut;
-use crate::operations::wall::{CLEARANCE, OUTLINE_WEAR, WearKeys, write_moves};
+use crate::operations::wall::{CLEARANCE, write_worn_moves};
 use crate::operations::wanted::{Wall, WantedWall};
 use crate::operations::{Found, Judged, Pen, PostedPlan, Setting, Shown, WearRegister};
 use crate::page::Section;
-use crate::program::Comp;
 
 /// A planned pocket.
 #[derive(Clone, Debug)]
@@ -44,24 +42,17 @@ pub(super) fn planned(of: &Arc<PocketOperation>, setting: &Setting<'_>) -> Resul
     let (spec, lap) = specs(setting, of)?;
     let clearing = plan_pocket(&spec)?;
     let wall = plan_contour(&lap)?;
-    let value = of.table.finish.as_ref().and_then(|f| f.wear_value).unwrap_or(0.0);
-    let wear = lap.finish.and_then(|f| f.wear).map(|w| WearRegister { number: w.register, value });
-    let findings = clearing.findings.iter().chain(&wall.findings).cloned().collect();
+    let wear =
+        of.table.finish.as_ref().zip(lap.finish.and_then(|f| f.wear)).map(|(t, wear)| t.register(wear));
+    let own = loose(of, setting, &spec);
+    let findings = clearing.findings.iter().chain(&wall.findings).cloned().chain(own).collect();
     Ok(Attempt::SetupPlan(PlannedPocket { of: Arc::clone(of), spec, clearing, lap, wall, wear }, findings))
 }
 
 /// The operation in the planners' words.
 fn specs(setting: &Setting<'_>, of: &PocketOperation) -> Result<(PocketSpec, ContourSpec)> {
     let t = &of.table;
-    let keys = t.finish.as_ref().map(|f| WearKeys {
-        register: f.wear_offset.as_deref(),
-        largest: f.wear_largest,
-        value: f.wear_value,
-    });
-    let wear = keys.map(|keys| keys.wear(OUTLINE_WEAR)).transpose().map_err(|e| e.under("finish"))?.flatten();
-    if let Some(keys) = keys {
-        keys.check(setting, of.milling.tool.number, wear).map_err(|e| e.under("finish"))?;
-    }
+    let wear = t.finish.as_ref().map(|f| f.wear(setting, &of.milling.tool)).transpose()?.flatten();
     let cutter = CutterData::of(&of.milling.tool);
     let retract_z = setting.clamping.safe_height;
     let approach_z = (t.top + CLEARANCE).clamp(f64::NEG_INFINITY, retract_z);
@@ -114,15 +105,23 @@ fn specs(setting: &Setting<'_>, of: &PocketOperation) -> Result<(PocketSpec, Con
 
 /// The outline of the stock's box where the pocket reaches over it.
 fn over_stock(setting: &Setting<'_>, of: &PocketOperation) -> Result<Option<Outline>> {
-    let to_work = setting.clamping.to_operation(&of.milling);
-    let (mut low, mut high) = (DVec2::INFINITY, DVec2::NEG_INFINITY);
-    for corner in corners(&setting.stock.bounds(), &to_work) {
-        (low, high) = (low.min(corner.truncate()), high.max(corner.truncate()));
-    }
+    let around = setting.around(&of.milling);
+    let (low, high) = (around.min.truncate(), around.max.truncate());
     let [min, max] = of.outline.bounds();
     let reaches_over = min.x < low.x || min.y < low.y || max.x > high.x || max.y > high.y;
-    let around = [low, DVec2::new(high.x, low.y), high, DVec2::new(low.x, high.y)];
-    reaches_over.then(|| Outline::polygon(&around)).transpose()
+    let corners = [low, DVec2::new(high.x, low.y), high, DVec2::new(low.x, high.y)];
+    reaches_over.then(|| Outline::polygon(&corners)).transpose()
+}
+
+/// A warning where islands come loose with the tool beside them.
+fn loose(of: &PocketOperation, setting: &Setting<'_>, spec: &PocketSpec) -> Option<Finding> {
+    let islands = of.outline.loops().iter().filter(|l| !l.outer).count();
+    (islands > 0 && setting.is_through(&of.milling, spec.bottom())).then(|| {
+        let what = format!("{}: {} comes loose", of.name(), uncut::count(islands, "island", "islands"));
+        let what = if islands > 1 { what.replace("comes", "come") } else { what };
+        let help = "hold it from below, leave a floor, or cut it out by a contour with tabs";
+        Finding::warning(Code::SLUG, what).help(help)
+    })
 }
 
 /// The round holes that are open from the top down to the bottom of a pocket: centre and radius.
@@ -142,16 +141,7 @@ impl kind::Plan for PlannedPocket {
     }
 
     fn write(&mut self, pen: &mut Pen<'_>) -> Result<()> {
-        let milling = &self.of.milling;
-        if let Some(wear) = self.wear {
-            pen.text(pen.setting.post.control.wear_note(milling.tool.number, wear.number));
-            pen.text("0 AS PLANNED, POSITIVE LEAVES STOCK ON THE WALL");
-        }
-        let comp = self.wear.map(|w| match self.lap.keeps_right() {
-            true => Comp::Left(w.number),
-            false => Comp::Right(w.number),
-        });
-        write_moves(pen, &self.moves(), milling.coolant, comp);
+        write_worn_moves(pen, &self.moves(), &self.of.milling, self.wear, self.lap.keeps_right());
         Ok(())
     }
 
@@ -212,7 +202,7 @@ impl PlannedPocket {
 
     /// Parts of the wall that are not compared, in words.
     pub(super) fn not_looked_at(&self) -> Option<String> {
-        let parts = uncut::in_words(&self.wall.uncut);
+        let parts = uncut::in_words(&self.wall.uncut, self.lap.radius());
         (!parts.is_empty()).then(|| parts.join("; "))
     }
 }

@@ -34,7 +34,10 @@ fn facts(plan: &PlannedPocket, wall: Option<&BoreMeasure>) -> Vec<Fact> {
     );
     facts.push(
         Fact::new("Engagement", format!("at most {}\u{b0} as planned", fixed(f.largest.to_degrees(), 1)))
-            .note(format!("wanted {}\u{b0}; not of the way down", trimmed(spec.engagement.to_degrees(), 1))),
+            .note(format!(
+                "wanted {}\u{b0}; of the passes, not of the way down and the lap along the wall",
+                trimmed(spec.engagement.to_degrees(), 1)
+            )),
     );
     let share = |length: f64| format!("{} mm", trimmed(length, 0));
     let ratio = if f.bound > 0.0 { fixed(f.cutting / f.bound, 2) } else { "\u{2013}".to_owned() };
@@ -64,7 +67,7 @@ fn facts(plan: &PlannedPocket, wall: Option<&BoreMeasure>) -> Vec<Fact> {
                 .note("beside the wall, beyond its stock of 0.02 mm; cut at the engagement that comes"),
         );
     }
-    facts.extend(uncut::facts(&plan.wall.uncut));
+    facts.extend(uncut::facts(&plan.wall.uncut, plan.lap.radius()));
     for note in &plan.of.notes {
         facts.push(Fact::new("Drawing", note.clone()));
     }

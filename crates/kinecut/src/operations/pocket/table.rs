@@ -71,7 +71,7 @@ pub struct PocketTable {
     /// Climb or conventional milling; default climb.
     #[serde(default)]
     pub direction: Sense,
-    /// Largest angle of the cutter's circle that cuts, degrees, between 5 and 120; default 60: a quarter of the diameter beside
+    /// Largest angle of the cutter's circle that cuts in a pass, degrees, between 5 and 120; default 60: a quarter of the diameter beside
     /// a straight wall.
     #[serde(default)]
     pub engagement: Option<f64>,

@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use crate::geom::Line;
 use crate::holes::{self, PlannedMove, ToolpathPace};
-use crate::operations::Pen;
+use crate::operations::{Milling, Pen, WearRegister};
 use crate::program::{Comp, Coolant, Move, Origin, Role, Speed, State};
 
 /// Distance above material at which rapids end [mm].
@@ -34,6 +34,23 @@ pub(crate) fn write_moves(pen: &mut Pen<'_>, moves: &[PlannedMove], coolant: Coo
         pen.push(&m.curve, origin);
     }
     pen.state.comp = Comp::Off;
+}
+
+/// Writes planned moves along an outline under a wear register, with a note of what its values do; `keeps_right`: the material
+/// that is kept lies on the right of the travel.
+pub(crate) fn write_worn_moves(
+    pen: &mut Pen<'_>,
+    moves: &[PlannedMove],
+    milling: &Milling,
+    wear: Option<WearRegister>,
+    keeps_right: bool,
+) {
+    if let Some(wear) = wear {
+        pen.text(pen.setting.post.control.wear_note(milling.tool.number, wear.number));
+        pen.text("0 AS PLANNED, POSITIVE LEAVES STOCK ON THE WALL");
+    }
+    let comp = wear.map(|w| if keeps_right { Comp::Left(w.number) } else { Comp::Right(w.number) });
+    write_moves(pen, moves, milling.coolant, comp);
 }
 
 fn role(m: &PlannedMove) -> Role {

@@ -13,8 +13,6 @@ pub(crate) struct WearKeys<'a> {
     pub(crate) value: Option<f64>,
 }
 
-/// Largest wear of a register along an outline where the job does not say it [mm].
-pub(crate) const OUTLINE_WEAR: f64 = 0.05;
 /// Largest register that a control has.
 const MOST_REGISTER: u32 = 999;
 

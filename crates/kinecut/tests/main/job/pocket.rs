@@ -218,6 +218,25 @@ fn a_leg_that_is_narrower_than_the_cutter_is_named() {
     let words = "does not go into a part of the outline: up to 38.3 mm stay near";
     assert!(found.len() == 1 && found[0].message.contains(words), "{found:?}");
     assert!(found[0].message.contains("inside corners stay at 3 places"), "{found:?}");
+    let told = outcome.verdict.unchecked().any(|item| {
+        let item = format!("{item:?}");
+        item.contains("1 part that the cutter does not enter") && item.contains("3 corners beyond")
+    });
+    assert!(told);
+}
+
+#[test]
+fn islands_of_a_pocket_that_goes_through_come_loose() {
+    let island = "outline = { loops = [[[-40, -30], [40, -30], [40, 30], [-40, 30]], { centre = [5, 0], radius = 9 }] }\n";
+    let loose = |depth: &str| {
+        let outcome = cut("fanuc", &format!("{island}{depth}"));
+        outcome
+            .verdict
+            .found
+            .iter()
+            .any(|f| f.code == Code::SLUG && f.message.contains("1 island comes loose"))
+    };
+    assert!(loose("depth = 20\nbreakthrough = 0.5\n") && !loose("depth = 18\n"));
 }
 
 #[test]
