@@ -36,6 +36,10 @@ pub(super) enum Element {
     Down(DVec2),
     /// Through what is cleared.
     Link(Vec<OutlineEdge>),
+    /// Through what is cleared, on the floor.
+    Back(Vec<OutlineEdge>),
+    /// Down along a way, to and fro, with all of the cutter in the stock, and once along it on the floor.
+    Ramp(Vec<OutlineEdge>),
     /// A pass.
     Pass(Pass),
 }
@@ -60,7 +64,7 @@ pub(super) struct Cleared {
 
 impl Cleared {
     /// Measures what is left of the area that `reached` has; its points, a cell apart.
-    fn measure(&mut self, clearing: &Clearing, reached: impl Fn(DVec2) -> bool) -> Vec<DVec2> {
+    pub(super) fn measure(&mut self, clearing: &Clearing, reached: impl Fn(DVec2) -> bool) -> Vec<DVec2> {
         let width = clearing.cell_width();
         let rest = clearing.remains(reached);
         self.left = rest.len() as f64 * width * width;
@@ -81,7 +85,7 @@ impl Cleared {
             match element {
                 Element::Helix { middle, from, .. } => (*middle, *from) = (flip(*middle), -*from),
                 Element::Down(at) => *at = flip(*at),
-                Element::Link(edges) => flipped(edges),
+                Element::Link(edges) | Element::Back(edges) | Element::Ramp(edges) => flipped(edges),
                 Element::Pass(pass) => flipped(&mut pass.edges),
             }
         }

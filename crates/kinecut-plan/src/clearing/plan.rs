@@ -1,36 +1,33 @@
 //! The plan of a pocket: levels, entries, passes, links, and the moves along them.
 
-use std::f64::consts::{PI, TAU};
+use std::f64::consts::PI;
 
 use glam::DVec2;
 
 use super::level::{Cleared, Clearer, Element};
+use super::moves::run;
 use super::region::CentreRegion;
 use super::spec::PocketSpec;
 use super::swept::Clearing;
 use crate::base::bounded::{MAX_LENGTH, bounded, length, positive};
 use crate::base::{Code, CountBound, Finding, Result, Severity};
 use crate::geom::{Outline, OutlineEdge};
+use crate::holes::PlannedMove;
 use crate::holes::levels::levels;
 use crate::holes::route::Route;
-use crate::holes::{PlannedMove, ToolpathPace, ToolpathRole};
 
 /// Stock that passes leave beside the wall for the lap along it, beyond that asked for [mm].
 pub const WALL_STOCK: f64 = 0.02;
 /// Radius of the helix where none is given, in radii of the cutter.
-const HELIX: f64 = 0.8;
+pub(super) const HELIX: f64 = 0.8;
 /// Least radius of the helix, in radii of the cutter.
 const LEAST_HELIX: f64 = 0.3;
-/// Least length of an arc on which a link rises or falls, in heights.
-const SLOPE: f64 = 3.0;
-/// Height over the material at which feeds down begin [mm].
-const ABOVE: f64 = 0.5;
 /// Distance of arcs from the way that was walked: at most, and in radii of the cutter [mm].
 const TOLERANCE: (f64, f64) = (0.01, 0.001);
 /// Engagement that is kept for the difference between the arcs and the way that was walked [rad].
-const FIT: f64 = 0.004;
+pub(super) const FIT: f64 = 0.004;
 /// Range of the engagement [deg].
-const ENGAGEMENT: [f64; 2] = [5.0, 120.0];
+pub(super) const ENGAGEMENT: [f64; 2] = [5.0, 120.0];
 /// Steepest helix [deg].
 const STEEPEST: f64 = 45.0;
 /// Least width of the region of the cutter's centre, how far a place may lie from where it is wider, and the step between looks,
@@ -43,7 +40,7 @@ const LEFT: f64 = 0.15;
 /// Area at one place that the lap along the wall must not meet, in squares of the cutter's radius.
 const SLOTTED: f64 = 0.5;
 
-const CELLS: CountBound = CountBound {
+pub(super) const CELLS: CountBound = CountBound {
     what: "cells of the pocket",
     most: 2e7,
     bytes: 32,
@@ -108,7 +105,7 @@ pub struct PocketFigures {
 /// # Ok::<(), kinecut::base::Error>(())
 /// ```
 pub fn plan_pocket(spec: &PocketSpec) -> Result<PocketPlan> {
-    check(spec)?;
+    check(spec, ENGAGEMENT)?;
     let a = spec.radius();
     let inset = a + spec.allowance + WALL_STOCK;
     // Conventional is climb in the mirror.
@@ -167,7 +164,8 @@ pub fn plan_pocket(spec: &PocketSpec) -> Result<PocketPlan> {
     Ok(PocketPlan { moves: route.moves, levels: floors.iter().map(|l| l.floor).collect(), figures, findings })
 }
 
-fn check(spec: &PocketSpec) -> Result<()> {
+/// Numbers in their ranges; `engagement`: least and largest [deg].
+pub(super) fn check(spec: &PocketSpec, engagement: [f64; 2]) -> Result<()> {
     positive("tool", spec.cutter.diameter, MAX_LENGTH, "mm")?;
     positive("depth", spec.depth, MAX_LENGTH, "mm")?;
     length("breakthrough", spec.breakthrough, 0.0, MAX_LENGTH)?;
@@ -177,7 +175,7 @@ fn check(spec: &PocketSpec) -> Result<()> {
     {
         positive(key, feed, 1e6, "mm/s")?;
     }
-    bounded("engagement", spec.engagement.to_degrees(), ENGAGEMENT[0], ENGAGEMENT[1], "deg")?;
+    bounded("engagement", spec.engagement.to_degrees(), engagement[0], engagement[1], "deg")?;
     let steepest = spec.cutter.max_ramp_angle.map_or(STEEPEST, |most| most.to_degrees().min(STEEPEST));
     let ramp = spec.ramp.to_degrees();
     if !(ramp > 0.0 && ramp <= steepest + 1e-9) {
@@ -199,7 +197,7 @@ fn check(spec: &PocketSpec) -> Result<()> {
 }
 
 /// A place in words; no zero has a sign.
-fn place(at: DVec2) -> String {
+pub(super) fn place(at: DVec2) -> String {
     let [x, y] = [at.x, at.y].map(|v| (v * 1e3).round() / 1e3 + 0.0);
     format!("({x:.3}, {y:.3})")
 }
@@ -266,7 +264,7 @@ fn wide_enough(spec: &PocketSpec, face: &Outline, region: &CentreRegion, inset: 
 }
 
 /// Whether every helix finds room.
-fn entries(spec: &PocketSpec, cleared: &Cleared) -> Result<()> {
+pub(super) fn entries(spec: &PocketSpec, cleared: &Cleared) -> Result<()> {
     let least = LEAST_HELIX * spec.radius();
     for element in &cleared.elements {
         let Element::Helix { middle, radius, .. } = element else { continue };
@@ -285,84 +283,8 @@ fn entries(spec: &PocketSpec, cleared: &Cleared) -> Result<()> {
     Ok(())
 }
 
-/// The moves of one level.
-fn run(spec: &PocketSpec, cleared: &Cleared, route: &mut Route, [above, floor]: [f64; 2]) -> Result<()> {
-    let (feed, plunge) = (ToolpathPace::Feed(spec.feed), ToolpathPace::Feed(spec.plunge_feed));
-    let begin = (above + ABOVE).min(spec.approach_z);
-    for element in &cleared.elements {
-        match element {
-            Element::Helix { middle, radius, from } => {
-                let start = *middle + *radius * DVec2::from_angle(*from);
-                route.over(start);
-                // What a level above has cut is open.
-                let open = if above < spec.top { ToolpathPace::Rapid } else { plunge };
-                route.vertically(ToolpathRole::Entry, open, begin);
-                helix(spec, route, (*middle, *radius, *from), floor)?;
-            }
-            Element::Down(at) => {
-                route.over(*at);
-                if floor + ABOVE < spec.approach_z {
-                    route.vertically(ToolpathRole::Entry, feed, floor + ABOVE);
-                }
-                route.vertically(ToolpathRole::Entry, plunge, floor);
-            }
-            Element::Link(edges) => link(spec, route, edges, floor)?,
-            Element::Pass(pass) => route.edges(ToolpathRole::Rough, spec.feed, &pass.edges)?,
-        }
-    }
-    Ok(())
-}
-
-/// Through what is cleared, off the floor.
-fn link(spec: &PocketSpec, route: &mut Route, edges: &[OutlineEdge], floor: f64) -> Result<()> {
-    let pace = ToolpathPace::Feed(spec.link_feed);
-    let high = floor + spec.lift;
-    // Up and down along arcs that are long enough; a link without them is a stop anyway.
-    let is_slope = |edge: &OutlineEdge| edge.turn.is_some() && edge.length() >= SLOPE * spec.lift;
-    let last = edges.len() - 1;
-    for (i, edge) in edges.iter().enumerate() {
-        let from = route.height();
-        if i == 0 && last > 0 && is_slope(edge) && from < high {
-            route.edge(ToolpathRole::Link, pace, edge, [from, high])?;
-            continue;
-        }
-        route.vertically(ToolpathRole::Link, pace, high);
-        if i == last && i > 0 && is_slope(edge) {
-            route.edge(ToolpathRole::Link, ToolpathPace::Feed(spec.feed), edge, [high, floor])?;
-        } else {
-            route.edge(ToolpathRole::Link, pace, edge, [high, high])?;
-        }
-    }
-    route.vertically(ToolpathRole::Entry, ToolpathPace::Feed(spec.plunge_feed), floor);
-    Ok(())
-}
-
-/// Down on a helix to a floor, and once around on it.
-fn helix(
-    spec: &PocketSpec,
-    route: &mut Route,
-    (middle, radius, from): (DVec2, f64, f64),
-    floor: f64,
-) -> Result<()> {
-    let height = route.height() - floor;
-    let pitch = TAU * radius * spec.ramp.tan();
-    let turns = (height / pitch - 1e-9).ceil().max(1.0);
-    CountBound { what: "turns of the helix", most: 1e4, bytes: 1000, ..CELLS }.check(turns)?;
-    let side = if spec.keeps_right() { 1.0 } else { -1.0 };
-    let mut z = route.height();
-    let halves = 2.0 * turns;
-    let half = |k: f64| OutlineEdge::arc(middle, radius, from + side * k * PI, side * PI);
-    let plunge = ToolpathPace::Feed(spec.plunge_feed);
-    for k in 0..halves as usize {
-        let to = floor + height * (halves - 1.0 - k as f64) / halves;
-        route.edge(ToolpathRole::Entry, plunge, &half((k % 2) as f64), [z, to])?;
-        z = to;
-    }
-    route.edges(ToolpathRole::Entry, spec.plunge_feed, &[half(0.0), half(1.0)])
-}
-
 /// The figures; `area`, `uncut`: areas that the cutter reaches, and that of the stock in it [mm2].
-fn figures(spec: &PocketSpec, [area, uncut]: [f64; 2], cleared: &Cleared) -> PocketFigures {
+pub(super) fn figures(spec: &PocketSpec, [area, uncut]: [f64; 2], cleared: &Cleared) -> PocketFigures {
     let a = spec.radius();
     let mut f = PocketFigures { left: cleared.left, area, ..PocketFigures::default() };
     let mut entered = 0.0;
@@ -373,7 +295,15 @@ fn figures(spec: &PocketSpec, [area, uncut]: [f64; 2], cleared: &Cleared) -> Poc
                 entered += PI * (radius + a) * (radius + a);
             }
             Element::Down(_) => f.retracts += 1,
-            Element::Link(edges) => f.links += edges.iter().map(OutlineEdge::length).sum::<f64>(),
+            Element::Link(edges) | Element::Back(edges) => {
+                f.links += edges.iter().map(OutlineEdge::length).sum::<f64>();
+            }
+            Element::Ramp(edges) => {
+                f.entries += 1;
+                f.passes += 1;
+                f.cutting += edges.iter().map(OutlineEdge::length).sum::<f64>();
+                f.largest = PI;
+            }
             Element::Pass(pass) => {
                 f.passes += 1;
                 f.cutting += pass.edges.iter().map(OutlineEdge::length).sum::<f64>();

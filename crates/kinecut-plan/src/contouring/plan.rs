@@ -26,7 +26,7 @@ const ROUNDING: f64 = 1e-6;
 const LEAST_LEAD: f64 = 0.2;
 
 /// A planned contour.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct ContourPlan {
     /// Moves of the cutter's tip centre, in coordinates of the work offset.
     pub moves: Vec<PlannedMove>,

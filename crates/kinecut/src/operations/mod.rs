@@ -27,6 +27,8 @@ pub mod pocket_ellipse;
 mod posted;
 mod round_hole;
 pub(crate) mod setting;
+pub mod slot;
+pub mod slot_outline;
 mod table;
 pub mod tap;
 mod uncut;
@@ -51,6 +53,8 @@ kinds! {
         (pocket_ellipse::EllipseTable, pocket_ellipse::EllipseOperation, pocket_ellipse::PlannedEllipse),
     /// Milling of a pocket with any outline and islands, at a bounded engagement.
     Pocket "pocket" (pocket::PocketTable, pocket::PocketOperation, pocket::PlannedPocket),
+    /// Milling of a slot: a line or an arc of a width.
+    Slot "slot" (slot::SlotTable, slot::SlotOperation, slot::PlannedSlot),
     /// Milling along the edges of an outline.
     Contour "contour" (contour::ContourTable, contour::ContourOperation, contour::PlannedContour),
     /// Chamfering of the upper edge of an outline.

@@ -6,6 +6,7 @@ use glam::DVec2;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use super::slot_outline::OutlineSlot;
 use crate::base::bounded::{MAX_LENGTH, bounded, length, positive};
 use crate::base::{Code, Error, FileKind, Finding, Loader, Result};
 use crate::geom::{LengthUnit, Outline, OutlineEdge, OutlineFile, OutlineOptions, OutlineRead, read_outline};
@@ -49,11 +50,12 @@ pub struct OutlineCircle {
 }
 
 /// The keys of a table that say its outline.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct OutlineKeys<'a> {
     pub(crate) rectangle: Option<&'a OutlineRectangle>,
     pub(crate) circle: Option<&'a OutlineCircle>,
     pub(crate) polygon: Option<&'a [[f64; 2]]>,
+    pub(crate) slot: Option<OutlineSlot>,
     pub(crate) drawing: Option<Drawn<'a>>,
 }
 
@@ -76,6 +78,7 @@ macro_rules! outline_keys {
             rectangle: $table.rectangle.as_ref(),
             circle: $table.circle.as_ref(),
             polygon: $table.polygon.as_deref(),
+            slot: $table.slot,
             drawing: $table.outline.as_ref().map(|outline| $crate::operations::outlines::Drawn {
                 outline,
                 unit: $table.unit,
@@ -92,7 +95,18 @@ pub(crate) use outline_keys;
 impl OutlineKeys<'_> {
     /// Whether none of them is given.
     pub(crate) fn is_empty(&self) -> bool {
-        self.rectangle.is_none() && self.circle.is_none() && self.polygon.is_none() && self.drawing.is_none()
+        self.forms().iter().all(|(_, given)| !given)
+    }
+
+    /// The ways to say an outline, and whether each is given.
+    fn forms(&self) -> [(&'static str, bool); 5] {
+        [
+            ("rectangle", self.rectangle.is_some()),
+            ("circle", self.circle.is_some()),
+            ("polygon", self.polygon.is_some()),
+            ("slot", self.slot.is_some()),
+            ("outline", self.drawing.is_some()),
+        ]
     }
 
     /// The outline, in coordinates of the work offset.
@@ -100,24 +114,20 @@ impl OutlineKeys<'_> {
     /// # Errors
     /// One finding with the key of the first wrong value; those of the drawing's reader.
     pub(crate) fn read(self, loader: &dyn Loader) -> Result<OutlineRead> {
-        let forms = [
-            ("rectangle", self.rectangle.is_some()),
-            ("circle", self.circle.is_some()),
-            ("polygon", self.polygon.is_some()),
-            ("outline", self.drawing.is_some()),
-        ];
+        let forms = self.forms();
         let mut given = forms.iter().filter(|(_, given)| *given);
         let (Some((key, _)), None) = (given.next(), given.next()) else {
             let finding = Finding::error(Code::JOB_SHAPE, "the operation needs one outline");
-            let help = "give one of rectangle, circle, polygon, outline: for example rectangle = { size = [40, 30], corner = 6 }";
+            let help = "give one of rectangle, circle, polygon, slot, outline: for example rectangle = { size = [40, 30], corner = 6 }";
             return Err(finding.help(help).key("outline").into());
         };
         let under = |e: Error| e.under(key);
-        let outline = match (self.rectangle, self.circle, self.polygon, self.drawing) {
+        let outline = match (self.rectangle, self.circle, self.polygon, self.slot, self.drawing) {
             (Some(rectangle), ..) => rectangle.outline().map_err(under)?,
             (_, Some(circle), ..) => circle.outline().map_err(under)?,
-            (_, _, Some(points), _) => polygon(points).map_err(under)?,
-            (_, _, _, Some(drawn)) => return drawn.read(loader),
+            (_, _, Some(points), ..) => polygon(points).map_err(under)?,
+            (_, _, _, Some(slot), _) => slot.outline().map_err(under)?,
+            (.., Some(drawn)) => return drawn.read(loader),
             _ => return Err(Finding::error(Code::JOB_SHAPE, "the operation needs an outline").into()),
         };
         let weights = vec![1.0; outline.edges().len()];

@@ -8,6 +8,7 @@ use crate::geom::LengthUnit;
 use crate::holes::Sense;
 use crate::operations::PlaneTable;
 use crate::operations::outlines::{OutlineCircle, OutlineEntry, OutlineRectangle};
+use crate::operations::slot_outline::OutlineSlot;
 use crate::program::Coolant;
 
 /// Chamfering of the upper edge of an outline by a V cutter.
@@ -27,7 +28,7 @@ pub struct ChamferTable {
     /// `top` and `stock_to_leave`, unless they are said here; in place of an outline.
     #[serde(default)]
     pub of: Option<String>,
-    /// The outline as a rectangle; or give `circle`, `polygon` or `outline`.
+    /// The outline as a rectangle; or give `circle`, `polygon`, `slot` or `outline`.
     #[serde(default)]
     pub rectangle: Option<OutlineRectangle>,
     /// The outline as a circle.
@@ -36,6 +37,9 @@ pub struct ChamferTable {
     /// The outline as a closed polygon: its corners, in coordinates of the work offset.
     #[serde(default)]
     pub polygon: Option<Vec<[f64; 2]>>,
+    /// The outline as a slot: a line or an arc of a width, with round ends.
+    #[serde(default)]
+    pub slot: Option<OutlineSlot>,
     /// The outline as a drawing ("plate.dxf", .svg, .json, or the top face of an .stl), or a table with the loops themselves.
     #[serde(default)]
     pub outline: Option<OutlineEntry>,

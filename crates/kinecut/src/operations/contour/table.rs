@@ -8,6 +8,7 @@ use crate::geom::LengthUnit;
 use crate::holes::{FeedAt, Sense};
 use crate::operations::PlaneTable;
 use crate::operations::outlines::{OutlineCircle, OutlineEntry, OutlineRectangle};
+use crate::operations::slot_outline::OutlineSlot;
 use crate::program::Coolant;
 
 /// Milling along the edges of an outline: outside of it, inside, or on it.
@@ -23,7 +24,7 @@ pub struct ContourTable {
     pub name: Option<String>,
     /// Number of the tool, one with a cylindrical edge.
     pub tool: u32,
-    /// The outline as a rectangle; or give `circle`, `polygon` or `outline`.
+    /// The outline as a rectangle; or give `circle`, `polygon`, `slot` or `outline`.
     #[serde(default)]
     pub rectangle: Option<OutlineRectangle>,
     /// The outline as a circle.
@@ -32,6 +33,9 @@ pub struct ContourTable {
     /// The outline as a closed polygon: its corners, in coordinates of the work offset.
     #[serde(default)]
     pub polygon: Option<Vec<[f64; 2]>>,
+    /// The outline as a slot: a line or an arc of a width, with round ends.
+    #[serde(default)]
+    pub slot: Option<OutlineSlot>,
     /// The outline as a drawing ("plate.dxf", .svg, .json, or the top face of an .stl), or a table with the loops themselves.
     #[serde(default)]
     pub outline: Option<OutlineEntry>,

@@ -6,8 +6,9 @@ use super::PocketTable;
 use super::plan::{PlannedPocket, planned};
 use crate::base::bounded::{MAX_LENGTH, length, positive};
 use crate::base::{Code, Finding, Result};
+use crate::clearing::CentreLine;
 use crate::contouring::{ContourLoops, ContourSide};
-use crate::geom::Outline;
+use crate::geom::{Outline, OutlineRead};
 use crate::operations::kind::{self, Attempt};
 use crate::operations::named::NamedOutline;
 use crate::operations::outlines::{OutlineEntry, outline_keys};
@@ -41,8 +42,19 @@ pub struct PocketOperation {
     pub engagement: f64,
     /// Feeds of passes, down, through what is cleared, and of finishing [mm/s].
     pub feeds: PocketFeeds,
-    /// Angle of the helix [rad].
+    /// Angle of the helix or ramp [rad].
     pub helix: f64,
+    /// The centre line, where it is a slot.
+    pub slot: Option<CentredSlot>,
+}
+
+/// The centre line of a slot, and its width [mm].
+#[derive(Clone, Debug, PartialEq)]
+pub struct CentredSlot {
+    /// The centre line in coordinates of the work offset.
+    pub line: CentreLine,
+    /// Width.
+    pub width: f64,
 }
 
 /// Feeds of a pocket [mm/s].
@@ -106,7 +118,7 @@ impl kind::Table for PocketTable {
     type Of = PocketOperation;
 
     fn check(&self, around: &Around<'_>) -> Result<PocketOperation> {
-        operation(self, around)
+        checked(self, "pocket", around, || outline_keys!(self).read(around.loader))
     }
 
     fn plane(&self) -> Option<&PlaneTable> {
@@ -134,7 +146,16 @@ impl kind::Table for PocketTable {
     }
 }
 
-fn operation(t: &PocketTable, around: &Around<'_>) -> Result<PocketOperation> {
+/// A pocket, or what is cleared like one, by its noun; `outline` reads the outline, once all before it is right.
+///
+/// # Errors
+/// One finding with the key of the first wrong value.
+pub(crate) fn checked(
+    t: &PocketTable,
+    noun: &str,
+    around: &Around<'_>,
+    outline: impl FnOnce() -> Result<OutlineRead>,
+) -> Result<PocketOperation> {
     let tool = tool_of(t.tool, around.tools)?;
     let (diameter, corner) = match tool.cutter {
         Cutter::EndMill { diameter } => (diameter, 0.0),
@@ -146,7 +167,8 @@ fn operation(t: &PocketTable, around: &Around<'_>) -> Result<PocketOperation> {
         }
     };
     if corner > CORNER * 0.5 * diameter {
-        let what = "the cutter's corner is too large for a pocket: its passes leave ridges on the floor";
+        let what =
+            format!("the cutter's corner is too large for a {noun}: its passes leave ridges on the floor");
         return Err(Finding::error(Code::JOB_REFERENCE, what)
             .value_mm(corner)
             .bound_mm(CORNER * 0.5 * diameter)
@@ -155,7 +177,7 @@ fn operation(t: &PocketTable, around: &Around<'_>) -> Result<PocketOperation> {
             .into());
     }
     let speed = whole_revolutions(spindle(t.speed, t.cutting_speed, ("tool", diameter))?);
-    let pass = feed_of("pocket", t.feed, t.feed_per_tooth, speed, tool.teeth)?;
+    let pass = feed_of(noun, t.feed, t.feed_per_tooth, speed, tool.teeth)?;
     let per_second = |key: &str, value: Option<f64>, usual: f64| match value {
         Some(value) => Ok(positive(key, value, 1e6, "mm/min")? / 60.0),
         None => Ok::<f64, crate::base::Error>(usual),
@@ -170,7 +192,7 @@ fn operation(t: &PocketTable, around: &Around<'_>) -> Result<PocketOperation> {
         Some(angle) => positive("entry.helix", angle, 45.0, "deg")?.to_radians(),
         None => tool.max_ramp_angle.map_or(usual, |most| most.min(usual)),
     };
-    let read = outline_keys!(t).read(around.loader)?;
+    let read = outline()?;
     let feeds = PocketFeeds {
         pass,
         down: per_second("plunge_feed", t.plunge_feed, DOWN * pass)?,
@@ -183,6 +205,7 @@ fn operation(t: &PocketTable, around: &Around<'_>) -> Result<PocketOperation> {
         engagement,
         feeds,
         helix,
+        slot: None,
         milling: milling_of(tool, speed, t.coolant, t.tolerance)?,
         table: t.clone(),
     })

@@ -41,7 +41,7 @@ struct PocketCornerJson {
 
 impl PocketJson {
     /// Of a plan and the number of its operation.
-    pub(super) fn new(plan: &PlannedPocket, operation: u32) -> PocketJson {
+    pub(crate) fn new(plan: &PlannedPocket, operation: u32) -> PocketJson {
         let (spec, f) = (&plan.spec, &plan.clearing.figures);
         let corners = plan.wall.uncut.iter();
         PocketJson {

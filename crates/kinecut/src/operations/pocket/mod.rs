@@ -7,6 +7,10 @@ mod plan;
 mod section;
 mod table;
 
-pub use check::PocketOperation;
+pub(crate) use check::checked;
+pub use check::{CentredSlot, PocketOperation};
+pub(crate) use json::PocketJson;
 pub use plan::PlannedPocket;
+pub(crate) use plan::planned;
+pub(crate) use section::section;
 pub use table::*;

@@ -4,11 +4,11 @@ use std::sync::Arc;
 
 use glam::{DVec2, DVec3};
 
-use super::PocketOperation;
 use super::json::PocketJson;
 use super::section::section;
+use super::{CentredSlot, PocketOperation};
 use crate::base::{Code, Finding, Result};
-use crate::clearing::{PocketPlan, PocketSpec, WALL_STOCK, plan_pocket};
+use crate::clearing::{AS_WIDE, PocketPlan, PocketSpec, SlotSpec, WALL_STOCK, plan_pocket, plan_slot};
 use crate::contouring::{ContourFinish, ContourPlan, ContourSide, ContourSpec, plan_contour};
 use crate::geom::{Line, Outline};
 use crate::holes::{CutterData, PlannedMove, ToolpathPace, ToolpathRole};
@@ -38,10 +38,17 @@ pub struct PlannedPocket {
 }
 
 /// Plans a pocket.
-pub(super) fn planned(of: &Arc<PocketOperation>, setting: &Setting<'_>) -> Result<Attempt<PlannedPocket>> {
+pub(crate) fn planned(of: &Arc<PocketOperation>, setting: &Setting<'_>) -> Result<Attempt<PlannedPocket>> {
     let (spec, lap) = specs(setting, of)?;
-    let clearing = plan_pocket(&spec)?;
-    let wall = plan_contour(&lap)?;
+    let (clearing, wall) = match &of.slot {
+        None => (plan_pocket(&spec)?, plan_contour(&lap)?),
+        Some(CentredSlot { line, width }) => {
+            let slot = SlotSpec { line: line.clone(), width: *width, pocket: spec.clone() };
+            // Passes as wide as the slot have cut its walls.
+            let is_cut = width - 2.0 * lap.stock_to_leave <= spec.cutter.diameter + AS_WIDE;
+            (plan_slot(&slot)?, if is_cut { ContourPlan::default() } else { plan_contour(&lap)? })
+        }
+    };
     let wear =
         of.table.finish.as_ref().zip(lap.finish.and_then(|f| f.wear)).map(|(t, wear)| t.register(wear));
     let own = loose(of, setting, &spec);

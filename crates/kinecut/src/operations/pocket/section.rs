@@ -1,5 +1,7 @@
 //! Planned pockets as the report shows them: facts and a plan view.
 
+use std::f64::consts::PI;
+
 use glam::DVec2;
 
 use super::PlannedPocket;
@@ -17,7 +19,7 @@ const SMALL: f64 = 1e-4;
 const CHORD: f64 = 0.1;
 
 /// The section of an operation.
-pub(super) fn section(plan: &PlannedPocket, of: &Shown<'_>) -> Section {
+pub(crate) fn section(plan: &PlannedPocket, of: &Shown<'_>) -> Section {
     let mut section = Section::new(of.title());
     section.blocks.push(Block::Facts(facts(plan, of.walls.first().copied())));
     section.with(view(plan))
@@ -56,7 +58,9 @@ fn facts(plan: &PlannedPocket, wall: Option<&BoreMeasure>) -> Vec<Fact> {
         0 => "by an open side or a hole".to_owned(),
         n => {
             let angle = trimmed(spec.ramp.to_degrees(), 2);
-            format!("{} of {angle}\u{b0}", uncut::count(n, "helix", "helices"))
+            // With all of the cutter in the stock, it goes down along the slot.
+            let [one, more] = if f.largest < PI { ["helix", "helices"] } else { ["ramp", "ramps"] };
+            format!("{} of {angle}\u{b0}", uncut::count(n, one, more))
         }
     };
     facts.push(Fact::new("Way down", entry).note(per_minute(spec.plunge_feed)));

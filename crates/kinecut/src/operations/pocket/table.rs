@@ -8,6 +8,7 @@ use crate::holes::{FeedAt, Sense};
 use crate::operations::PlaneTable;
 use crate::operations::contour::ContourFinishTable;
 use crate::operations::outlines::{OutlineCircle, OutlineEntry, OutlineRectangle};
+use crate::operations::slot_outline::OutlineSlot;
 use crate::program::Coolant;
 
 /// Milling of a pocket: a face of any outline is cleared, its holes stay as islands, and no pass cuts with a larger engagement
@@ -24,7 +25,7 @@ pub struct PocketTable {
     pub plane: Option<PlaneTable>,
     /// Number of the tool, one with a cylindrical edge.
     pub tool: u32,
-    /// The pocket as a rectangle; or give `circle`, `polygon` or `outline`.
+    /// The pocket as a rectangle; or give `circle`, `polygon`, `slot` or `outline`.
     #[serde(default)]
     pub rectangle: Option<OutlineRectangle>,
     /// The pocket as a circle.
@@ -33,6 +34,9 @@ pub struct PocketTable {
     /// The pocket as a closed polygon: its corners, in coordinates of the work offset.
     #[serde(default)]
     pub polygon: Option<Vec<[f64; 2]>>,
+    /// The pocket as a slot: a line or an arc of a width, with round ends.
+    #[serde(default)]
+    pub slot: Option<OutlineSlot>,
     /// The pocket as a drawing ("plate.dxf", .svg, .json, or the top face of an .stl), or a table with the loops themselves.
     #[serde(default)]
     pub outline: Option<OutlineEntry>,

@@ -21,5 +21,6 @@ mod prove_motion;
 mod prove_rules;
 mod rest;
 mod shape;
+mod slot;
 mod tap;
 mod uncertainty;

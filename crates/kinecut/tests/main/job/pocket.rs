@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use kinecut::base::{Code, MemoryLoader, Silent};
 use kinecut::job::{Outcome, engagement_json, plan_json, run};
 
-fn job(control: &str, operations: &str) -> String {
+pub(super) fn job(control: &str, operations: &str) -> String {
     format!(
         r#"format = 1
 post = {{ control = "{control}" }}
@@ -63,7 +63,7 @@ offset = "G54"
 const POCKET: &str =
     "[[setup.operation]]\ntype = \"pocket\"\ntool = 1\nspeed = 6000\nfeed = 1200\nstepdown = 5\n";
 
-fn done(control: &str, operations: &str) -> Outcome {
+pub(super) fn done(control: &str, operations: &str) -> Outcome {
     let loader = MemoryLoader::default();
     run("job.toml", &job(control, operations), &loader, &Silent).unwrap_or_else(|e| panic!("{e}"))
 }
@@ -79,7 +79,7 @@ fn refused(keys: &str) -> Box<kinecut::base::Finding> {
 
 const RECTANGLE: &str = "rectangle = { size = [60, 40], corner = 6 }\ndepth = 8\n";
 
-fn removed(outcome: &Outcome) -> f64 {
+pub(super) fn removed(outcome: &Outcome) -> f64 {
     outcome.simulation.raw_volume - outcome.simulation.stock.volume()
 }
 

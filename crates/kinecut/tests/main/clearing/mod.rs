@@ -1,5 +1,7 @@
 //! Pockets: engagement, completeness and lengths, judged by distances to all that was cut before.
 
+mod slot;
+
 use std::collections::HashMap;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
@@ -95,7 +97,10 @@ struct Judged {
 fn judge(spec: &PocketSpec, plan: &PocketPlan, every: usize) -> Judged {
     let a = spec.radius();
     let near = NearestEdge::new(spec.outline.edges());
-    let stock = |p: DVec2| spec.stock.as_ref().is_none_or(|s| s.contains(p));
+    let stock = |p: DVec2| {
+        spec.stock.as_ref().is_none_or(|s| s.contains(p))
+            && spec.holes.iter().all(|(at, radius)| at.distance(p) > *radius)
+    };
     let mut swept = Swept { radius: a, cells: HashMap::new() };
     let mut found = Judged::default();
     let (mut looks, mut cutting, mut good) = (0, 0, 0);
@@ -131,7 +136,8 @@ fn judge(spec: &PocketSpec, plan: &PocketPlan, every: usize) -> Judged {
                 }
             }
             // The middle of a full turn down clears a disc, not only its rim.
-            if planned.role == ToolpathRole::Entry || is_pass {
+            let on_the_floor = jet.p.z < plan.levels[0] + 1e-9;
+            if planned.role == ToolpathRole::Entry || is_pass || on_the_floor {
                 swept.add(at);
             }
         }

@@ -1,0 +1,83 @@
+//! Slots, checked: as pockets, with a centre line.
+
+use std::sync::Arc;
+
+use super::SlotTable;
+use super::plan::PlannedSlot;
+use crate::base::Result;
+use crate::contouring::{ContourLoops, ContourSide};
+use crate::geom::OutlineRead;
+use crate::operations::kind::{self, Attempt};
+use crate::operations::named::NamedOutline;
+use crate::operations::outlines::OutlineKeys;
+use crate::operations::pocket::{CentredSlot, PocketOperation, checked, planned};
+use crate::operations::{Around, Milling, PlaneTable, Setting};
+use crate::page::trimmed;
+
+/// Milling of a slot.
+#[derive(Clone, Debug)]
+pub struct SlotOperation {
+    /// All but its name: a pocket with a centre line.
+    pub pocket: Arc<PocketOperation>,
+}
+
+impl kind::Checked for SlotOperation {
+    type Plan = PlannedSlot;
+
+    const NOUN: &'static str = "slot";
+
+    fn milling(&self) -> &Milling {
+        &self.pocket.milling
+    }
+
+    fn milling_mut(&mut self) -> &mut Milling {
+        &mut Arc::make_mut(&mut self.pocket).milling
+    }
+
+    fn name(&self) -> String {
+        let shown = |mm: f64| trimmed(mm, 2);
+        let [length, width] = self.pocket.slot.as_ref().map_or([0.0; 2], |s| [s.line.length(), s.width]);
+        format!("slot {} x {} x {}", shown(length + width), shown(width), shown(self.pocket.table.depth))
+    }
+
+    fn is_left_hand(&self) -> bool {
+        self.pocket.is_left_hand()
+    }
+
+    fn plan(self: &Arc<Self>, setting: &Setting<'_>) -> Result<Attempt<PlannedSlot>> {
+        Ok(match planned(&self.pocket, setting)? {
+            Attempt::SetupPlan(pocket, findings) => Attempt::SetupPlan(PlannedSlot { pocket }, findings),
+            Attempt::LeftOut(reason) => Attempt::LeftOut(reason),
+        })
+    }
+}
+
+impl kind::Table for SlotTable {
+    type Of = SlotOperation;
+
+    fn check(&self, around: &Around<'_>) -> Result<SlotOperation> {
+        let line = self.slot().centre_line()?;
+        let outline = line.outline(self.width)?;
+        let weights = vec![1.0; outline.edges().len()];
+        let read = OutlineRead { outline, weights, notes: Vec::new() };
+        let mut pocket = checked(&self.pocket(), "slot", around, || Ok(read))?;
+        pocket.slot = Some(CentredSlot { line, width: self.width });
+        Ok(SlotOperation { pocket: Arc::new(pocket) })
+    }
+
+    fn plane(&self) -> Option<&PlaneTable> {
+        self.plane.as_ref()
+    }
+
+    fn named_outline(&self) -> Option<NamedOutline<'_>> {
+        self.name.as_deref().map(|name| NamedOutline {
+            name,
+            keys: OutlineKeys { slot: Some(self.slot()), ..OutlineKeys::default() },
+            side: ContourSide::Inside,
+            loops: ContourLoops::All,
+            top: self.top,
+            stock_to_leave: self.stock_to_leave,
+            plane: self.plane(),
+        })
+    }
+}
