@@ -8,7 +8,7 @@ use kinecut::job::{Outcome, plan_json, run};
 use super::pocket::{done, job, removed};
 
 const SLOT: &str = "[[setup.operation]]\ntype = \"slot\"\ntool = 1\nspeed = 6000\nfeed = 1200\n";
-const LINE: &str = "line = [[-20, 5], [25, -10]]\nwidth = 13\ndepth = 6\n";
+const LINE: &str = "line = [[-20, 5], [25, -8.3]]\nwidth = 13\ndepth = 6\n";
 
 fn cut(control: &str, keys: &str) -> Outcome {
     done(control, &format!("{SLOT}{keys}"))
@@ -30,7 +30,7 @@ fn is_good(name: &str, outcome: &Outcome, volume: f64) {
 
 #[test]
 fn a_slot_is_safe_and_measured_on_every_control() {
-    let volume = 6.0 * (13.0 * 45.0_f64.hypot(15.0) + PI * 6.5 * 6.5);
+    let volume = 6.0 * (13.0 * 45.0_f64.hypot(13.3) + PI * 6.5 * 6.5);
     for control in ["sinumerik-840d", "heidenhain", "linuxcnc", "fanuc", "grbl"] {
         let outcome = cut(control, &format!("{LINE}stepdown = 3\n"));
         is_good(control, &outcome, volume);
