@@ -52,7 +52,7 @@ const LEAST_RUN: f64 = 1e-3;
 /// Steps by which an end is moved farther along where its lead finds no room, and their number.
 const FARTHER: (f64, u32) = (0.5, 24);
 
-/// Where an edge of a track runs: along its loop from its start to its end, or about a corner.
+/// The stretch of a loop beside which an edge of a track runs, from its start to its end, or the corner about which it runs.
 #[derive(Clone, Copy, Debug)]
 struct Beside {
     of_loop: usize,
@@ -78,7 +78,8 @@ pub(super) fn runs(
             for turn in -2..=1 {
                 let [from, to] = of.along.map(|u| u + f64::from(turn) * whole);
                 if high - low <= ROUNDING {
-                    if from < low && low < to {
+                    // A piece that is all of the loop goes about the corner between its ends too.
+                    if from < low && low < to || turn == 0 && to - from >= whole - ROUNDING {
                         found.push(Run { piece, along: stretch, beside: Vec::new() });
                     }
                     continue;

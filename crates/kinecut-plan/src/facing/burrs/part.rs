@@ -50,8 +50,8 @@ impl BurrPart {
     }
 }
 
-/// The stretches of a face's edges on which teeth leave, edge after edge, from its first point on; what the milling entered or
-/// did not reach is none of them.
+/// The stretches of a face's edges on which teeth leave, edge after edge, from its first point on; those where teeth enter, and what
+/// the milling did not reach, are left out.
 ///
 /// ```
 /// # use kinecut_plan as kinecut;

@@ -213,7 +213,7 @@ impl PlannedEdge {
         }]
     }
 
-    /// What is not compared of it.
+    /// The parts of it that are not compared.
     pub(crate) fn judged(&self, name: &str) -> Judged {
         let webs = self.webs().in_words();
         let mut left = if webs.is_empty() { Vec::new() } else { vec![webs] };
