@@ -45,14 +45,14 @@ impl BurrTable {
         }
         let mut before = f64::NEG_INFINITY;
         for &[angle, height] in &points {
-            if !(angle >= 0.0 && angle <= PI) {
+            if !(0.0..=PI).contains(&angle) {
                 return fail("exit angles lie between 0 and 180 degrees", angle.to_degrees(), "deg", 180.0);
             }
             if angle <= before {
                 let (angle, before) = (angle.to_degrees(), before.to_degrees());
                 return fail("exit angles of a table of burrs must ascend", angle, "deg", before);
             }
-            if !(height >= 0.0 && height <= MAX_LENGTH) {
+            if !(0.0..=MAX_LENGTH).contains(&height) {
                 return fail("the height of a burr is out of range", height, "mm", 0.0);
             }
             before = angle;
