@@ -114,8 +114,10 @@ fn in_its_words(error: Error, spec: &ContourSpec) -> Error {
         Code::LEAD_ROOM => {
             let wide = trimmed(2.0 * spec.room.unwrap_or(0.0), 2);
             let Error(finding) = error;
+            let other =
+                if spec.pieces.is_some() { "leave the loop out by `loops`" } else { "give another start" };
             let help = format!(
-                "the cutter is {wide} mm wide at the edge and comes down beside it: give another start, a smaller tip_clearance or width"
+                "the cutter is {wide} mm wide at the edge and comes down beside it: {other}, or a smaller tip_clearance or width"
             );
             finding.help(help).into()
         }
