@@ -268,6 +268,8 @@ codes! {
         "The passes of the cutter do not cover the whole face. The message gives a place that stays uncut.";
     FACE_ADVICE = "KC1005", "a milled face is unusual",
         "The cutter works outside of what its makers recommend, or the best placement was not proven best, or is sensitive to set-up, or the stock stands higher than planned. The message says why and what to look at.";
+    BURRS = "KC1006", "burrs along the edges of a milled face",
+        "An operation takes off the burrs that the face milling before it has left: on the edges whose exit angle is bad, or where a table of measured burrs gives more than a height. The message says what it found: no face, no table, no edge to treat, or burrs that it leaves. Heights are those of the table that the job gives, interpolated over the exit angle; they are not simulated.";
 
     EXPRESSION_SYNTAX = "KC1101", "a formula cannot be read",
         "A formula is written as in `R0 + a*cos(2*pi*t/p)`: numbers, names, the constants pi and e, the operators + - * / and ^ (or **), brackets, and functions, whose angles are radians. The message gives the column.";

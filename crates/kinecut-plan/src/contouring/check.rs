@@ -2,6 +2,7 @@
 
 use std::f64::consts::FRAC_PI_4;
 
+use super::pieces::loop_length;
 use super::spec::{ContourSide, ContourSpec};
 use crate::base::bounded::{MAX_LENGTH, length, positive};
 use crate::base::{Code, Error, Finding, Result};
@@ -82,6 +83,7 @@ pub(super) fn check(spec: &ContourSpec) -> Result<()> {
             "write a smaller height",
         ));
     }
+    pieces(spec)?;
     let Some(ramp) = spec.ramp else {
         if spec.cutter.centre_cutting || spec.cleared {
             return Ok(());
@@ -98,6 +100,26 @@ pub(super) fn check(spec: &ContourSpec) -> Result<()> {
         let (ramp, most) = (ramp.to_degrees(), most.to_degrees());
         let what = "the ramp is steeper than the cutter can follow, or none";
         return Err(out_of_range("entry.ramp", what, ramp, most, "deg", "write a flatter ramp, above 0"));
+    }
+    Ok(())
+}
+
+/// Looks at pieces of the outline.
+fn pieces(spec: &ContourSpec) -> Result<()> {
+    let Some(pieces) = &spec.pieces else { return Ok(()) };
+    if spec.ramp.is_some() || spec.finish.is_some() || spec.tabs.is_some() {
+        let finding =
+            Finding::error(Code::PLAN_VALUE, "a contour in pieces has no ramp, no finish and no tabs");
+        return Err(finding.help("leave them out, or cut whole loops").into());
+    }
+    for piece in pieces {
+        let (whole, [from, to]) = (loop_length(&spec.outline, piece.of_loop), piece.along);
+        let is_piece = from.is_finite() && to > from && to - from <= whole + ROUNDING;
+        if !is_piece {
+            let what = "a piece of the contour is longer than its loop, or none";
+            let finding = Finding::error(Code::PLAN_VALUE, what).value_mm(to - from).bound_mm(whole);
+            return Err(finding.help("give places along a loop, the second beyond the first").into());
+        }
     }
     Ok(())
 }

@@ -3,6 +3,7 @@
 use glam::DVec2;
 
 use super::track::Track;
+use crate::base::{Code, Finding};
 use crate::geom::{NearestEdge, OutlineEdge, OutlineLoop};
 use crate::num::angle::wrap;
 
@@ -60,6 +61,43 @@ pub(super) fn uncut(
         }
     }
     found
+}
+
+/// Corners that stay, in a sentence.
+pub(super) fn remark(corners: &[UncutCorner], a: f64) -> Option<Finding> {
+    let places = |count: usize| if count == 1 { "1 place".to_owned() } else { format!("{count} places") };
+    let thickest = |part: bool| {
+        let of_kind =
+            corners.iter().filter(|c| c.is_part(a) == part).filter_map(|c| Some((c.thickness?, c.at)));
+        of_kind.max_by(|x, y| x.0.total_cmp(&y.0))
+    };
+    let (worst, narrow) = (thickest(false), thickest(true));
+    let between: Vec<&UncutCorner> = corners.iter().filter(|c| c.thickness.is_none()).collect();
+    let radius = (a * 1e3).round() / 1e3;
+    let mut parts = Vec::new();
+    if let Some((thickness, _)) = worst {
+        let places = places(corners.iter().filter(|c| c.thickness.is_some() && !c.is_part(a)).count());
+        parts.push(format!(
+            "inside corners stay at {places}: a cutter of radius {radius} leaves up to {thickness:.3} mm"
+        ));
+    }
+    if let Some((thickness, at)) = narrow {
+        parts.push(format!(
+            "a cutter of radius {radius} does not go into a part of the outline: up to {thickness:.1} mm stay near ({:.3}, {:.3})",
+            at.x, at.y
+        ));
+    }
+    if let Some(first) = between.first() {
+        parts.push(format!(
+            "a cutter of radius {radius} does not go between two loops at {}, for example near ({:.3}, {:.3})",
+            places(between.len()),
+            first.at.x,
+            first.at.y
+        ));
+    }
+    let at = narrow.or(worst).map(|(_, at)| at).or(between.first().map(|c| c.at))?;
+    let finding = Finding::warning(Code::CORNERS_STAY, parts.join("; ")).point([at.x, at.y, 0.0]);
+    Some(finding.help("finish the corners with a smaller cutter, or give them its radius in the drawing"))
 }
 
 /// The wall beyond the cutter in a corner.

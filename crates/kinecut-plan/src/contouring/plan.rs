@@ -5,8 +5,9 @@ use std::f64::consts::FRAC_PI_2;
 use glam::DVec2;
 
 use super::check::{check, out_of_range};
-use super::corners::{UncutCorner, uncut};
+use super::corners::{UncutCorner, remark, uncut};
 use super::lead::Lead;
+use super::pieces::CutPiece;
 use super::room::{nearer, reaching};
 use super::spec::{ContourFinish, ContourLoops, ContourSide, ContourSpec, Tabs};
 use super::tabs::{PlacedTab, lifted, placed};
@@ -23,7 +24,7 @@ const RAMP_ABOVE: f64 = 0.5;
 /// Room of a lead beyond the wall that is rounding [mm].
 const ROUNDING: f64 = 1e-6;
 /// Least radius of a lead, in radii of the cutter.
-const LEAST_LEAD: f64 = 0.2;
+pub(super) const LEAST_LEAD: f64 = 0.2;
 
 /// A planned contour.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -51,6 +52,8 @@ pub struct PlannedLoop {
     pub finishing: bool,
     /// Tabs on it.
     pub tabs: Vec<PlacedTab>,
+    /// The piece of the outline that it cuts; `None`: all of its loop.
+    pub piece: Option<CutPiece>,
 }
 
 impl PlannedLoop {
@@ -101,7 +104,12 @@ pub fn plan_contour(spec: &ContourSpec) -> Result<ContourPlan> {
     let mut heights = vec![spec.top];
     heights.extend(floors.iter().map(|l| l.floor));
     let mut at = None;
-    let roughed = !(spec.cleared && spec.finish.is_some());
+    let roughed = !(spec.cleared && spec.finish.is_some()) && spec.pieces.is_none();
+    if let Some(pieces) = &spec.pieces
+        && planner.pieces(&rough, pieces, wall + allowance, &heights)?
+    {
+        at = Some(DVec2::ZERO);
+    }
     for (track, outer) in planner.ordered(&rough).into_iter().filter(|_| roughed) {
         at = Some(planner.rough(track, outer, &rough, wall + allowance, &heights)?);
     }
@@ -125,6 +133,9 @@ pub fn plan_contour(spec: &ContourSpec) -> Result<ContourPlan> {
         for (track, _) in &last {
             corners.extend(uncut(track, spec.keeps_right(), source, &near, wall));
         }
+        if spec.pieces.is_some() {
+            corners.retain(|c| planner.runs_by(c.at));
+        }
     }
     if at.is_some() {
         planner.travel.route.retract();
@@ -140,50 +151,13 @@ pub fn plan_contour(spec: &ContourSpec) -> Result<ContourPlan> {
     })
 }
 
-/// Corners that stay, in a sentence.
-fn remark(corners: &[UncutCorner], a: f64) -> Option<Finding> {
-    let places = |count: usize| if count == 1 { "1 place".to_owned() } else { format!("{count} places") };
-    let thickest = |part: bool| {
-        let of_kind =
-            corners.iter().filter(|c| c.is_part(a) == part).filter_map(|c| Some((c.thickness?, c.at)));
-        of_kind.max_by(|x, y| x.0.total_cmp(&y.0))
-    };
-    let (worst, narrow) = (thickest(false), thickest(true));
-    let between: Vec<&UncutCorner> = corners.iter().filter(|c| c.thickness.is_none()).collect();
-    let radius = (a * 1e3).round() / 1e3;
-    let mut parts = Vec::new();
-    if let Some((thickness, _)) = worst {
-        let places = places(corners.iter().filter(|c| c.thickness.is_some() && !c.is_part(a)).count());
-        parts.push(format!(
-            "inside corners stay at {places}: a cutter of radius {radius} leaves up to {thickness:.3} mm"
-        ));
-    }
-    if let Some((thickness, at)) = narrow {
-        parts.push(format!(
-            "a cutter of radius {radius} does not go into a part of the outline: up to {thickness:.1} mm stay near ({:.3}, {:.3})",
-            at.x, at.y
-        ));
-    }
-    if let Some(first) = between.first() {
-        parts.push(format!(
-            "a cutter of radius {radius} does not go between two loops at {}, for example near ({:.3}, {:.3})",
-            places(between.len()),
-            first.at.x,
-            first.at.y
-        ));
-    }
-    let at = narrow.or(worst).map(|(_, at)| at).or(between.first().map(|c| c.at))?;
-    let finding = Finding::warning(Code::CORNERS_STAY, parts.join("; ")).point([at.x, at.y, 0.0]);
-    Some(finding.help("finish the corners with a smaller cutter, or give them its radius in the drawing"))
-}
-
 /// A plan in the making.
-struct Planner<'a> {
-    spec: &'a ContourSpec,
-    near: &'a NearestEdge,
-    travel: Travel<'a>,
+pub(super) struct Planner<'a> {
+    pub(super) spec: &'a ContourSpec,
+    pub(super) near: &'a NearestEdge,
+    pub(super) travel: Travel<'a>,
     findings: Vec<Finding>,
-    loops: Vec<PlannedLoop>,
+    pub(super) loops: Vec<PlannedLoop>,
 }
 
 /// A beginning of a loop: the place along it, and the lead.
@@ -251,10 +225,12 @@ impl Planner<'_> {
                 found[own] = true;
             }
         }
-        for (one, found) in outline.loops().iter().zip(found) {
+        let has_piece =
+            |l: usize| self.spec.pieces.as_ref().is_none_or(|all| all.iter().any(|p| p.of_loop == l));
+        for (l, (one, found)) in outline.loops().iter().zip(found).enumerate() {
             // Islands of an inside contour may lie in one another's way, and have one path.
             let needed = self.is_wanted(one.outer) && (one.outer || self.spec.side != ContourSide::Inside);
-            if needed && !found {
+            if needed && !found && has_piece(l) {
                 let edges = &outline.edges()[one.edges.clone()];
                 let size = [DVec2::X, DVec2::Y].map(|axis| {
                     let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
@@ -325,6 +301,22 @@ impl Planner<'_> {
         }
     }
 
+    /// Whether the cutter's centre may be all along a way.
+    pub(super) fn is_open(&self, way: &[OutlineEdge], wall: f64) -> bool {
+        way.iter().all(|e| (0..=8).all(|i| self.is_free(e.at(f64::from(i) / 8.0), wall)))
+    }
+
+    /// Radius of a lead where there is room [mm].
+    pub(super) fn usual_lead(&self) -> f64 {
+        let a = self.spec.radius();
+        self.spec.lead_radius.unwrap_or(if a > 2.0 { 0.5 * a } else { 1.0 })
+    }
+
+    /// Whether the path runs through a point.
+    fn runs_by(&self, p: DVec2) -> bool {
+        self.loops.iter().flat_map(|l| &l.edges).any(|e| e.nearest(p).1 <= ROUNDING)
+    }
+
     /// The place at which a loop begins, and a lead for which there is room; `free`: whether its free end is usable.
     fn begin(
         &self,
@@ -336,7 +328,7 @@ impl Planner<'_> {
     ) -> Result<Beginning> {
         let spec = self.spec;
         let a = spec.radius();
-        let usual = spec.lead_radius.unwrap_or(if a > 2.0 { 0.5 * a } else { 1.0 });
+        let usual = self.usual_lead();
         let left = spec.keeps_right();
         let fits = |at: f64, radius: f64| {
             let (p, along) = track.at(at);
@@ -345,15 +337,17 @@ impl Planner<'_> {
             let lead = lead(radius, p, along);
             let lead = match spec.room {
                 Some(room) => {
-                    reaching(lead, [(p, along), (q, on_from_there)], left, self.near, (wall, room))?
+                    let back = |lead: &Lead| {
+                        lead.on(p, along, left).iter().rev().map(OutlineEdge::reversed).collect()
+                    };
+                    let ways = |lead: &Lead| vec![back(lead), lead.off(q, on_from_there, left)];
+                    reaching(lead, ways, self.near, (wall, room))?
                 }
                 None => lead,
             };
             let (on, off) = (lead.on(p, along, left), lead.off(q, on_from_there, left));
-            let open = |edges: &[OutlineEdge]| {
-                edges.iter().all(|e| (0..=8).all(|i| self.is_free(e.at(f64::from(i) / 8.0), wall)))
-            };
-            (open(&on) && open(&off) && free(on[0].start)).then_some(Beginning { at, lead })
+            let is_open = self.is_open(&on, wall) && self.is_open(&off, wall);
+            (is_open && free(on[0].start)).then_some(Beginning { at, lead })
         };
         if spec.side == ContourSide::On {
             // What is beside the line stays.
@@ -517,7 +511,7 @@ impl Planner<'_> {
     fn keep(&mut self, track: &Track, outer: bool, start: f64, tabs: &[PlacedTab]) {
         let edges = track.part(start, start + track.length());
         let finishing = self.travel.route.finishing;
-        self.loops.push(PlannedLoop { edges, outer, finishing, tabs: tabs.to_vec() });
+        self.loops.push(PlannedLoop { edges, outer, finishing, tabs: tabs.to_vec(), piece: None });
     }
 
     fn overlap(&self) -> f64 {
@@ -526,7 +520,7 @@ impl Planner<'_> {
     }
 
     /// Roughs a loop level by level, `heights` from the top down.
-    fn rough(
+    pub(super) fn rough(
         &mut self,
         track: &Track,
         outer: bool,

@@ -16,23 +16,18 @@ const LONGER: f64 = 0.125;
 /// Piece of a path that is not divided any further [mm].
 const PIECE: f64 = 2e-3;
 
-/// The lead with the shortest line by which both of its free ends lie so far from all edges [mm] that the cutter comes down
-/// there beside them, and comes nearer only towards the contour; `places`: points of the path with their directions, where it is
-/// joined and left. `wall`: distance of the path from the wall [mm].
+/// The lead with the shortest line by which the free ends of all ways off a contour lie so far from all edges [mm] that the cutter
+/// comes down there beside them, and comes nearer only towards the contour; `ways`: those of a lead. `wall`: distance of the path
+/// from the wall [mm].
 pub(super) fn reaching(
     lead: Lead,
-    places: [(DVec2, DVec2); 2],
-    left: bool,
+    ways: impl Fn(&Lead) -> Vec<Vec<OutlineEdge>>,
     near: &NearestEdge,
     (wall, room): (f64, f64),
 ) -> Option<Lead> {
     let farther = room - wall;
     let least = if lead.line + lead.radius < farther { farther - lead.radius } else { lead.line };
-    let [(p, along), (q, ahead)] = places;
-    let is_free = |lead: &Lead| {
-        let on: Vec<OutlineEdge> = lead.on(p, along, left).iter().rev().map(OutlineEdge::reversed).collect();
-        gains(&on, near, room) && gains(&lead.off(q, ahead, left), near, room)
-    };
+    let is_free = |lead: &Lead| ways(lead).iter().all(|way| gains(way, near, room));
     let longer = |i: u32| Lead { line: least + f64::from(i) * LONGER * farther, ..lead };
     (0..LINES).map(longer).find(is_free)
 }
@@ -82,9 +77,9 @@ mod tests {
 
     #[test]
     fn lines_of_leads_reach_where_there_is_room() {
-        let places = [(dvec2(30.0, 0.5), DVec2::X), (dvec2(31.0, 0.5), DVec2::X)];
+        let ways = |lead: &Lead| vec![lead.off(dvec2(30.0, 0.5), DVec2::X, true)];
         let lead = Lead { radius: 1.0, angle: FRAC_PI_2, line: 0.0 };
-        let of = |width: f64, room: f64| reaching(lead, places, true, &slot(width), (0.5, room));
+        let of = |width: f64, room: f64| reaching(lead, ways, &slot(width), (0.5, room));
         assert_eq!(of(20.0, 1.5), Some(lead));
         assert_eq!(of(20.0, 3.0).map(|l| l.line), Some(1.5));
         // Nowhere in a slot of 5 mm is as much room.

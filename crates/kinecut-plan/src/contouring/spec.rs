@@ -6,6 +6,7 @@ use glam::DVec2;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use super::OutlinePiece;
 use crate::geom::Outline;
 use crate::holes::{CutterData, FeedAt, Sense, Wear};
 
@@ -119,6 +120,8 @@ pub struct ContourSpec {
     pub cleared: bool,
     /// Finishing.
     pub finish: Option<ContourFinish>,
+    /// Pieces of the loops along which it is cut; `None`: along whole loops. A contour in pieces has no ramp, no finish and no tabs.
+    pub pieces: Option<Vec<OutlinePiece>>,
     /// Distance from all edges at which the cutter comes down and goes up, and below which it comes only towards the contour: for
     /// one that is wider above its tip; `None`: that of the path.
     pub room: Option<f64>,
@@ -204,6 +207,7 @@ impl ContourSpec {
             ramp: Some(3.0_f64.to_radians()),
             cleared: false,
             finish: None,
+            pieces: None,
             room: None,
             lead_radius: None,
             start: None,

@@ -12,6 +12,7 @@
 //! lies between 0 and pi. An M4 spindle is the mirror image ([`FaceCase::mirrored`]).
 
 mod bad_set;
+pub mod burrs;
 mod case;
 mod exit_order;
 mod exits;

@@ -89,12 +89,15 @@ fn plan_setup(
 ) -> Result<SetupPlan> {
     let mut writer = Writer::new(job, setup);
     let (mut operations, mut findings) = (Vec::new(), Vec::new());
+    let mut milled = None;
     for (i, operation) in setup.operations.iter().enumerate() {
         let key = format!("operation[{i}]");
         let at = |e: Error| e.under(&key);
         let number = first + i as u32;
         let clamping = setup.at(operation.milling());
-        let setting = Setting { made, ..setting(job, setup, &clamping, number, progress) };
+        let milled_before = milled.as_ref();
+        let setting =
+            Setting { made, milled: milled_before, ..setting(job, setup, &clamping, number, progress) };
         let mut plan = match operation.plan(&setting).map_err(at)? {
             Attempt::SetupPlan(plan, found) => {
                 findings.extend(found.into_iter().map(|f| f.under(&key)));
@@ -109,6 +112,7 @@ fn plan_setup(
         writer.operation(operation, &mut plan, setting).map_err(at)?;
         let to_part = clamping.to_work().inverse();
         made.extend(plan.holes().into_iter().map(|hole| MadeHole { hole, to_part }));
+        milled = plan.milled().or(milled);
         operations.push(PlannedOperation { number, plan });
     }
     let (program, lowered, radii) = writer.end();
@@ -130,6 +134,7 @@ pub(crate) fn setting<'a>(
         stock: &job.stock,
         drilled: &job.drilled,
         made: &[],
+        milled: None,
         machine: job.machine.as_ref(),
         orientation: job.orientation,
         post: &job.post,

@@ -27,6 +27,9 @@ pub(crate) struct Band {
     pub(crate) foot: f64,
     /// The lean of the wall, if it does not stand upright.
     slope: Option<Slope>,
+    /// Stretches of loops that are wanted, from and to along each from its first point; `None`: all. The second may lie beyond the
+    /// end of the loop, the first before its begin.
+    only: Option<Vec<(usize, [f64; 2])>>,
 }
 
 /// The lean of a wall that a conical cutter leaves: a chamfer.
@@ -40,13 +43,38 @@ pub(crate) struct Slope {
     pub(crate) lean: f64,
     /// Height of the cutter's tip.
     pub(crate) tip: f64,
+    /// Radius of the ball that makes it, if a ball does: then it is hollow, and `lean` is that at its upper edge.
+    pub(crate) ball: Option<f64>,
 }
 
 impl Slope {
     /// Distance by which it lies behind the upright wall at a height; before it below its lower edge.
     fn behind(&self, z: f64) -> f64 {
         let below = if z < self.top { self.top - z } else { 0.0 };
-        self.width - below * self.lean
+        let Some(radius) = self.ball else { return self.width - below * self.lean };
+        // The centre of the ball lies as far beside the wall as over the edge: `beside^2 + (beside + width)^2 = radius^2`.
+        let beside = self.beside(radius);
+        let square = radius * radius - (beside + below) * (beside + below);
+        if square > 0.0 { square.sqrt() - beside } else { -beside }
+    }
+
+    /// Distance of a ball's centre from the wall, and its height over the edge.
+    fn beside(&self, radius: f64) -> f64 {
+        let square = 2.0 * radius * radius - self.width * self.width;
+        if square > 0.0 { 0.5 * (square.sqrt() - self.width) } else { 0.0 }
+    }
+
+    /// Greatest share upwards of the direction in which it looks.
+    pub(crate) fn upward(&self) -> f64 {
+        match self.ball {
+            Some(radius) => (self.beside(radius) + self.width) / radius,
+            None => self.lean / self.lean.hypot(1.0),
+        }
+    }
+
+    /// Its noun.
+    pub(crate) fn noun(&self) -> &'static str {
+        if self.ball.is_some() { "break" } else { "chamfer" }
     }
 }
 
@@ -105,6 +133,7 @@ impl Band {
             tabs: Vec::new(),
             foot: 0.0,
             slope: None,
+            only: None,
         }
     }
 
@@ -119,6 +148,32 @@ impl Band {
     /// With a wall that leans: its width and fillets are those at its lower edge.
     pub(crate) fn leaning(self, slope: Slope) -> Band {
         Band { reach: self.reach + slope.width, slope: Some(slope), ..self }
+    }
+
+    /// With stretches of its loops only, each from and to along its loop.
+    pub(crate) fn only(self, on: impl Iterator<Item = (usize, [f64; 2])>) -> Band {
+        Band { only: Some(on.collect()), ..self }
+    }
+
+    /// Whether the wall at the place nearest to a point is wanted.
+    fn is_wanted(&self, p: DVec2) -> bool {
+        /// Ends of a stretch that are as near as this are not compared [mm]: there the cutter begins to leave.
+        const ENDS: f64 = 1e-3;
+        let Some(only) = &self.only else { return true };
+        let Some(nearest) = self.near.at(p, self.search()) else { return false };
+        let edges = self.outline.edges();
+        let found = self.outline.loops().iter().position(|l| l.edges.contains(&nearest.edge));
+        let Some(of_loop) = found else { return false };
+        let range = self.outline.loops()[of_loop].edges.clone();
+        let length = |edges: &[crate::geom::OutlineEdge]| edges.iter().map(|e| e.length()).sum::<f64>();
+        let whole = length(&edges[range.clone()]);
+        let at = length(&edges[range.start..nearest.edge]) + nearest.share * edges[nearest.edge].length();
+        let on = |[from, to]: [f64; 2]| {
+            let gone = (at - from).rem_euclid(whole);
+            // A corner lies between two stretches that meet in it.
+            gone <= to - from && (gone > ENDS || to - from > whole - ENDS) && to - from - gone > ENDS
+        };
+        only.iter().filter(|(l, _)| *l == of_loop).any(|(_, along)| on(*along))
     }
 
     /// The lean of the wall.
@@ -152,7 +207,7 @@ impl Band {
     pub(crate) fn inside(&self, p: DVec2, z: f64) -> f64 {
         let width = self.width(z);
         match self.off_wall(p, z) {
-            _ if self.slope.is_some_and(|s| z < s.tip) => -self.width,
+            _ if self.slope.is_some_and(|s| z < s.tip) || !self.is_wanted(p) => -self.width,
             None => -self.width,
             Some(d) if 2.0 * d > width => width - d,
             Some(d) => d,
@@ -161,7 +216,7 @@ impl Band {
 
     /// Whether a point lies on the face beside the upper edge of a wall that leans, not farther behind it than the wall is wide.
     pub(crate) fn beside_edge(&self, p: DVec2) -> bool {
-        let Some(slope) = self.slope else { return false };
+        let Some(slope) = self.slope.filter(|_| self.is_wanted(p)) else { return false };
         self.off_wall(p, slope.top).is_some_and(|d| d < 0.0 && d > -slope.width)
     }
 
@@ -170,7 +225,7 @@ impl Band {
     pub(crate) fn compared(&self, p: DVec2, z: f64) -> f64 {
         let d = self.off_wall(p, z).unwrap_or(f64::NAN);
         let is_free = 2.0 * d > self.width(z);
-        if is_free || self.is_tab(p, z) {
+        if is_free || self.is_tab(p, z) || !self.is_wanted(p) {
             return f64::NAN;
         }
         match self.fillet(p, z).filter(|_| d > 0.0) {
@@ -254,7 +309,7 @@ mod tests {
 
     #[test]
     fn a_wall_that_leans_lies_farther_behind_the_higher() {
-        let slope = Slope { top: 2.0, width: 1.5, lean: 0.5, tip: -2.0 };
+        let slope = Slope { top: 2.0, width: 1.5, lean: 0.5, tip: -2.0, ball: None };
         let band = Band::new(&square(), true, 0.0, 2.0).leaning(slope);
         // At its lower edge, at its upper one, and above.
         for (z, behind, width) in [(-1.0, 0.0, 2.0), (0.0, 0.5, 3.0), (2.0, 1.5, 5.0), (3.0, 1.5, 5.0)] {
@@ -272,6 +327,44 @@ mod tests {
         assert!(band.inside(dvec2(20.0, -1.0), -2.1) < 0.0);
         assert!([1.6, 2.9].iter().all(|y| band.beside_edge(dvec2(20.0, *y))));
         assert!([1.4, 3.1, -1.0].iter().all(|y| !band.beside_edge(dvec2(20.0, *y))));
+    }
+
+    #[test]
+    fn a_hollow_wall_lies_on_the_ball() {
+        let (radius, width) = (3.0, 0.4_f64);
+        let beside = 0.5 * ((2.0 * radius * radius - width * width).sqrt() - width);
+        let slope = Slope { top: 1.0, width, lean: 0.0, tip: -3.0, ball: Some(radius) };
+        let band = Band::new(&square(), true, 0.0, 2.0 * beside).leaning(slope);
+        for (z, behind) in [(1.0, width), (1.0 - width, 0.0)] {
+            assert!((slope.behind(z) - behind).abs() < 1e-12, "{z}");
+        }
+        for i in 0..=20 {
+            let z = 1.0 - 0.02 * f64::from(i);
+            let p = dvec2(20.0, slope.behind(z));
+            assert!(band.compared(p, z).abs() < 1e-12);
+            // Seen along the wall, the ball's centre lies before it and over the edge.
+            assert!(((p.y + beside).hypot(1.0 + beside - z) - radius).abs() < 1e-12);
+        }
+        assert!(slope.upward() > 0.7 && slope.upward() < 0.8);
+    }
+
+    #[test]
+    fn stretches_that_are_not_wanted_are_not_compared() {
+        // Clockwise, the lower side comes last.
+        let outline = square();
+        let lower = outline.edges().iter().position(|e| e.start.y == 0.0 && e.end.y == 0.0).unwrap();
+        let begin: f64 = outline.edges()[..lower].iter().map(|e| e.length()).sum();
+        let start = outline.edges()[lower].start.x;
+        let on = |along: [f64; 2]| {
+            let band = Band::new(&outline, true, 0.0, 10.0).only([(0, along)].into_iter());
+            move |x: f64| !band.compared(dvec2(x, -1.0), 0.0).is_nan()
+        };
+        let middle = on([begin + 10.0, begin + 15.0]);
+        let at = |s: f64| if start == 0.0 { s } else { 40.0 - s };
+        assert!(middle(at(12.0)) && !middle(at(9.9)) && !middle(at(15.1)));
+        // Round the corner, beyond the end of the loop.
+        let corner = on([begin + 150.0, begin + 165.0]);
+        assert!(corner(at(4.0)) && !corner(at(6.0)));
     }
 
     #[test]

@@ -4,6 +4,8 @@ use std::sync::Arc;
 
 use serde::Serialize;
 
+use super::edge::FaceEdges;
+use super::face::FacingTable;
 use super::measured::{BoreMeasure, FaceMeasure, Loose, Probe, Proof, TakenOut, WallProbe};
 use super::named::NamedOutline;
 use super::wanted::{PlannedOutline, WantedPlane, WantedWall};
@@ -31,6 +33,11 @@ pub(crate) trait Table {
 
     /// The outline along which it works, under the name by which others may refer to it.
     fn named_outline(&self) -> Option<NamedOutline<'_>> {
+        None
+    }
+
+    /// Itself, if it mills a face.
+    fn face(&self) -> Option<&FacingTable> {
         None
     }
 
@@ -156,6 +163,11 @@ pub(crate) trait Plan: Sized {
     /// The round holes that it leaves.
     fn holes(&self) -> Vec<RoundHole> {
         self.walls().iter().filter_map(RoundHole::of_wall).collect()
+    }
+
+    /// The face that it has milled, for operations after it that go by its edges.
+    fn milled(&self) -> Option<FaceEdges> {
+        None
     }
 
     /// The plane that it wants.

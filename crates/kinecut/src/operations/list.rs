@@ -8,6 +8,8 @@ macro_rules! kinds {
         use schemars::JsonSchema;
         use serde::{Deserialize, Serialize};
 
+        use self::edge::FaceEdges;
+        use self::face::FacingTable;
         use self::kind::{Checked as _, Plan as _, Table as _};
         use self::named::NamedOutline;
         use self::measured::{Loose, Proof, TakenOut};
@@ -70,6 +72,11 @@ macro_rules! kinds {
             /// The outline along which it works, under the name by which others may refer to it.
             pub(crate) fn named_outline(&self) -> Option<NamedOutline<'_>> {
                 match self { $(OperationTable::$kind(table) => table.named_outline(),)* }
+            }
+
+            /// Itself, if it mills a face.
+            pub(crate) fn face(&self) -> Option<&FacingTable> {
+                match self { $(OperationTable::$kind(table) => table.face(),)* }
             }
 
             /// The file that it names, with the role that the file has in a verdict.
@@ -185,6 +192,11 @@ macro_rules! kinds {
             /// The round holes that it leaves.
             pub(crate) fn holes(&self) -> Vec<RoundHole> {
                 match self { $(OperationPlan::$kind(p) => p.holes(),)* }
+            }
+
+            /// The face that it has milled.
+            pub(crate) fn milled(&self) -> Option<FaceEdges> {
+                match self { $(OperationPlan::$kind(p) => p.milled(),)* }
             }
 
             /// The plane that it wants.

@@ -11,7 +11,9 @@ pub(crate) mod band;
 pub mod bore;
 pub mod chamfer;
 pub mod contour;
+pub mod deburr;
 pub mod drill;
+pub mod edge;
 pub mod face;
 pub(crate) mod kind;
 pub(crate) mod known;
@@ -59,6 +61,8 @@ kinds! {
     Contour "contour" (contour::ContourTable, contour::ContourOperation, contour::PlannedContour),
     /// Chamfering of the upper edge of an outline.
     Chamfer "chamfer" (chamfer::ChamferTable, chamfer::ChamferOperation, chamfer::PlannedChamfer),
+    /// Breaking of edges where face milling has left a burr, or of whole outlines.
+    Deburr "deburr" (deburr::DeburrTable, deburr::DeburrOperation, deburr::PlannedDeburr),
     /// Drilling, centring, countersinking, reaming: what a tool does along its axis.
     Drill "drill" (drill::DrillTable, drill::DrillOperation, drill::PlannedDrilling),
     /// Threads by a tap.

@@ -4,6 +4,7 @@ use std::borrow::Cow;
 
 use glam::DVec3;
 
+use super::edge::FaceEdges;
 use super::{MadeHole, Milling, OperationTable, OrientationName};
 use crate::base::{Loader, Progress};
 use crate::geom::{Aabb, Rigid, Solid};
@@ -98,6 +99,8 @@ pub(crate) struct Setting<'a> {
     pub(crate) drilled: &'a [Drilled],
     /// Holes that operations before it leave.
     pub(crate) made: &'a [MadeHole],
+    /// The face that was milled last before it in its setup.
+    pub(crate) milled: Option<&'a FaceEdges>,
     /// The machine, if there is one.
     pub(crate) machine: Option<&'a Machine>,
     /// The form in which the program says the directions of its tool.

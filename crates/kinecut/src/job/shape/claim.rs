@@ -113,7 +113,7 @@ impl Wanted<'_> {
 
     /// Cosine above which a face counts as floor or ceiling: between that of the wall and that of a level face.
     fn level(&self) -> f64 {
-        let upward = self.wall.slope().map_or(0.0, |slope| slope.lean / slope.lean.hypot(1.0));
+        let upward = self.wall.slope().map_or(0.0, |slope| slope.upward());
         let between = 0.5 * (1.0 + upward);
         if between > FACES_UP { between } else { FACES_UP }
     }

@@ -14,19 +14,13 @@ pub(super) fn bores(wanted: &[Wanted<'_>], measures: &[BoreMeasure], answer: &mu
         let tolerance = bore.operation.milling().tolerance;
         let name = bore.operation.name();
         let [gouged, left] = match bore.wall.slope() {
-            Some(_) => [
-                (
-                    "the chamfer is cut too deep, or the face beside it too low",
-                    "correct `top`, `width` or the tool",
-                ),
-                (
-                    "the chamfer is too narrow, or the face beside it too high",
-                    "correct `top`, `width` or the tool",
-                ),
-            ],
+            Some(slope) => [("cut too deep", "low"), ("too narrow", "high")].map(|(how, face)| {
+                let what = format!("the {} is {how}, or the face beside it too {face}", slope.noun());
+                (what, "correct `top`, `width` or the tool")
+            }),
             None => [
-                ("the wanted surface is gouged", "correct diameter, depth or tool"),
-                ("stock is left", "finish the wall, go deeper, or allow more"),
+                ("the wanted surface is gouged".to_owned(), "correct diameter, depth or tool"),
+                ("stock is left".to_owned(), "finish the wall, go deeper, or allow more"),
             ],
         };
         let sides =
@@ -41,6 +35,7 @@ pub(super) fn bores(wanted: &[Wanted<'_>], measures: &[BoreMeasure], answer: &mu
         // What goes through has no floor.
         let is_blind = group.iter().any(|(bore, _)| bore.floor.is_some());
         let (what, lie) = match group[0].0.wall.slope() {
+            Some(slope) if slope.ball.is_some() => ("the break", "lies"),
             Some(_) => ("the chamfer", "lies"),
             None if is_blind => ("wall and floor", "lie"),
             None => ("the wall", "lies"),

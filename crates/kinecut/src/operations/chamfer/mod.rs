@@ -2,11 +2,8 @@
 //! stock.
 
 mod check;
-mod json;
 mod plan;
-mod section;
 mod table;
-mod webs;
 
 pub use check::ChamferOperation;
 pub use plan::PlannedChamfer;

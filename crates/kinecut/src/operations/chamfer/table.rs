@@ -7,6 +7,7 @@ use crate::contouring::{ContourLoops, ContourSide};
 use crate::geom::LengthUnit;
 use crate::holes::Sense;
 use crate::operations::PlaneTable;
+use crate::operations::edge::EdgesName;
 use crate::operations::outlines::{OutlineCircle, OutlineEntry, OutlineRectangle};
 use crate::operations::slot_outline::OutlineSlot;
 use crate::program::Coolant;
@@ -28,6 +29,16 @@ pub struct ChamferTable {
     /// `top` and `stock_to_leave`, unless they are said here; in place of an outline.
     #[serde(default)]
     pub of: Option<String>,
+    /// Edges of the face that was milled before it in the setup, in place of an outline: "bad", those where teeth have left at a bad
+    /// exit angle of that face.
+    #[serde(default)]
+    pub edges: Option<EdgesName>,
+    /// Edges of that face with a burr higher than this by `burr`, in place of `edges`.
+    #[serde(default)]
+    pub above: Option<f64>,
+    /// Heights of burrs as measured in the shop: [exit angle, height] each, degrees and mm, straight between them and constant beyond.
+    #[serde(default)]
+    pub burr: Option<Vec<[f64; 2]>>,
     /// The outline as a rectangle; or give `circle`, `polygon`, `slot` or `outline`.
     #[serde(default)]
     pub rectangle: Option<OutlineRectangle>,

@@ -92,6 +92,10 @@ impl kind::Table for FacingTable {
         operation(self, around.tools, around.stock, around.loader)
     }
 
+    fn face(&self) -> Option<&FacingTable> {
+        Some(self)
+    }
+
     fn file(&self) -> Option<(&'static str, &str)> {
         match &self.outline {
             OutlineEntry::Name(name) if name != "top" => Some(("outline", name)),

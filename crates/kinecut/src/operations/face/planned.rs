@@ -8,7 +8,10 @@ use super::prove::{judged, simulated_face};
 use super::section::sections;
 use super::{FaceJson, PlannedFace};
 use crate::base::Result;
+use crate::facing::burrs::MilledEdges;
 use crate::geom::Rigid;
+use crate::operations::edge::FaceEdges;
+use crate::operations::kind::Checked as _;
 use crate::operations::wanted::WantedPlane;
 use crate::operations::{Found, Judged, Pen, PostedPlan, Probes, Setting, Shown, kind};
 use crate::page::Section;
@@ -45,6 +48,18 @@ impl kind::Plan for PlannedFace {
         write_face(pen, &self.of, &self.programmed_path())?;
         pen.state.frame = plain;
         Ok(())
+    }
+
+    fn milled(&self) -> Option<FaceEdges> {
+        let edges =
+            MilledEdges { case: self.of.case.clone(), path: self.path(), left_hand: self.plan.left_hand };
+        Some(FaceEdges {
+            operation: self.operation,
+            name: self.of.name(),
+            edges,
+            rule: self.of.rule.clone(),
+            psi_side: self.of.table.psi_side,
+        })
     }
 
     fn plane(&self) -> Option<WantedPlane<'_>> {

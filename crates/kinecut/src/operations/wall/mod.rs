@@ -8,7 +8,7 @@ mod table;
 mod wear;
 
 pub(crate) use lead_figures::lead_drawings;
-pub(crate) use moves::{CLEARANCE, write_moves, write_worn_moves};
+pub(crate) use moves::{CLEARANCE, write_moves, write_told_moves, write_worn_moves};
 pub(crate) use section::{ShownWall, sections};
 pub use table::*;
 pub(crate) use wear::WearKeys;

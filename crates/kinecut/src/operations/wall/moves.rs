@@ -12,8 +12,20 @@ pub(crate) const CLEARANCE: f64 = 2.0;
 
 /// Writes planned moves; `comp` is the compensation of those that have one.
 pub(crate) fn write_moves(pen: &mut Pen<'_>, moves: &[PlannedMove], coolant: Coolant, comp: Option<Comp>) {
+    write_told_moves(pen, moves, coolant, comp, |_| Vec::new());
+}
+
+/// The same, with the comments that `told` gives before the move of an index.
+pub(crate) fn write_told_moves(
+    pen: &mut Pen<'_>,
+    moves: &[PlannedMove],
+    coolant: Coolant,
+    comp: Option<Comp>,
+    told: impl Fn(usize) -> Vec<String>,
+) {
     let mut first = true;
-    for m in moves {
+    for (i, m) in moves.iter().enumerate() {
+        told(i).into_iter().for_each(|text| pen.text(text));
         let (program, state) = (&mut *pen.program, &mut *pen.state);
         state.speed = match m.pace {
             ToolpathPace::Rapid => Speed::Rapid { linear: true },

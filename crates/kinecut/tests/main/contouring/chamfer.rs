@@ -12,11 +12,11 @@ use super::{signed, star};
 use crate::common::golden::{file, number};
 use crate::common::random::Random;
 
-fn chamfer(width: f64) -> Chamfer {
+pub(super) fn chamfer(width: f64) -> Chamfer {
     Chamfer { width, half_angle: 0.25 * std::f64::consts::PI, tip_diameter: 0.0, tip_clearance: 0.5 }
 }
 
-fn spec(outline: Outline, chamfer: Chamfer) -> ContourSpec {
+pub(super) fn spec(outline: Outline, chamfer: Chamfer) -> ContourSpec {
     let cutter = CutterData {
         diameter: 2.0 * chamfer.offset(),
         centre_cutting: true,
@@ -41,7 +41,7 @@ fn away(spec: &ContourSpec, m: &PlannedMove) -> Vec<f64> {
 /// The axis keeps its offset wherever the cutter is below the edge; up and down, and at the free ends of leads, the cone lies
 /// beside all edges, and along leads it only comes nearer to them.
 #[track_caller]
-fn sound(spec: &ContourSpec, plan: &ContourPlan) {
+pub(super) fn sound(spec: &ContourSpec, plan: &ContourPlan) {
     let room = spec.room.unwrap();
     assert_eq!(plan.levels.len(), 1);
     for pair in plan.moves.windows(2) {

@@ -1,6 +1,7 @@
 //! Faces: least burr, bounds, passes, jobs.
 
 mod bounds;
+mod burrs;
 mod crossings;
 mod golden;
 mod golden_events;

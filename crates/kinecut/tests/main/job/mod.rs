@@ -3,6 +3,7 @@
 mod budget;
 mod chamfer;
 mod contour;
+mod deburr;
 mod design;
 mod engagement;
 mod errors;

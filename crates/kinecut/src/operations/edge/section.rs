@@ -1,6 +1,8 @@
-//! Planned chamfers as the report shows them: facts and a plan view.
+//! Planned breaks of edges as the report shows them: facts, burrs, and a plan view.
 
-use super::PlannedChamfer;
+use super::PlannedEdge;
+use super::show;
+use crate::contouring::EdgeBreak;
 use crate::geom::OutlineEdge;
 use crate::operations::Shown;
 use crate::operations::measured::BoreMeasure;
@@ -14,15 +16,16 @@ const SMALL: f64 = 1e-4;
 const CHORD: f64 = 0.05;
 
 /// The section of an operation.
-pub(super) fn section(plan: &PlannedChamfer, of: &Shown<'_>) -> Section {
+pub(crate) fn section(plan: &PlannedEdge, of: &Shown<'_>) -> Section {
     let mut section = Section::new(of.title());
     section.blocks.push(Block::Facts(facts(plan, of.walls.first().copied())));
+    section.blocks.extend(show::blocks(plan));
     section.with(view(plan))
 }
 
-fn facts(plan: &PlannedChamfer, wall: Option<&BoreMeasure>) -> Vec<Fact> {
+fn facts(plan: &PlannedEdge, wall: Option<&BoreMeasure>) -> Vec<Fact> {
     let (spec, of) = (&plan.spec, &plan.of);
-    let chamfer = &of.chamfer;
+    let cut = &of.cut;
     let mm = |length: f64| format!("{} mm", trimmed(length, 3));
     let webs = plan.webs().in_words();
     let mut facts = Vec::new();
@@ -37,22 +40,29 @@ fn facts(plan: &PlannedChamfer, wall: Option<&BoreMeasure>) -> Vec<Fact> {
             };
             let ends = format!("at {} line ends of the simulated part", m.ends);
             let note = if webs.is_empty() { ends } else { format!("{ends}; not compared: {webs}") };
-            Fact::new("Width", format!("{}, {off}", mm(chamfer.width))).note(note)
+            Fact::new("Width", format!("{}, {off}", mm(cut.width()))).note(note)
         }
-        None => Fact::new("Width", mm(chamfer.width)).note("not measured: no line of the stock ends there"),
+        None => Fact::new("Width", mm(cut.width())).note("not measured: no line of the stock ends there"),
     });
     facts.push(
-        Fact::new("Depth", mm(chamfer.depth()))
-            .note(format!("the tip runs at Z {}", trimmed(spec.bottom(), 3))),
+        Fact::new("Depth", mm(cut.depth())).note(format!("the tip runs at Z {}", trimmed(spec.bottom(), 3))),
     );
     let from = if spec.stock_to_leave > 0.0 {
         format!("of the axis from the wall, which lies {} before the outline", mm(spec.stock_to_leave))
     } else {
         "of the axis from the wall".to_owned()
     };
-    facts.push(Fact::new("Offset", mm(chamfer.offset())).note(from));
-    facts.push(Fact::new("Radius at the edge", mm(chamfer.top_radius())).note("for the cutting speed"));
-    facts.push(Fact::new("Tip clearance", mm(chamfer.tip_clearance)).note("below the chamfer"));
+    facts.push(Fact::new("Offset", mm(cut.offset())).note(from));
+    facts.push(Fact::new("Radius at the edge", mm(cut.top_radius())).note("for the cutting speed"));
+    facts.push(match cut {
+        EdgeBreak::Chamfer(chamfer) => {
+            Fact::new("Tip clearance", mm(chamfer.tip_clearance)).note("below the chamfer")
+        }
+        EdgeBreak::Ball(ball) => {
+            let hollow = micrometres(ball.hollow());
+            Fact::new("Hollow by", hollow).note("in its middle, below a straight chamfer: a ball cuts it")
+        }
+    });
     let per_minute = |feed: f64| format!("{} mm/min", trimmed(feed * 60.0, 1));
     let down = format!("{} down", per_minute(spec.plunge_feed));
     facts.push(Fact::new("Feed", per_minute(spec.feed)).note(down));
@@ -81,7 +91,7 @@ fn points(edges: &[OutlineEdge]) -> Vec<[f64; 2]> {
     all
 }
 
-fn view(plan: &PlannedChamfer) -> Plan {
+fn view(plan: &PlannedEdge) -> Plan {
     let mut view = Plan::new("Outline and path of the cutter\u{2019}s tip");
     let outline = &plan.of.outline;
     for one in outline.loops() {
@@ -97,7 +107,7 @@ fn view(plan: &PlannedChamfer) -> Plan {
     }
     view.circles.extend(plan.plan.uncut.iter().map(|c| Circle {
         centre: c.at.to_array(),
-        radius: plan.of.chamfer.top_radius(),
+        radius: plan.of.cut.top_radius(),
         text: "web".to_owned(),
         ..Circle::default()
     }));

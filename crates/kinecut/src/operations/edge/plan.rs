@@ -1,0 +1,246 @@
+//! A planned break of an edge: its table in the planner's words, its moves, its wall.
+
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+use glam::DVec2;
+
+use super::EdgeOperation;
+use super::burrs::FoundBurrs;
+use super::webs::{Webs, warning};
+use crate::base::{Code, Error, Finding, Result};
+use crate::contouring::{
+    ContourPlan, ContourSide, ContourSpec, CutPiece, EdgeBreak, OutlinePiece, plan_contour,
+};
+use crate::facing::burrs::{BurrPart, BurrPiece};
+use crate::geom::Outline;
+use crate::holes::CutterData;
+use crate::operations::band::{Band, Slope};
+use crate::operations::kind::Attempt;
+use crate::operations::wall::{CLEARANCE, write_told_moves};
+use crate::operations::wanted::{Wall, WantedWall};
+use crate::operations::{Judged, Pen, Setting, uncut};
+use crate::page::trimmed;
+
+/// Distance of the cutter from the edge where it comes down [mm].
+const BESIDE: f64 = 0.05;
+/// Way beyond the start that is cut twice where the job does not say [mm].
+const OVERLAP: f64 = 1.0;
+/// Most burrs of a piece that its comment names.
+const NAMED: usize = 4;
+
+/// A planned break of an edge.
+#[derive(Clone, Debug)]
+pub struct PlannedEdge {
+    /// The operation.
+    pub of: EdgeOperation,
+    /// The way of its tip as a contour: that of a cutter whose radius is the distance of the tip from the wall.
+    pub spec: ContourSpec,
+    /// The plan.
+    pub plan: ContourPlan,
+    /// The burrs that it takes off, where it goes by them.
+    pub(super) burrs: Option<FoundBurrs>,
+}
+
+/// Plans a break; `make` gives the plan of its kind.
+pub(crate) fn planned<P>(
+    of: &EdgeOperation,
+    setting: &Setting<'_>,
+    make: impl FnOnce(PlannedEdge) -> P,
+) -> Result<Attempt<P>> {
+    let tool = &of.milling.tool;
+    let burrs = match &of.edges {
+        Some(wanted) => {
+            let outer = |l: usize| of.outline.loops().get(l).is_some_and(|l| of.is_wanted(l.outer));
+            match FoundBurrs::of(wanted, setting, tool.cutter.diameter(tool.flute_length), outer)? {
+                Ok(found) => Some(found),
+                Err(note) => return Ok(Attempt::LeftOut(Box::new(note))),
+            }
+        }
+        None => None,
+    };
+    let pieces = burrs.as_ref().map(|found| {
+        let piece = |p: &BurrPiece| OutlinePiece { of_loop: p.of_loop, along: p.along };
+        found.pieces.pieces.iter().map(piece).collect()
+    });
+    let spec = spec(setting, of, pieces);
+    let plan = plan_contour(&spec).map_err(|e| in_its_words(e, &spec))?;
+    // The planner tells of fillets: a break leaves webs.
+    let mut findings = plan.findings.clone();
+    findings.retain(|f| f.code != Code::CORNERS_STAY);
+    findings.extend(warning(&plan.uncut));
+    let planned = PlannedEdge { of: of.clone(), spec, plan, burrs };
+    findings.extend(planned.left_warning());
+    Ok(Attempt::SetupPlan(make(planned), findings))
+}
+
+/// The operation in the planner's words.
+fn spec(setting: &Setting<'_>, of: &EdgeOperation, pieces: Option<Vec<OutlinePiece>>) -> ContourSpec {
+    let cut = &of.cut;
+    let safe = setting.clamping.safe_height;
+    let tool = CutterData::of(&of.milling.tool);
+    // Beside the edge it comes down in the air, where no tooth has to cut at the centre.
+    let cutter =
+        CutterData { diameter: 2.0 * cut.offset(), centre_cutting: true, max_ramp_angle: None, ..tool };
+    ContourSpec {
+        side: of.side,
+        loops: of.loops,
+        left_hand: of.is_left_hand(),
+        sense: of.direction,
+        top: of.top,
+        stock_to_leave: of.stock_to_leave,
+        plunge_feed: of.plunge_feed,
+        ramp: None,
+        pieces,
+        room: Some(cut.top_radius() + of.stock_to_leave + BESIDE),
+        lead_radius: of.lead_radius,
+        start: of.start.map(DVec2::from_array),
+        overlap: Some(of.overlap.unwrap_or(OVERLAP)),
+        retract_z: safe,
+        approach_z: (of.top + CLEARANCE).clamp(f64::NEG_INFINITY, safe),
+        ..ContourSpec::new(of.outline.clone(), cut.depth(), cutter, of.feed)
+    }
+}
+
+/// An error of the planner with the cures of a break.
+fn in_its_words(error: Error, spec: &ContourSpec) -> Error {
+    let key = error.0.key.clone().unwrap_or_default();
+    match error.code() {
+        Code::CUTTER_TOO_LARGE if key == "tool" => {
+            let Error(finding) = error;
+            let help = "write a smaller tip_clearance, or leave the loop out: loops = \"outer\", or by layer";
+            finding.help(help).key("tip_clearance").into()
+        }
+        Code::LEAD_ROOM => {
+            let wide = trimmed(2.0 * spec.room.unwrap_or(0.0), 2);
+            let Error(finding) = error;
+            let other =
+                if spec.pieces.is_some() { "leave the loop out by `loops`" } else { "give another start" };
+            let help = format!(
+                "the cutter is {wide} mm wide at the edge and comes down beside it: {other}, or a smaller tip_clearance or width"
+            );
+            finding.help(help).into()
+        }
+        _ => error,
+    }
+}
+
+impl PlannedEdge {
+    /// Writes its moves, each piece with its comment.
+    pub(crate) fn write(&self, pen: &mut Pen<'_>) {
+        let mut told: BTreeMap<usize, Vec<String>> = BTreeMap::new();
+        if let Some(burrs) = &self.burrs {
+            for cut in self.cut_pieces() {
+                let parts = &burrs.pieces.pieces[cut.piece].parts;
+                let texts = told.entry(cut.first_move).or_default();
+                texts.extend(parts.iter().take(NAMED).map(|p| burrs.told(p).to_uppercase()));
+                if parts.len() > NAMED {
+                    texts.push(format!("AND {} MORE", parts.len() - NAMED));
+                }
+            }
+        }
+        let texts = |i: usize| told.get(&i).cloned().unwrap_or_default();
+        write_told_moves(pen, &self.plan.moves, self.of.milling.coolant, None, texts);
+    }
+
+    /// The pieces that are cut, in their order.
+    pub(super) fn cut_pieces(&self) -> impl Iterator<Item = &CutPiece> {
+        self.plan.loops.iter().filter_map(|l| l.piece.as_ref())
+    }
+
+    /// Whether a piece is cut.
+    fn is_cut(&self, piece: usize) -> bool {
+        self.cut_pieces().any(|c| c.piece == piece)
+    }
+
+    /// Chosen burrs that are left.
+    pub(super) fn left(&self) -> Vec<BurrPart> {
+        self.burrs.as_ref().map_or_else(Vec::new, |found| found.left(|piece| self.is_cut(piece)))
+    }
+
+    /// A note about chosen burrs that are left.
+    fn left_warning(&self) -> Option<Finding> {
+        let left = self.left();
+        let first = left.first()?;
+        let outline = &self.of.outline;
+        let edge = &outline.edges()[first.edge];
+        let at = edge.at(0.5 * (first.along[0] + first.along[1]) / edge.length());
+        let length: f64 = left.iter().map(BurrPart::length).sum();
+        let count = uncut::count(left.len(), "stretch", "stretches");
+        let message = format!(
+            "burrs stay on {count} of {} mm in all: shorter than 0.5 mm, in corners, or on loops that are not cut",
+            trimmed(length, 2)
+        );
+        let help = "the report lists them; take them off by hand, or cut all loops";
+        Some(Finding::note(Code::BURRS, message).point([at.x, at.y, self.of.top]).help(help))
+    }
+
+    /// The wall that it wants.
+    pub(crate) fn walls(&self) -> Vec<WantedWall> {
+        let (spec, cut) = (&self.spec, &self.of.cut);
+        let keeps_face = spec.side == ContourSide::Outside;
+        let band = Band::new(&self.cut_outline(), keeps_face, spec.stock_to_leave, spec.cutter.diameter);
+        let slope = Slope {
+            top: spec.top,
+            width: cut.width(),
+            lean: match cut {
+                EdgeBreak::Chamfer(chamfer) => chamfer.half_angle.tan(),
+                EdgeBreak::Ball(ball) => ball.offset() / ball.top_radius(),
+            },
+            tip: spec.bottom(),
+            ball: match cut {
+                EdgeBreak::Chamfer(_) => None,
+                EdgeBreak::Ball(ball) => Some(ball.radius),
+            },
+        };
+        let mut band = band.leaning(slope);
+        band.corners = uncut::fillets(&self.plan.uncut, spec.radius());
+        if self.spec.pieces.is_some() {
+            // Pieces are those of the whole outline: `cut_outline` has its loops in their order.
+            let wanted =
+                self.of.outline.loops().iter().enumerate().filter(|(_, l)| self.of.is_wanted(l.outer));
+            let number: BTreeMap<usize, usize> =
+                wanted.enumerate().map(|(new, (old, _))| (old, new)).collect();
+            let beside = self.cut_pieces().flat_map(|c| &c.beside);
+            let on = beside.filter_map(|b| Some((*number.get(&b.of_loop)?, b.along)));
+            band = band.only(on);
+        }
+        vec![WantedWall {
+            centre: band.middle,
+            top: spec.top,
+            floor: None,
+            bottom: spec.top - cut.leg(),
+            slug: 0.0,
+            wall: Wall::Band(Arc::new(band)),
+        }]
+    }
+
+    /// The parts of it that are not compared.
+    pub(crate) fn judged(&self, name: &str) -> Judged {
+        let webs = self.webs().in_words();
+        let mut left = if webs.is_empty() { Vec::new() } else { vec![webs] };
+        // The wall of the operation to which it refers is compared there.
+        if !self.of.of_other {
+            left.push(
+                "the wall below it, which is compared where an operation of the job cuts it".to_owned(),
+            );
+        }
+        if self.burrs.is_some() {
+            left.push(
+                "edges of the face beside its pieces; heights of burrs, which are not simulated".to_owned(),
+            );
+        }
+        let unchecked = (!left.is_empty()).then(|| format!("{name}: {}", left.join("; ")));
+        Judged { unchecked, ..Judged::default() }
+    }
+
+    /// Edges that keep a web.
+    pub(super) fn webs(&self) -> Webs {
+        Webs::of(&self.plan.uncut)
+    }
+
+    /// The loops of the outline whose edges are broken, as an outline.
+    fn cut_outline(&self) -> Outline {
+        self.of.outline.with_loops(|l| self.of.is_wanted(l.outer))
+    }
+}
