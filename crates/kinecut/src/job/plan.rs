@@ -7,7 +7,7 @@ use super::tilt::{all_zero, tilt, tilted};
 use crate::base::{Code, Error, Finding, Progress, Result};
 use crate::machine::Machine;
 use crate::operations::{
-    Attempt, Clamping, MadeHole, Milling, Operation, OperationPlan, Pen, Setting, WearRegister,
+    Attempt, Clamping, MadeHole, MadePlane, Milling, Operation, OperationPlan, Pen, Setting, WearRegister,
 };
 use crate::program::{
     Coolant, Frame, FrameId, Move, Origin, Path, Program, Role, SetupId, Speed, Spindle, State, StopKind,
@@ -62,7 +62,7 @@ impl SetupPlan {
 pub fn plan(job: &Job, progress: &dyn Progress) -> Result<Vec<SetupPlan>> {
     let mut number = 0;
     let mut planned = Vec::with_capacity(job.setups.len());
-    let mut made = Vec::new();
+    let mut made = Made::default();
     for (i, setup) in job.setups.iter().enumerate() {
         if setup.program.is_some() {
             planned.push(SetupPlan::nothing(setup));
@@ -79,12 +79,19 @@ pub fn plan(job: &Job, progress: &dyn Progress) -> Result<Vec<SetupPlan>> {
     Ok(planned)
 }
 
-/// Plans the operations of a setup, the first of which has the number `first`; `made` gathers the holes that they leave.
+/// What operations leave, over all setups.
+#[derive(Default)]
+struct Made {
+    holes: Vec<MadeHole>,
+    planes: Vec<MadePlane>,
+}
+
+/// Plans the operations of a setup, the first of which has the number `first`; `made` gathers what they leave.
 fn plan_setup(
     job: &Job,
     setup: &JobSetup,
     first: u32,
-    made: &mut Vec<MadeHole>,
+    made: &mut Made,
     progress: &dyn Progress,
 ) -> Result<SetupPlan> {
     let mut writer = Writer::new(job, setup);
@@ -96,8 +103,12 @@ fn plan_setup(
         let number = first + i as u32;
         let clamping = setup.at(operation.milling());
         let milled_before = milled.as_ref();
-        let setting =
-            Setting { made, milled: milled_before, ..setting(job, setup, &clamping, number, progress) };
+        let setting = Setting {
+            made: &made.holes,
+            faced: &made.planes,
+            milled: milled_before,
+            ..setting(job, setup, &clamping, number, progress)
+        };
         let mut plan = match operation.plan(&setting).map_err(at)? {
             Attempt::SetupPlan(plan, found) => {
                 findings.extend(found.into_iter().map(|f| f.under(&key)));
@@ -111,7 +122,8 @@ fn plan_setup(
         plan.turn_part(&setting, &mut writer.program.setups[0]);
         writer.operation(operation, &mut plan, setting).map_err(at)?;
         let to_part = clamping.to_work().inverse();
-        made.extend(plan.holes().into_iter().map(|hole| MadeHole { hole, to_part }));
+        made.holes.extend(plan.holes().into_iter().map(|hole| MadeHole { hole, to_part }));
+        made.planes.extend(plan.plane().and_then(|plane| MadePlane::new(&plane, &to_part)));
         milled = plan.milled().or(milled);
         operations.push(PlannedOperation { number, plan });
     }
@@ -134,6 +146,7 @@ pub(crate) fn setting<'a>(
         stock: &job.stock,
         drilled: &job.drilled,
         made: &[],
+        faced: &[],
         milled: None,
         machine: job.machine.as_ref(),
         orientation: job.orientation,

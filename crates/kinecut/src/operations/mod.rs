@@ -17,6 +17,7 @@ pub mod edge;
 pub mod face;
 pub(crate) mod kind;
 pub(crate) mod known;
+mod made_plane;
 pub mod measured;
 mod milling;
 mod named;
@@ -38,6 +39,7 @@ pub mod wall;
 pub(crate) mod wanted;
 
 pub(crate) use kind::{Attempt, Found, Judged, Probes, Shown, Tally, WearRegister};
+pub(crate) use made_plane::MadePlane;
 pub use milling::{JobPlane, Milling};
 pub(crate) use milling::{feed_of, milling, milling_of, spindle, tool_of, whole_revolutions};
 pub(crate) use pen::Pen;

@@ -5,7 +5,7 @@ use std::borrow::Cow;
 use glam::DVec3;
 
 use super::edge::FaceEdges;
-use super::{MadeHole, Milling, OperationTable, OrientationName};
+use super::{MadeHole, MadePlane, Milling, OperationTable, OrientationName};
 use crate::base::{Loader, Progress};
 use crate::geom::{Aabb, Rigid, Solid};
 use crate::machine::Machine;
@@ -99,6 +99,8 @@ pub(crate) struct Setting<'a> {
     pub(crate) drilled: &'a [Drilled],
     /// Holes that operations before it leave.
     pub(crate) made: &'a [MadeHole],
+    /// Planes that operations before it leave.
+    pub(crate) faced: &'a [MadePlane],
     /// The face that was milled last before it in its setup.
     pub(crate) milled: Option<&'a FaceEdges>,
     /// The machine, if there is one.

@@ -6,7 +6,7 @@ use super::DrillOperation;
 use crate::base::Result;
 use crate::drilling::{BoundarySurface, PartFace, PartMesh, Passage, PreHole, Side};
 use crate::geom::{Aabb, EdgeProfile, Mesh, Rigid, Solid};
-use crate::operations::{Drilled, Setting};
+use crate::operations::{Drilled, MadePlane, Setting};
 
 /// A body that is drilled, in part coordinates, and the way from the work offset to it.
 pub(super) struct DrilledBody<'a> {
@@ -14,6 +14,8 @@ pub(super) struct DrilledBody<'a> {
     to_part: Rigid,
     kind: Kind<'a>,
     drilled: &'a [Drilled],
+    /// Planes that have been milled before; on a stock that is a mesh they are not looked at.
+    faced: &'a [MadePlane],
 }
 
 enum Kind<'a> {
@@ -51,7 +53,8 @@ impl<'a> DrilledBody<'a> {
                 (Kind::Simple(simple, Box::new(PartMesh::new(&mesh_of(simple))?)), setting.drilled)
             }
         };
-        Ok(DrilledBody { to_part, kind, drilled })
+        let faced = if drill.body.is_none() { setting.faced } else { &[] };
+        Ok(DrilledBody { to_part, kind, drilled, faced })
     }
 
     /// Surfaces that an edge meets at a place of the work offset; Z counts from `at.z`.
@@ -60,8 +63,10 @@ impl<'a> DrilledBody<'a> {
         let mesh = match &self.kind {
             Kind::Simple(solid, mesh) => {
                 if let Some([entry, exit]) = exact(solid, point, out, edge.outer_radius()) {
-                    let surfaces =
-                        [entry.0.surface(Side::Entry, entry.1)?, exit.0.surface(Side::Exit, exit.1)?];
+                    let found = [entry.0.surface(Side::Entry, entry.1)?, exit.0.surface(Side::Exit, exit.1)?];
+                    let (surfaces, milled) = self.milled(found, point, out, edge.outer_radius())?;
+                    let faces = [entry.0, exit.0];
+                    let faces = std::array::from_fn(|i| if milled[i] { LEVEL_PLANE } else { faces[i] });
                     let pre_hole = self.pre_hole(edge.outer_radius(), at, surfaces);
                     let across = match (solid, entry.0) {
                         (Solid::Cylinder { .. }, PartFace::OuterCylinder { .. }) => {
@@ -71,13 +76,7 @@ impl<'a> DrilledBody<'a> {
                         // Planes are square to the drill: any direction will do.
                         _ => 0.0,
                     };
-                    return Ok(Met {
-                        surfaces,
-                        faces: Some([entry.0, exit.0]),
-                        passages: None,
-                        pre_hole,
-                        across,
-                    });
+                    return Ok(Met { surfaces, faces: Some(faces), passages: None, pre_hole, across });
                 }
                 mesh
             }
@@ -112,6 +111,34 @@ impl<'a> DrilledBody<'a> {
         Ok(Met { surfaces, faces: None, passages: Some(passages), pre_hole: None, across: 0.0 })
     }
 
+    /// Entry and exit, where a face has been milled over all of the disc the plane in their place; and which of them are.
+    fn milled(
+        &self,
+        found: [BoundarySurface; 2],
+        point: DVec3,
+        out: DVec3,
+        radius: f64,
+    ) -> Result<([BoundarySurface; 2], [bool; 2])> {
+        /// Difference of heights that is rounding [mm].
+        const ROUNDING: f64 = 1e-9;
+        let lowest =
+            |out: DVec3| self.faced.iter().filter_map(|p| p.over(point, out, radius)).min_by(f64::total_cmp);
+        let [entry, exit] = found;
+        // The plane counts where it has taken all that was there: a dip of the stock below it would stay.
+        let top = lowest(out).filter(|top| least(&entry, radius).is_some_and(|low| low >= top - ROUNDING));
+        let bottom = lowest(-out).map(|d| -d).filter(|bottom| exit.greatest(radius) <= bottom + ROUNDING);
+        let heights = [top.unwrap_or(f64::INFINITY), bottom.unwrap_or(f64::NEG_INFINITY)];
+        if heights[0] <= heights[1].max(exit.greatest(radius)) {
+            return Ok((found, [false; 2]));
+        }
+        let plane = |height: Option<f64>, side: Side, of: BoundarySurface| match height {
+            Some(height) => LEVEL_PLANE.surface(side, height),
+            None => Ok(of),
+        };
+        let surfaces = [plane(top, Side::Entry, entry)?, plane(bottom, Side::Exit, exit)?];
+        Ok((surfaces, [top.is_some(), bottom.is_some()]))
+    }
+
     /// The hole of the raw stock that the drill opens out, if its axis is the drill's direction and it lies within the
     /// drill.
     fn pre_hole(&self, radius: f64, at: DVec3, surfaces: [BoundarySurface; 2]) -> Option<PreHole> {
@@ -139,9 +166,21 @@ impl<'a> DrilledBody<'a> {
     }
 }
 
+/// A plane square to the drill.
+const LEVEL_PLANE: PartFace = PartFace::Plane { inclination: 0.0, offset: 0.0 };
+
+/// Least height of a surface over a disc of a radius about the tool axis [mm]; `None` under a roof.
+fn least(surface: &BoundarySurface, radius: f64) -> Option<f64> {
+    let ends = [-radius, radius].map(|u| surface.height(u));
+    match surface {
+        BoundarySurface::Valley { .. } => None,
+        _ => Some(if ends[0] < ends[1] { ends[0] } else { ends[1] }),
+    }
+}
+
 /// Entry and exit with the heights of their frames, where the drill lies within plain faces of a simple solid.
 fn exact(solid: &Solid, point: DVec3, out: DVec3, radius: f64) -> Option<[(PartFace, f64); 2]> {
-    let plane = PartFace::Plane { inclination: 0.0, offset: 0.0 };
+    let plane = LEVEL_PLANE;
     match solid {
         Solid::Box(b) => {
             let axis = (0..3).find(|&i| out[i].abs() > 1.0 - 1e-12)?;

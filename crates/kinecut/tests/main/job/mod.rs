@@ -2,6 +2,7 @@
 
 mod budget;
 mod chamfer;
+mod claims;
 mod contour;
 mod deburr;
 mod design;
