@@ -11,6 +11,7 @@ pub(crate) mod band;
 pub mod bore;
 pub mod chamfer;
 pub mod contour;
+mod core_hole;
 pub mod drill;
 pub mod face;
 pub(crate) mod kind;
@@ -29,6 +30,7 @@ mod round_hole;
 pub(crate) mod setting;
 mod table;
 pub mod tap;
+pub mod thread_mill;
 mod uncut;
 pub mod wall;
 pub(crate) mod wanted;
@@ -59,6 +61,8 @@ kinds! {
     Drill "drill" (drill::DrillTable, drill::DrillOperation, drill::PlannedDrilling),
     /// Threads by a tap.
     Tap "tap" (tap::TapTable, tap::TapOperation, tap::PlannedTapping),
+    /// Threads by a thread mill, in holes or on bosses.
+    ThreadMill "thread-mill" (thread_mill::ThreadMillTable, thread_mill::ThreadMillOperation, thread_mill::PlannedThreadMilling),
     /// Milling of a plane face.
     Face "face" (face::FacingTable, face::FaceOperation, face::PlannedFace),
     /// A tool path that comes from elsewhere, with directions of the tool.
