@@ -84,10 +84,7 @@ impl Cutter {
     /// Height up to which the end shape reaches [mm]: 0 for a flat one.
     pub fn tip_height(&self) -> f64 {
         match *self {
-            Cutter::EndMill { .. }
-            | Cutter::Tapered { .. }
-            | Cutter::Tap(_)
-            | Cutter::ThreadMill(_) => 0.0,
+            Cutter::EndMill { .. } | Cutter::Tapered { .. } | Cutter::Tap(_) | Cutter::ThreadMill(_) => 0.0,
             Cutter::BallNose { diameter } => diameter / 2.0,
             Cutter::BullNose { corner_radius, .. } => corner_radius,
             // An invalid point is reported by `check`.

@@ -67,7 +67,10 @@ impl ThreadMill {
             let finding = Finding::error(Code::TOOL_VALUE, "the number of rows of teeth is out of range");
             let bound = if self.rows == 0 { 1 } else { MOST_ROWS };
             let finding = finding.value(f64::from(self.rows), "").bound(f64::from(bound), "");
-            return Err(finding.help("write the rows along the axis, 1 for a single-row tool").key("rows").into());
+            return Err(finding
+                .help("write the rows along the axis, 1 for a single-row tool")
+                .key("rows")
+                .into());
         }
         if !(self.half_angle > 0.0 && self.half_angle <= FRAC_PI_4) {
             let what = "the half angle of a thread lies above 0 and at most at 45 degrees";
@@ -96,7 +99,12 @@ impl ThreadMill {
             return Err(refused("neck_length", what, neck.top, bound));
         }
         if shank < neck.diameter - ROUNDING {
-            return Err(refused("neck_diameter", "the neck is not wider than the shank", neck.diameter, shank));
+            return Err(refused(
+                "neck_diameter",
+                "the neck is not wider than the shank",
+                neck.diameter,
+                shank,
+            ));
         }
         Ok(())
     }

@@ -1,8 +1,8 @@
 //! Whether a thread can be milled with a tool.
 
+use super::thread::shown;
 use super::{Thread, ThreadMillSpec, ThreadSide, coarse_pitch};
 use crate::base::{Code, CountBound, Finding, Result};
-use super::thread::shown;
 
 /// Diameter by which the tool is at least smaller than the hole [mm].
 const PASSES: f64 = 0.2;
@@ -48,10 +48,14 @@ impl ThreadMillSpec {
         };
         let least = if low < high { low } else { high };
         if least - slack <= SAME {
-            return Err(refused("the first pass is so shallow that the tool does not cut", self.infeed[0], 1.0)
-                .help("begin with a larger share")
-                .key("infeed[0]")
-                .into());
+            return Err(refused(
+                "the first pass is so shallow that the tool does not cut",
+                self.infeed[0],
+                1.0,
+            )
+            .help("begin with a larger share")
+            .key("infeed[0]")
+            .into());
         }
         super::neck::check(self, [low, high])?;
         Ok([low, high])
@@ -95,7 +99,8 @@ impl ThreadMillSpec {
         let mut last = 0.0;
         for (i, share) in self.infeed.iter().enumerate() {
             if !(*share > last && *share <= 1.0) {
-                let finding = Finding::error(Code::PLAN_VALUE, "a radial pass is not deeper than the one before");
+                let finding =
+                    Finding::error(Code::PLAN_VALUE, "a radial pass is not deeper than the one before");
                 let finding = finding.value(*share, "of the depth").bound(last, "of the depth");
                 return Err(finding
                     .help("write ascending shares of the thread's depth up to 1: infeed = [0.7, 1.0]")
@@ -105,9 +110,13 @@ impl ThreadMillSpec {
             last = *share;
         }
         if last < 1.0 {
-            let finding = Finding::error(Code::PLAN_VALUE, "the last radial pass does not cut the full depth");
+            let finding =
+                Finding::error(Code::PLAN_VALUE, "the last radial pass does not cut the full depth");
             let finding = finding.value(last, "of the depth").bound(1.0, "of the depth");
-            return Err(finding.help("end with 1.0").key(format!("infeed[{}]", self.infeed.len() - 1)).into());
+            return Err(finding
+                .help("end with 1.0")
+                .key(format!("infeed[{}]", self.infeed.len() - 1))
+                .into());
         }
         Ok(())
     }
@@ -120,7 +129,11 @@ impl ThreadMillSpec {
             Err(finding.help(help).key("tool").into())
         };
         if (mill.pitch - self.thread.pitch).abs() > SAME {
-            let what = format!("the teeth have a pitch of {}, the thread {}", shown(mill.pitch), shown(self.thread.pitch));
+            let what = format!(
+                "the teeth have a pitch of {}, the thread {}",
+                shown(mill.pitch),
+                shown(self.thread.pitch)
+            );
             return wrong(what, mill.pitch, self.thread.pitch, "mm", "take the thread mill of this pitch");
         }
         let half_angle = self.thread.form.half_angle();
@@ -131,7 +144,13 @@ impl ThreadMillSpec {
                 shown(own),
                 shown(wanted)
             );
-            return wrong(what, own, wanted, "deg", "take the thread mill of this profile, or say the form of the thread");
+            return wrong(
+                what,
+                own,
+                wanted,
+                "deg",
+                "take the thread mill of this profile, or say the form of the thread",
+            );
         }
         if self.thread.taper > 0.0 && mill.rows > 1 {
             let what = "a taper thread is milled with a single row of teeth".to_owned();

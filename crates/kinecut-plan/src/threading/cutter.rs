@@ -46,10 +46,9 @@ impl ThreadCutter {
     /// Parts above the teeth that go into the hole, or beside the boss: a name, the diameter, the height above the tip.
     pub(super) fn above(&self) -> Vec<(&'static str, f64, f64)> {
         match self.mill.neck {
-            Some(neck) => vec![
-                ("neck", neck.diameter, self.flute_length),
-                ("shank", self.shank_diameter, neck.top),
-            ],
+            Some(neck) => {
+                vec![("neck", neck.diameter, self.flute_length), ("shank", self.shank_diameter, neck.top)]
+            }
             None => vec![("shank", self.shank_diameter, self.flute_length)],
         }
     }

@@ -50,13 +50,15 @@ mod tests {
                     let reached = way_in.centre + DVec2::from_angle(way_in.sweep).rotate(arm);
                     assert!(reached.distance(on) < 1e-12, "{side:?} {turn} {angle}");
                     let sense = way_in.sweep.signum();
-                    assert!((arm.perp() * sense).normalize().distance(-way_in.away) < 1e-12);
-                    assert!(((on - way_in.centre).perp() * sense).normalize().distance(along) < 1e-12);
+                    assert!((arm.perp() * sense).normalize_or_zero().distance(-way_in.away) < 1e-12);
+                    assert!(
+                        ((on - way_in.centre).perp() * sense).normalize_or_zero().distance(along) < 1e-12
+                    );
                     let way_out = lead(side, out, 3.0, 2.5, [turn, -1.0]);
                     let left = way_out.centre + DVec2::from_angle(way_out.sweep).rotate(on - way_out.centre);
                     assert!(left.distance(way_out.free) < 1e-12, "{side:?} {turn} {angle}");
                     let arm = (way_out.free - way_out.centre).perp() * way_out.sweep.signum();
-                    assert!(arm.normalize().distance(way_out.away) < 1e-12);
+                    assert!(arm.normalize_or_zero().distance(way_out.away) < 1e-12);
                 }
             }
         }

@@ -1,8 +1,8 @@
 //! What of the tool goes into the hole above its teeth, or beside the boss.
 
+use super::thread::shown;
 use super::{ThreadMillSpec, ThreadSide};
 use crate::base::{Code, Finding, Result};
-use super::thread::shown;
 
 /// Way between wall and neck [mm].
 const CLEAR: f64 = 0.05;

@@ -1,6 +1,6 @@
 //! The moves of milled threads: for each place, pass and step down the middle, in, round, out.
 
-use std::f64::consts::{FRAC_PI_2, PI, TAU};
+use std::f64::consts::{PI, TAU};
 use std::ops::Range;
 
 use glam::{DVec2, DVec3};
@@ -142,19 +142,22 @@ impl Maker<'_> {
         let low = spec.top - spec.depth + f64::from(step) * pitch;
         let high = low + turns * pitch;
         let heights = if self.travel.upwards { [low, high] } else { [high, low] };
-        let short = (1.0 - share) * spec.thread.height(spec.side);
-        let radius = |z: f64| {
-            // The radius changes evenly: exact at both ends.
-            let ends = [spec.depth, 0.0].map(|depth| spec.centre_radius(depth).unwrap_or(0.0));
-            let full = ends[0] + (ends[1] - ends[0]) * (z - spec.top + spec.depth) / spec.depth;
-            match spec.side {
-                ThreadSide::Inside => full - short,
-                ThreadSide::Outside => full + short,
-            }
-        };
         let finishing = self.route.finishing;
-        let radii = if spec.thread.taper > 0.0 { heights.map(radius) } else { [radius(low); 2] };
+        let radii = heights.map(|z| self.radius(z, share));
         ThreadRun { place, share, finishing, radii, heights, turns, moves: 0..0 }
+    }
+
+    /// Radius of the path where the lowest row's middle has a height, in a pass to a share of the thread's depth.
+    fn radius(&self, z: f64, share: f64) -> f64 {
+        let spec = self.spec;
+        let depth = if spec.thread.taper > 0.0 { spec.top - z } else { 0.0 };
+        let short = (1.0 - share) * spec.thread.height(spec.side);
+        // That there is one was checked at the mouth and at the bottom.
+        let full = spec.centre_radius(depth).unwrap_or_else(|| spec.nominal_radius(depth));
+        match spec.side {
+            ThreadSide::Inside => full - short,
+            ThreadSide::Outside => full + short,
+        }
     }
 
     /// To the helix, along it, and away from it.
@@ -211,31 +214,38 @@ impl Maker<'_> {
     fn helix(&mut self, run: &ThreadRun, at: DVec2, [z0, z1]: [f64; 2], end: DVec3) -> Result<()> {
         let [r0, r1] = run.radii;
         let sweep = self.travel.turn() * TAU * run.turns;
-        let (role, pace) = (ToolpathRole::Finish, ToolpathPace::Feed(self.feed));
-        let role = if run.finishing { role } else { ToolpathRole::Rough };
+        let role = if run.finishing { ToolpathRole::Finish } else { ToolpathRole::Rough };
+        let (pace, z_of_middle) = (ToolpathPace::Feed(self.feed), run.heights[0] - z0);
         if r0 == r1 {
             let start = (at + DVec2::new(r0, 0.0)).extend(z0);
             let arc = Arc::new(start, at.extend(z0), DVec3::Z, sweep, z1 - z0)?;
             self.route.along(role, pace, arc.into(), end);
             return Ok(());
         }
-        let growth = (r1 - r0).abs() / sweep.abs();
-        let whole = Spiral::new(SpiralLaw::Archimedes { growth }, r0 / growth, r1 / growth)?;
-        // Growing it turns counter-clockwise by itself.
-        let whole = if (r1 > r0) == (sweep > 0.0) {
-            whole.rotated(-r0 / growth)
-        } else {
-            whole.mirrored().rotated(r0 / growth - PI)
-        };
-        let whole = whole.shifted(at);
         // Heights are in proportion to the angle: by quarters of a turn they are in proportion to the length too.
-        let parts = whole.parts(FRAC_PI_2);
-        let count = parts.len() as f64;
-        for (i, part) in parts.into_iter().enumerate() {
-            let z = [i as f64, i as f64 + 1.0].map(|share| z0 + (z1 - z0) * share / count);
-            let to = part.end().extend(z[1]);
-            self.route.along(role, pace, Curve::spiral(part, z[0], Rise::even(z[1] - z[0])), to);
+        let count = (4.0 * run.turns).ceil();
+        let mut before = r0;
+        for i in 0..count as u32 {
+            let [from, to] = [f64::from(i) / count, f64::from(i + 1) / count];
+            let [za, zb] = [from, to].map(|share| z0 + (z1 - z0) * share);
+            let after = if to == 1.0 { r1 } else { self.radius(zb + z_of_middle, run.share) };
+            let part = quarter([before, after], sweep * from, sweep / count)?.shifted(at);
+            let to = if to == 1.0 { end } else { part.end().extend(zb) };
+            self.route.along(role, pace, Curve::spiral(part, za, Rise::even(zb - za)), to);
+            before = after;
         }
         Ok(())
     }
+}
+
+/// A piece of a spiral about the origin between two radii, from an angle on by a sweep [rad].
+fn quarter([from, to]: [f64; 2], angle: f64, sweep: f64) -> Result<Spiral> {
+    let growth = (to - from).abs() / sweep.abs();
+    let piece = Spiral::new(SpiralLaw::Archimedes { growth }, from / growth, to / growth)?;
+    // Growing it turns counter-clockwise by itself.
+    Ok(if (to > from) == (sweep > 0.0) {
+        piece.rotated(angle - from / growth)
+    } else {
+        piece.mirrored().rotated(angle + from / growth - PI)
+    })
 }

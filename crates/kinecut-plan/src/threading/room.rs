@@ -24,7 +24,9 @@ pub(super) fn line(spec: &ThreadMillSpec, radius: f64) -> Result<f64> {
     };
     // The half circles from the axis to the helix.
     if wear.largest >= 0.5 * radius {
-        return Err(refused("the arcs to the thread are too tight for this wear correction", 0.5 * radius).into());
+        return Err(
+            refused("the arcs to the thread are too tight for this wear correction", 0.5 * radius).into()
+        );
     }
     let narrowest = spec.thread.minor_diameter() + 2.0 * spec.thread.widening(spec.side, spec.depth);
     let open = 0.5 * (narrowest - spec.cutter.mill.diameter) - CLEAR;
@@ -36,5 +38,9 @@ pub(super) fn line(spec: &ThreadMillSpec, radius: f64) -> Result<f64> {
     }
     let (share, more) = LINES[2];
     let most = (open - more) / share;
-    Err(refused("the hole has no room to switch this wear correction on", if most > 0.0 { most } else { 0.0 }).into())
+    Err(refused(
+        "the hole has no room to switch this wear correction on",
+        if most > 0.0 { most } else { 0.0 },
+    )
+    .into())
 }

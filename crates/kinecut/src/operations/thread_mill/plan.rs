@@ -20,9 +20,7 @@ use crate::operations::kind::{self, Attempt, Checked as _};
 use crate::operations::measured::Proof;
 use crate::operations::wall::{CLEARANCE, WearKeys, write_worn_moves};
 use crate::operations::wanted::{Wall, WantedWall};
-use crate::operations::{
-    Found, Judged, Pen, PostedPlan, RoundHole, Setting, Shown, Tally, WearRegister,
-};
+use crate::operations::{Found, Judged, Pen, PostedPlan, RoundHole, Setting, Shown, Tally, WearRegister};
 use crate::page::Section;
 use crate::threading::{ThreadCutter, ThreadMillSpec, ThreadPlan, ThreadSide, plan_threads};
 
@@ -111,8 +109,7 @@ fn spec(of: &ThreadMillOperation, setting: &Setting<'_>) -> Result<ThreadMillSpe
 /// The wear register, read and checked.
 fn wear(of: &ThreadMillOperation, setting: &Setting<'_>) -> Result<Option<Wear>> {
     let t = &of.table;
-    let keys =
-        WearKeys { register: t.wear_offset.as_deref(), largest: t.wear_largest, value: t.wear_value };
+    let keys = WearKeys { register: t.wear_offset.as_deref(), largest: t.wear_largest, value: t.wear_value };
     let wear = keys.wear(USUAL_WEAR)?;
     keys.check(setting, of.milling.tool.number, wear)?;
     Ok(wear)
@@ -208,8 +205,9 @@ impl kind::Plan for PlannedThreadMilling {
         let (mut judged, deviation) = prove::judged(self, posted);
         self.deviation = deviation;
         if !self.has_wall() {
-            judged.unchecked =
-                Some(format!("{name}: the wall of the crests in the simulated part, which is a cone of steps"));
+            judged.unchecked = Some(format!(
+                "{name}: the wall of the crests in the simulated part, which is a cone of steps"
+            ));
         }
         judged
     }

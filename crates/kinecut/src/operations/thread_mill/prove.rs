@@ -19,12 +19,14 @@ use crate::tool::Hand;
 
 /// Way along the axis by which a thread may begin late or end early: rounding of heights [mm].
 const HEIGHT: f64 = 2e-3;
+/// Intervals along a taper thread in which the radius of its helix changes evenly.
+const NODES: usize = 32;
 
 /// The wanted thread, as points of its helices are compared with it [mm].
 struct Wanted<'a> {
     plan: &'a PlannedThreadMilling,
-    /// Radius of the finished helix at the bottom and at the mouth.
-    radii: [f64; 2],
+    /// Radius of the finished helix at even heights from the bottom to the mouth; of a cylinder at one.
+    radii: Vec<f64>,
     /// Counter-clockwise.
     counter_clockwise: bool,
 }
@@ -89,7 +91,10 @@ impl<'a> Wanted<'a> {
         };
         Wanted {
             plan,
-            radii: [helix(table.depth), helix(0.0)],
+            radii: match thread.taper > 0.0 {
+                true => (0..=NODES).map(|i| helix(table.depth * (1.0 - i as f64 / NODES as f64))).collect(),
+                false => vec![helix(0.0)],
+            },
             counter_clockwise: counter_clockwise(inside, table.direction, plan.of.is_left_hand()),
         }
     }
@@ -101,8 +106,15 @@ impl<'a> Wanted<'a> {
 
     /// Radius of the finished helix where the lowest row's middle has a height.
     fn radius(&self, z: f64) -> f64 {
-        let (t, [low, high]) = (&self.plan.of.table, self.radii);
-        low + (high - low) * (z - t.top + t.depth) / t.depth
+        let t = &self.plan.of.table;
+        let [one] = self.radii[..] else {
+            let share = (z - t.top + t.depth) / t.depth * NODES as f64;
+            // Beyond both ends as in the last interval.
+            let i = (share.floor().max(0.0) as usize).min(NODES - 1);
+            let [low, high] = [self.radii[i], self.radii[i + 1]];
+            return low + (high - low) * (share - i as f64);
+        };
+        one
     }
 
     /// Compares the helices of a thread; its deviation of the pitch diameter [mm].
@@ -207,8 +219,9 @@ pub(super) fn sum_up(tallies: &[Tally]) -> (Option<Proof>, Option<String>) {
             "{threads}: the helix of the text has the pitch, hand, direction and depth of the thread, and by the envelope of straight flanks its pitch diameter within {} \u{b5}m",
             fixed((worst * 1e4).ceil() * 0.1, 1)
         ),
-        bound: "points of each helix, 64 a turn; for the profile and diameter of the tool that the job states"
-            .to_owned(),
+        bound:
+            "points of each helix, 64 a turn; for the profile and diameter of the tool that the job states"
+                .to_owned(),
     };
     (Some(proof), None)
 }

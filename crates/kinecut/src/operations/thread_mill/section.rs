@@ -2,9 +2,7 @@
 
 use super::PlannedThreadMilling;
 use crate::operations::Shown;
-use crate::page::{
-    Block, Cell, Column, Fact, Row, Section, Table, fixed, trimmed,
-};
+use crate::page::{Block, Cell, Column, Fact, Row, Section, Table, fixed, trimmed};
 use crate::threading::{MillProfile, ThreadRun, ThreadSide};
 
 /// The section of an operation.
@@ -20,10 +18,11 @@ fn mm(length: f64) -> String {
 
 fn facts(plan: &PlannedThreadMilling, of: &Shown<'_>) -> Vec<Fact> {
     let (spec, thread, mill, made) = (&plan.spec, &plan.of.thread, &plan.of.mill, &plan.plan);
-    let mut facts = vec![
-        Fact::new("Thread", plan.of.thread_name())
-            .note(format!("{} full, pitch diameter {}", mm(spec.depth), mm(thread.pitch_diameter()))),
-    ];
+    let mut facts = vec![Fact::new("Thread", plan.of.thread_name()).note(format!(
+        "{} full, pitch diameter {}",
+        mm(spec.depth),
+        mm(thread.pitch_diameter())
+    ))];
     if let Some(deviation) = plan.deviation {
         let um = fixed((deviation * 1e4).ceil() * 0.1, 1);
         facts.push(
@@ -61,7 +60,8 @@ fn facts(plan: &PlannedThreadMilling, of: &Shown<'_>) -> Vec<Fact> {
     }));
     let way = if made.travel.counter_clockwise { "counter-clockwise" } else { "clockwise" };
     let climb = if made.travel.upwards { "upwards" } else { "downwards" };
-    let rows = if mill.rows == 1 { "1 row of teeth".to_owned() } else { format!("{} rows of teeth", mill.rows) };
+    let rows =
+        if mill.rows == 1 { "1 row of teeth".to_owned() } else { format!("{} rows of teeth", mill.rows) };
     facts.push(Fact::new("Direction", format!("{way}, {climb}")).note(rows));
     let per_minute = |feed: f64| format!("{} mm/min", trimmed(feed * 60.0, 1));
     facts.push(Fact::new("Feed", per_minute(spec.feed)).note(format!(
@@ -76,8 +76,11 @@ fn facts(plan: &PlannedThreadMilling, of: &Shown<'_>) -> Vec<Fact> {
     let measured = of.walls.iter().filter(|m| m.wall[0] <= m.wall[1]);
     if let Some(worst) = measured.map(|m| m.worst()).max_by(f64::total_cmp) {
         facts.push(
-            Fact::new("Wall of the crests", format!("up to {} \u{b5}m off", fixed((worst * 1e4).ceil() * 0.1, 1)))
-                .note("in the simulated part, where the tool is the cylinder of its crests"),
+            Fact::new(
+                "Wall of the crests",
+                format!("up to {} \u{b5}m off", fixed((worst * 1e4).ceil() * 0.1, 1)),
+            )
+            .note("in the simulated part, where the tool is the cylinder of its crests"),
         );
     }
     facts
@@ -101,7 +104,8 @@ fn table(plan: &PlannedThreadMilling) -> Table {
     };
     let row = |run: &ThreadRun| {
         let [from, to] = run.radii;
-        let radius = if from == to { fixed(from, 4) } else { format!("{} to {}", fixed(from, 4), fixed(to, 4)) };
+        let radius =
+            if from == to { fixed(from, 4) } else { format!("{} to {}", fixed(from, 4), fixed(to, 4)) };
         Row::new(vec![
             Cell::new(trimmed(run.share * 100.0, 1)),
             Cell::new(radius),

@@ -1,10 +1,10 @@
 //! Milled threads through the whole: posted for each control, read back, cut, the groove of the text by brute force.
 
+use glam::DVec3;
 use kinecut::base::{Code, Error, MemoryLoader, Severity, Silent};
 use kinecut::geom::CurveKind;
 use kinecut::job::{Outcome, run};
 use kinecut::trace::SegmentPace;
-use glam::DVec3;
 
 use crate::common::groove::{Tooth, pitch_radius};
 
@@ -36,7 +36,7 @@ diameter = 5
 pitch = 1.25
 teeth = 3
 flute_length = 1.25
-neck_diameter = 3.2
+neck_diameter = 2.8
 neck_length = 22
 shank_diameter = 6
 stickout = 40
@@ -119,12 +119,8 @@ fn helices(outcome: &Outcome, tool: u32, axis: [f64; 2], pitch: f64) -> Vec<Turn
 
 /// The pitch diameter of a helix of the text, in some half-planes.
 fn pitch_diameters(helix: &Turned, tool: f64, [pitch, crest]: [f64; 2], inside: bool) -> Vec<f64> {
-    let tooth = Tooth {
-        crest: 0.5 * tool,
-        pitch_line: 0.5 * tool - crest,
-        pitch,
-        half_angle: 30f64.to_radians(),
-    };
+    let tooth =
+        Tooth { crest: 0.5 * tool, pitch_line: 0.5 * tool - crest, pitch, half_angle: 30f64.to_radians() };
     let count = helix.points.len();
     let z = helix.points[count / 2].z;
     let turn: Vec<DVec3> = helix.points.iter().filter(|p| (p.z - z).abs() < 0.5 * pitch).copied().collect();
@@ -146,12 +142,15 @@ fn every_control_mills_both_threads_and_the_groove_of_the_text_has_the_pitch_dia
         let verdict = &outcome.verdict;
         assert!(verdict.is_safe() && verdict.found.is_empty(), "{control}: {:#?}", verdict.found);
         let claims: Vec<&str> = verdict.proven.iter().map(|p| p.claim.as_str()).collect();
-        assert!(claims.iter().any(|c| c.starts_with("2 milled threads: the helix of the text")), "{claims:?}");
+        assert!(
+            claims.iter().any(|c| c.starts_with("2 milled threads: the helix of the text")),
+            "{claims:?}"
+        );
         assert!(format!("{verdict:?}").contains("the flanks of a milled thread"), "{control}");
-        // In six rows M20 takes three steps, each in two passes.
+        // In six rows M20 takes two steps, each in two passes.
         for (tool, axis, cutter, pitch, wanted, count, last) in [
             (4, [20.0, 10.0], 5.0, 1.25, 7.188101183952089, 1, 0),
-            (5, [-20.0, 5.0], 14.0, 2.5, 18.376202367904178, 6, 3),
+            (5, [-20.0, 5.0], 14.0, 2.5, 18.376202367904178, 4, 2),
         ] {
             let found = helices(&outcome, tool, axis, pitch);
             assert_eq!(found.len(), count, "{control} T{tool}");
@@ -172,7 +171,7 @@ fn every_control_mills_both_threads_and_the_groove_of_the_text_has_the_pitch_dia
         }
         let json: serde_json::Value = serde_json::from_str(&kinecut::job::plan_json(&outcome)).unwrap();
         let own = &json["setups"][0]["milled_threads"];
-        assert_eq!(own[1]["helices"].as_array().unwrap().len(), 6, "{control}");
+        assert_eq!(own[1]["helices"].as_array().unwrap().len(), 4, "{control}");
         let told = own[0]["deviation"].as_f64().unwrap();
         assert!(told < 2e-3, "{control}: {told}");
     }
@@ -225,7 +224,8 @@ fn on_boss(control: &str, more: &str) -> Outcome {
 fn a_thread_on_a_boss_is_milled_clockwise_and_its_root_is_measured() {
     for control in ["sinumerik-840d", "grbl"] {
         let outcome = on_boss(control, "");
-        let found: Vec<_> = outcome.verdict.found.iter().filter(|f| f.severity >= Severity::Warning).collect();
+        let found: Vec<_> =
+            outcome.verdict.found.iter().filter(|f| f.severity >= Severity::Warning).collect();
         assert!(outcome.verdict.is_safe(), "{control}: {found:#?}");
         let helices = helices(&outcome, 5, [0.0, 0.0], 2.5);
         // 14 mm with 12.5 in a step.
@@ -258,15 +258,19 @@ fn a_taper_thread_is_posted_on_every_control() {
         assert!(told < 6e-3, "{control}: {told}");
         let radii: Vec<f64> =
             own["helices"][0]["radii"].as_array().unwrap().iter().map(|r| r.as_f64().unwrap()).collect();
-        // Over 8.5 turns of 1.25 by 1 in 32.
-        assert!((radii[1] - radii[0] - 10.625 / 32.0).abs() < 2e-3, "{radii:?}");
+        // Over 8.5 turns of 1.25 by 1 in 32, and a few hundredths more with the overcut of so small a tool.
+        let change = (radii[1] - radii[0]) / (10.625 / 32.0);
+        assert!(change > 1.02 && change < 1.05, "{radii:?}");
     }
 }
 
 #[test]
 fn the_wear_register_moves_the_thread_and_is_said() {
-    for (control, register, word) in [("fanuc", "D104", "D104"), ("linuxcnc", "D44", "D44"), ("heidenhain", "D2", "RL")] {
-        let more = format!("depth = 8\nwear_offset = \"{register}\"\nwear_largest = 0.04\nwear_value = 0.03\n");
+    for (control, register, word) in
+        [("fanuc", "D104", "D104"), ("linuxcnc", "D44", "D44"), ("heidenhain", "D2", "RL")]
+    {
+        let more =
+            format!("depth = 8\nwear_offset = \"{register}\"\nwear_largest = 0.04\nwear_value = 0.03\n");
         let outcome = cut(control, &format!("{M8}{more}"));
         let verdict = &outcome.verdict;
         assert!(verdict.is_safe(), "{control}: {:#?}", verdict.found);
@@ -282,7 +286,10 @@ fn the_wear_register_moves_the_thread_and_is_said() {
         assert!(wall.ends > 300 && wall.worst() < 2e-3, "{control}: {wall:?}");
     }
     let error = attempt("grbl", &format!("{M8}depth = 8\nwear_offset = \"D104\"\n")).unwrap_err();
-    assert_eq!((error.code(), error.0.key.as_deref()), (Code::POST_CONTROL, Some("setup[0].operation[0].wear_offset")));
+    assert_eq!(
+        (error.code(), error.0.key.as_deref()),
+        (Code::POST_CONTROL, Some("setup[0].operation[0].wear_offset"))
+    );
 }
 
 #[test]
@@ -316,25 +323,69 @@ fn errors_have_their_place_their_numbers_and_a_cure() {
         refused(&m8.replace(from, to))
     };
     for (found, code, key, parts) in [
-        (of("size = \"M8\"", "size = \"M10\"\ncore = { diameter = 8.376 }"), Code::THREAD_TOOL, "tool", vec!["pitch of 1.25, the thread 1.5"]),
+        (
+            of("size = \"M8\"", "size = \"M10\"\ncore = { diameter = 8.376 }"),
+            Code::THREAD_TOOL,
+            "tool",
+            vec!["pitch of 1.25, the thread 1.5"],
+        ),
         (of("size = \"M8\"", "size = \"M8.5\""), Code::PLAN_VALUE, "size", vec!["no coarse pitch"]),
         (of("size = \"M8\"", "size = \"G1/2\""), Code::PLAN_VALUE, "size", vec!["M20x1.5"]),
         (of("size = \"M8\"", "size = \"M8\"\npitch = 1"), Code::JOB_SHAPE, "pitch", vec!["exclude"]),
         (of("size = \"M8\"\n", ""), Code::JOB_SHAPE, "tool", vec!["size = \"M8\""]),
         (of("size = \"M8\"", "diameter = 8"), Code::JOB_SHAPE, "diameter", vec!["pitch"]),
         (of("size = \"M8\"", "diameter = 8\npitch = 6"), Code::PLAN_VALUE, "pitch", vec!["too large"]),
-        (of("tool = 4", "tool = 1"), Code::JOB_REFERENCE, "tool", vec!["T1 is no thread mill", "thread-mill"]),
+        (
+            of("tool = 4", "tool = 1"),
+            Code::JOB_REFERENCE,
+            "tool",
+            vec!["T1 is no thread mill", "thread-mill"],
+        ),
         (of("tool = 4", "tool = 9"), Code::JOB_REFERENCE, "tool", vec!["T9"]),
-        (of("size = \"M8\"", "size = \"M8\"\ncore = { diameter = 6.4 }"), Code::THREAD_CORE, "points[0]", vec!["is 6.4", "needs 6.647", "bore 6.647"]),
-        (of("size = \"M8\"", "size = \"M8\"\ncore = { diameter = 8.1 }"), Code::THREAD_CORE, "points[0]", vec!["no thread"]),
-        (of("size = \"M8\"", "size = \"M8\"\ncore = { diameter = 6.647, depth = 12 }"), Code::THREAD_CORE, "points[0]", vec!["12 deep", "bore to 13.3"]),
-        (of("size = \"M8\"", "size = \"M8\"\nside = \"outside\"\ncore = { diameter = 6.647 }"), Code::JOB_SHAPE, "core", vec!["boss"]),
-        (of("size = \"M8\"", "size = \"M8\"\ninfeed = [0.7, 0.9]"), Code::PLAN_VALUE, "infeed[1]", vec!["1.0"]),
-        (of("depth = 12", "depth = 22"), Code::THREAD_TOOL, "tool", vec!["shank of 6 mm", "22 above its tip"]),
+        (
+            of("size = \"M8\"", "size = \"M8\"\ncore = { diameter = 6.4 }"),
+            Code::THREAD_CORE,
+            "points[0]",
+            vec!["is 6.4", "needs 6.647", "bore 6.647"],
+        ),
+        (
+            of("size = \"M8\"", "size = \"M8\"\ncore = { diameter = 8.1 }"),
+            Code::THREAD_CORE,
+            "points[0]",
+            vec!["no thread"],
+        ),
+        (
+            of("size = \"M8\"", "size = \"M8\"\ncore = { diameter = 6.647, depth = 12 }"),
+            Code::THREAD_CORE,
+            "points[0]",
+            vec!["12 deep", "bore to 13.3"],
+        ),
+        (
+            of("size = \"M8\"", "size = \"M8\"\nside = \"outside\"\ncore = { diameter = 6.647 }"),
+            Code::JOB_SHAPE,
+            "core",
+            vec!["boss"],
+        ),
+        (
+            of("size = \"M8\"", "size = \"M8\"\ninfeed = [0.7, 0.9]"),
+            Code::PLAN_VALUE,
+            "infeed[1]",
+            vec!["1.0"],
+        ),
+        (
+            of("depth = 12", "depth = 22"),
+            Code::THREAD_TOOL,
+            "tool",
+            vec!["shank of 6 mm", "22 above its tip"],
+        ),
         (of("feed = 500\n", ""), Code::JOB_SHAPE, "", vec!["feed"]),
     ] {
         let (found_code, found_key, text) = found;
-        let wanted = if key.is_empty() { "setup[0].operation[0]".to_owned() } else { format!("setup[0].operation[0].{key}") };
+        let wanted = if key.is_empty() {
+            "setup[0].operation[0]".to_owned()
+        } else {
+            format!("setup[0].operation[0].{key}")
+        };
         assert_eq!((found_code, found_key), (code, wanted), "{text}");
         for part in parts {
             assert!(text.contains(part), "no `{part}` in {text}");
@@ -348,7 +399,9 @@ fn a_missing_or_wide_core_hole_is_a_warning_and_the_missing_one_is_met_in_the_st
     let missing = found(&format!("{}depth = 6\n", M8.replace("[[20, 10]]", "[[0, 0]]")));
     let told = missing.verdict.found.iter().find(|f| f.code == Code::THREAD_CORE).unwrap();
     assert!(told.severity == Severity::Warning && told.message.contains("M8x1.25 at X0 Y0: no core hole"));
-    assert!(!missing.verdict.is_safe() && missing.verdict.found.iter().any(|f| f.code == Code::RAPID_IN_STOCK));
+    assert!(
+        !missing.verdict.is_safe() && missing.verdict.found.iter().any(|f| f.code == Code::RAPID_IN_STOCK)
+    );
     let wide = found(&format!("{M8}depth = 6\ncore = {{ diameter = 7.0 }}\n"));
     let told = wide.verdict.found.iter().find(|f| f.code == Code::THREAD_CORE).unwrap();
     assert!(told.message.contains("largest of class 6H is 6.916"), "{}", told.message);
@@ -368,8 +421,8 @@ fn tools_that_are_no_thread_mills_have_none_of_their_keys() {
         ("pitch = 1.25\n", "pitch = -1\n", Code::TOOL_VALUE, "tool[1].pitch"),
         ("pitch = 1.25\n", "pitch = 1.25\nrows = 0\n", Code::TOOL_VALUE, "tool[1].rows"),
         ("pitch = 1.25\n", "pitch = 1.25\nrows = 2\n", Code::TOOL_VALUE, "tool[1].flute_length"),
-        ("neck_diameter = 3.2\n", "", Code::JOB_SHAPE, "tool[1].neck_length"),
-        ("neck_diameter = 3.2\n", "neck_diameter = 5.2\n", Code::TOOL_VALUE, "tool[1].neck_diameter"),
+        ("neck_diameter = 2.8\n", "", Code::JOB_SHAPE, "tool[1].neck_length"),
+        ("neck_diameter = 2.8\n", "neck_diameter = 5.2\n", Code::TOOL_VALUE, "tool[1].neck_diameter"),
         ("neck_length = 22\n", "neck_length = 50\n", Code::TOOL_VALUE, "tool[1].neck_length"),
         ("pitch = 1.25\n", "pitch = 1.25\nhalf_angle = 60\n", Code::TOOL_VALUE, "tool[1].half_angle"),
     ] {
