@@ -123,7 +123,7 @@ codes! {
     THREAD_CORE = "KC0413", "a core hole does not fit its milled thread",
         "A thread is milled into a hole that has its minor diameter: made by an operation before it, by `drilled`, or stated as `core`. A blind one is as deep as the thread, half a pitch of the lowest tooth, the way in or out and some free way together. In a smaller hole the roots of the teeth cut, a larger one leaves less thread; in a shorter one the tool meets the floor.";
     THREAD_OVERCUT = "KC0414", "a thread mill overcuts the flanks",
-        "The teeth stand square to the axis while the groove runs at the lead angle, so that a tool that is large for its thread cuts more than its section. The radius of the path is corrected so that the pitch diameter is right; the flanks are still not quite straight, and the major diameter is smaller by twice the amount. Take a smaller tool, or one whose profile its maker has corrected.";
+        "The teeth are square to the axis while the groove runs at the lead angle, so that a tool that is large for its thread cuts more than its section. The radius of the path is corrected so that the pitch diameter is right; the flanks are still not quite straight, and the major diameter is smaller by twice the amount. Take a smaller tool, or one whose profile its maker has corrected.";
     THREAD_FORM = "KC0415", "a posted thread is not the wanted one",
         "The helix was read back from the posted text, and its radius, pitch, hand, direction or height does not give the wanted thread: the pitch diameter by the envelope of the tool's flanks is off by more than the tolerance. The message gives both numbers.";
 

@@ -64,14 +64,14 @@ impl Flank {
     }
 
     /// Radius of the helix on which a tool with a radius at its pitch line leaves a pitch line of a radius [mm]; `None` where
-    /// there is none.
+    /// the helix would be too steep.
     ///
     /// ```
     /// # use kinecut_plan as kinecut;
     /// use kinecut::threading::{Flank, ThreadSide::Inside};
     /// let flank = Flank::new(2.5, 30f64.to_radians());
     /// let radius = flank.centre_radius(Inside, 9.188101183952089, 6.188101183952089).unwrap();
-    /// // Where the first correction would be 0.0538.
+    /// // Less by 0.0552, the overcut on that radius; on the nominal one it is 0.0538.
     /// assert!((radius - 2.944844).abs() < 1e-6);
     /// ```
     pub fn centre_radius(&self, side: ThreadSide, pitch_radius: f64, tool_radius: f64) -> Option<f64> {

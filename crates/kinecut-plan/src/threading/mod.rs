@@ -1,6 +1,6 @@
 //! Planner of milled threads, inside a hole or outside of a boss: whole turns of a helix, joined and left on its own slope.
 //!
-//! The tool stands square while the groove runs at the lead angle, so the flanks of a full-form tool cut more than its
+//! The tool is square to the axis while the groove runs at the lead angle, so the flanks of a full-form tool cut more than its
 //! section: [`Flank`] has by how much, exactly, and the radius of the path on which the pitch diameter comes out as wanted.
 //!
 //! # Signs

@@ -1,4 +1,4 @@
-//! What of the tool goes into the hole above its teeth, or beside the boss.
+//! Parts of the tool above its teeth that go into the hole, or beside the boss.
 
 use super::thread::shown;
 use super::{ThreadMillSpec, ThreadSide};

@@ -173,7 +173,7 @@ impl kind::Plan for PlannedThreadMilling {
 
     fn write(&mut self, pen: &mut Pen<'_>) -> Result<()> {
         let wear = self.wear_of_table();
-        // What stays lies outside of a way round in a hole, and inside of one about a boss.
+        // The material that stays lies outside of a way round in a hole, and inside of one about a boss.
         let inside = self.spec.side == ThreadSide::Inside;
         let keeps_right = self.plan.travel.counter_clockwise == inside;
         let from = pen.program.items.len() as u32;

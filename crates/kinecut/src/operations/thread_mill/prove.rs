@@ -145,7 +145,7 @@ impl<'a> Wanted<'a> {
                 let what = "the helix does not have the pitch and hand of the thread".to_owned();
                 return Err(wrong(what, per_turn, rises * thread.pitch, "mm a turn"));
             }
-            // Where the groove would be at the angle of X, between 0 and a pitch.
+            // Height of the groove at the angle of X, but for whole pitches.
             let starts = first.z - rises * thread.pitch * helix.begins(axis) / TAU;
             let shift = |a: f64, b: f64| ((a - b) / thread.pitch + 0.5).rem_euclid(1.0) - 0.5;
             let before = *phase.get_or_insert(starts);

@@ -199,7 +199,7 @@ fn hands_and_senses_are_those_of_the_text() {
 fn on_boss(control: &str, more: &str) -> Outcome {
     let boss = "[[setup.operation]]\ntype = \"contour\"\ntool = 1\nspeed = 6000\nfeed = 1200\n\
         circle = { at = [0, 0], diameter = 20 }\ndepth = 20\nstepdown = 20\n";
-    // What is around it is cleared in steps away from it.
+    // The stock around it is cleared first.
     let clear: String = [22.0, 26.0]
         .iter()
         .map(|radius| {
