@@ -1,5 +1,5 @@
 //! Planners of kinecut: bores and pockets by involutes ([`holes`]), [`drilling`] through any surface, [`facing`] with the
-//! least burr, and the time along a chain of curves ([`motion`]).
+//! least burr, milled threads ([`threading`]), and the time along a chain of curves ([`motion`]).
 //!
 //! A part of `kinecut`, which shows all of its layers under one name.
 
@@ -13,3 +13,4 @@ pub mod drilling;
 pub mod facing;
 pub mod holes;
 pub mod motion;
+pub mod threading;

@@ -118,6 +118,14 @@ codes! {
         "Passes of a pocket stop where every way on would cut with a larger engagement than is allowed: between walls that are hardly wider apart than the cutter, and in corners. The lap along the wall cuts what is left there, at the engagement that comes. Allow a larger one, or take a smaller cutter.";
     POCKET_PARTS = "KC0411", "a pocket falls into parts for this cutter",
         "Between two parts of the pocket there is a neck that is narrower than the cutter. Each part is entered and cleared by itself; the neck stays, and is named among the corners that stay. A smaller cutter passes through it.";
+    THREAD_TOOL = "KC0412", "a thread mill does not fit its thread",
+        "A thread mill has the pitch and the flank angle of the thread, passes through its core hole with 0.2 mm to spare, and its neck, shank and holder clear the material at full depth. A tool nearly as wide as the hole runs on so steep a helix that it cuts its own flanks away. The message gives the part and the bound.";
+    THREAD_CORE = "KC0413", "a core hole does not fit its milled thread",
+        "A thread is milled into a hole that has its minor diameter: made by an operation before it, by `drilled`, or stated as `core`. A blind one is as deep as the thread, half a pitch of the lowest tooth, the way in or out and some free way together. In a smaller hole the roots of the teeth cut, a larger one leaves less thread; in a shorter one the tool meets the floor.";
+    THREAD_OVERCUT = "KC0414", "a thread mill overcuts the flanks",
+        "The teeth are square to the axis while the groove runs at the lead angle, so that a tool that is large for its thread cuts more than its section. The radius of the path is corrected so that the pitch diameter is right; the flanks are still not quite straight, and the major diameter is smaller by twice the amount. Take a smaller tool, or one whose profile its maker has corrected.";
+    THREAD_FORM = "KC0415", "a posted thread is not the wanted one",
+        "The helix was read back from the posted text, and its radius, pitch, hand, direction or height does not give the wanted thread: the pitch diameter by the envelope of the tool's flanks is off by more than the tolerance. The message gives both numbers.";
 
     RAPID_IN_STOCK = "KC0501", "a rapid move goes through stock",
         "The cutter meets material in a rapid move. On most machines this breaks the cutter, and at times the spindle.";

@@ -5,7 +5,7 @@ use std::f64::consts::FRAC_PI_2;
 use crate::base::{Code, Finding, Result};
 use crate::geom::{Profile, ProfileElement};
 
-use super::{DrillPoint, Tap, filled};
+use super::{DrillPoint, Tap, ThreadMill, filled};
 
 /// Shape of the cutting part [mm, rad].
 #[derive(Clone, Debug, PartialEq)]
@@ -43,12 +43,19 @@ pub enum Cutter {
     },
     /// Tap. The thread is no part of its shape: that is a cylinder of the minor diameter, which fills the core hole.
     Tap(Tap),
+    /// Thread mill. As a body it is the cylinder of its crests.
+    ThreadMill(ThreadMill),
 }
 
 impl Cutter {
     /// Whether it works along its axis only: a drill or a tap.
     pub fn is_axial(&self) -> bool {
         matches!(self, Cutter::Drill { .. } | Cutter::Tap(_))
+    }
+
+    /// Whether it may mill walls of any form: neither a tool that works along its axis nor a thread mill.
+    pub fn mills_walls(&self) -> bool {
+        !self.is_axial() && !matches!(self, Cutter::ThreadMill(_))
     }
 
     /// Largest diameter [mm] of flutes of a given length.
@@ -58,7 +65,8 @@ impl Cutter {
             | Cutter::BallNose { diameter }
             | Cutter::BullNose { diameter, .. }
             | Cutter::Drill { diameter, .. }
-            | Cutter::Tap(Tap { diameter, .. }) => diameter,
+            | Cutter::Tap(Tap { diameter, .. })
+            | Cutter::ThreadMill(ThreadMill { diameter, .. }) => diameter,
             Cutter::Tapered { tip_diameter, half_angle } => {
                 tip_diameter + 2.0 * flute_length * half_angle.tan()
             }
@@ -76,7 +84,7 @@ impl Cutter {
     /// Height up to which the end shape reaches [mm]: 0 for a flat one.
     pub fn tip_height(&self) -> f64 {
         match *self {
-            Cutter::EndMill { .. } | Cutter::Tapered { .. } | Cutter::Tap(_) => 0.0,
+            Cutter::EndMill { .. } | Cutter::Tapered { .. } | Cutter::Tap(_) | Cutter::ThreadMill(_) => 0.0,
             Cutter::BallNose { diameter } => diameter / 2.0,
             Cutter::BullNose { corner_radius, .. } => corner_radius,
             // An invalid point is reported by `check`.
@@ -91,7 +99,7 @@ impl Cutter {
             Cutter::EndMill { diameter } => diameter / 2.0,
             Cutter::BullNose { diameter, corner_radius } => diameter / 2.0 - corner_radius,
             Cutter::Tapered { tip_diameter, .. } => tip_diameter / 2.0,
-            Cutter::BallNose { .. } | Cutter::Drill { .. } | Cutter::Tap(_) => 0.0,
+            Cutter::BallNose { .. } | Cutter::Drill { .. } | Cutter::Tap(_) | Cutter::ThreadMill(_) => 0.0,
         };
         (radius > 0.0).then_some(radius)
     }
@@ -136,6 +144,7 @@ impl Cutter {
             ),
             Cutter::Drill { diameter, ref point } => point.edge(diameter).map(drop),
             Cutter::Tap(tap) => tap.check(),
+            Cutter::ThreadMill(mill) => mill.check(),
             _ => Ok(()),
         }
     }
@@ -169,6 +178,7 @@ impl Cutter {
             }]),
             Cutter::Drill { diameter, ref point } => filled(&point.edge(diameter)?, flute_length),
             Cutter::Tap(tap) => Profile::cylinder(tap.minor_diameter(), flute_length),
+            Cutter::ThreadMill(mill) => Profile::cylinder(mill.diameter, flute_length),
         }
     }
 }

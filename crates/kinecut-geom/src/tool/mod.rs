@@ -9,6 +9,7 @@ mod holder;
 mod limits;
 mod spacing;
 mod tap;
+mod thread_mill;
 
 pub use contour::turn;
 pub use contour::{
@@ -22,6 +23,7 @@ pub use holder::{Holder, HolderSegment};
 pub use limits::{Hand, ToolLimits};
 pub use spacing::ToothSpacing;
 pub use tap::{ChamferForm, Tap};
+pub use thread_mill::{Neck, ThreadMill};
 
 use crate::base::{Code, CountBound, Finding, Result};
 use crate::geom::{Profile, ProfileElement};
@@ -112,6 +114,12 @@ impl Tool {
         if !positive(self.shank_diameter) {
             return fail("shank_diameter", "the shank needs a positive diameter", self.shank_diameter, 0.0);
         }
+        if let Cutter::ThreadMill(mill) = self.cutter {
+            mill.check_lengths(self.flute_length, self.stickout, self.shank_diameter).map_err(|mut e| {
+                e.0.message = format!("{}: {}", self.number, e.0.message);
+                e
+            })?;
+        }
         if let Some(angle) = self.max_ramp_angle
             && !(angle.is_finite() && angle > 0.0 && angle <= std::f64::consts::FRAC_PI_2)
         {
@@ -141,7 +149,16 @@ impl Tool {
         self.cutter.profile(self.flute_length)
     }
 
-    /// The shank between flutes and holder, and its height above the tip; `None` when there is no room for it.
+    /// The neck of a thread mill, if it has one.
+    fn neck(&self) -> Option<Neck> {
+        match self.cutter {
+            Cutter::ThreadMill(mill) => mill.neck,
+            _ => None,
+        }
+    }
+
+    /// The shank between flutes and holder with the neck below it, and its height above the tip; `None` when there is no room
+    /// for it.
     ///
     /// # Errors
     /// `KC0701` when the numbers make no tool.
@@ -151,9 +168,14 @@ impl Tool {
         if height <= 0.0 {
             return Ok(None);
         }
+        let cylinder = |r: f64, z0: f64, z1: f64| ProfileElement::Cone { z0, r0: r, z1, r1: r };
         let r = self.shank_diameter / 2.0;
-        let profile = Profile::new(vec![ProfileElement::Cone { z0: 0.0, r0: r, z1: height, r1: r }])?;
-        Ok(Some((profile, self.flute_length)))
+        let elements = match self.neck().map(|n| (n.diameter / 2.0, n.top - self.flute_length)) {
+            Some((neck, top)) if top >= height => vec![cylinder(neck, 0.0, height)],
+            Some((neck, top)) if top > 0.0 => vec![cylinder(neck, 0.0, top), cylinder(r, top, height)],
+            _ => vec![cylinder(r, 0.0, height)],
+        };
+        Ok(Some((Profile::new(elements)?, self.flute_length)))
     }
 
     /// All parts with their heights above the tip: flutes, shank, holder.

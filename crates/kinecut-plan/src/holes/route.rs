@@ -70,6 +70,17 @@ impl Route {
         self.vertically(ToolpathRole::Retract, ToolpathPace::Rapid, self.retract_z);
     }
 
+    /// Place of the tip, once the moves have begun.
+    pub(crate) fn place(&self) -> Option<DVec3> {
+        self.here
+    }
+
+    /// Along a curve from the present place to an end, which is said exactly.
+    pub(crate) fn along(&mut self, role: ToolpathRole, pace: ToolpathPace, curve: Curve, end: DVec3) {
+        self.add(role, pace, curve);
+        self.here = Some(end);
+    }
+
     /// Height of the tip; infinitely high before the first move [mm].
     pub(crate) fn height(&self) -> f64 {
         self.here.map_or(f64::INFINITY, |here| here.z)

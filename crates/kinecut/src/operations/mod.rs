@@ -12,6 +12,7 @@ pub mod bore;
 pub mod chamfer;
 pub mod contour;
 pub mod deburr;
+mod core_hole;
 pub mod drill;
 pub mod edge;
 pub mod face;
@@ -34,6 +35,7 @@ pub mod slot;
 pub mod slot_outline;
 mod table;
 pub mod tap;
+pub mod thread_mill;
 mod uncut;
 pub mod wall;
 pub(crate) mod wanted;
@@ -69,6 +71,8 @@ kinds! {
     Drill "drill" (drill::DrillTable, drill::DrillOperation, drill::PlannedDrilling),
     /// Threads by a tap.
     Tap "tap" (tap::TapTable, tap::TapOperation, tap::PlannedTapping),
+    /// Threads by a thread mill, in holes or on bosses.
+    ThreadMill "thread-mill" (thread_mill::ThreadMillTable, thread_mill::ThreadMillOperation, thread_mill::PlannedThreadMilling),
     /// Milling of a plane face.
     Face "face" (face::FacingTable, face::FaceOperation, face::PlannedFace),
     /// A tool path that comes from elsewhere, with directions of the tool.

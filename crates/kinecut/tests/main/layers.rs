@@ -11,7 +11,10 @@ const LAYERS: &[(&str, &[&[&str]])] = &[
     ("kinecut-machine", &[&["machine"]]),
     ("kinecut-nc", &[&["program"], &["trace"], &["nc"]]),
     ("kinecut-stock", &[&["sweep"], &["contact", "stock"]]),
-    ("kinecut-plan", &[&["motion"], &["holes", "drilling", "facing"], &["contouring", "clearing"]]),
+    (
+        "kinecut-plan",
+        &[&["motion"], &["holes", "drilling", "facing"], &["contouring", "clearing", "threading"]],
+    ),
     ("kinecut", &[&["page"], &["operations"], &["job"], &["verbs"]]),
 ];
 

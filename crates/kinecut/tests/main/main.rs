@@ -27,6 +27,7 @@ mod nc;
 mod drilling;
 mod facing;
 mod holes;
+mod threading;
 
 // The whole, and what is told of it.
 mod job;

@@ -93,6 +93,16 @@ impl Contour {
                 ToolForm::Drill { diameter, point_angle: None, point: Some(point.clone()), flute_length }
             }
             Cutter::Tap(tap) => ToolForm::EndMill { diameter: tap.minor_diameter(), flute_length },
+            Cutter::ThreadMill(mill) => match mill.neck.filter(|neck| neck.top > flute_length) {
+                Some(neck) => ToolForm::TSlot {
+                    diameter: mill.diameter,
+                    height: flute_length,
+                    corner_radius: 0.0,
+                    neck_diameter: neck.diameter,
+                    neck_length: neck.top,
+                },
+                None => ToolForm::EndMill { diameter: mill.diameter, flute_length },
+            },
         };
         let segments = |holder: &Holder| holder.segments.clone();
         let assembly = Assembly {

@@ -10,7 +10,8 @@ use crate::base::bounded::{length, positive, text};
 use crate::base::unit::Deg;
 use crate::base::{Code, Error, Finding, Result};
 use crate::tool::{
-    ChamferForm, Cutter, DrillPoint, Hand, Holder, Tap, Tool, ToolLimits, ToolNumber, ToothSpacing,
+    ChamferForm, Cutter, DrillPoint, Hand, Holder, Neck, Tap, ThreadMill, Tool, ToolLimits, ToolNumber,
+    ToothSpacing,
 };
 
 /// Kinds of tools.
@@ -31,6 +32,8 @@ pub enum ToolType {
     Drill,
     /// Tap: `diameter` is the nominal one of the thread, `pitch` its pitch, `hand` its hand.
     Tap,
+    /// Thread mill: `diameter` is that of the crests, `pitch` that of its thread; `rows`, `half_angle`, a neck.
+    ThreadMill,
 }
 
 /// A tool.
@@ -54,7 +57,7 @@ pub struct ToolTable {
     /// grows with the height: diameter + 2 flute_length / tan(entering_angle) at most.
     #[serde(default)]
     pub entering_angle: Option<f64>,
-    /// Angle between axis and edge of a tapered cutter, degrees.
+    /// Angle between axis and edge of a tapered cutter, degrees; of a thread mill half the angle between its flanks, default 30.
     #[serde(default)]
     pub half_angle: Option<f64>,
     /// Full point angle of a twist drill, degrees; default 118. Other points: see `point`.
@@ -63,7 +66,7 @@ pub struct ToolTable {
     /// Point of a drill that is no plain twist drill: "flat", { double-ground = { .. } }, { gun = { .. } }, ..
     #[serde(default)]
     pub point: Option<DrillPoint>,
-    /// Pitch of the thread that a tap makes.
+    /// Pitch of the thread that a tap or a thread mill makes.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub pitch: Option<f64>,
     /// Form of a tap's lead (DIN 2197); default "C". Its longest lead is taken: 8, 5.5, 3, 5, 2, 1.5 pitches.
@@ -78,6 +81,15 @@ pub struct ToolTable {
     /// Whether a tap forms its thread without chips; default false.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub forming: Option<bool>,
+    /// Rows of teeth of a thread mill along its axis; default 1.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub rows: Option<u32>,
+    /// Diameter of a thread mill's neck, between the teeth and the shank; default: no neck.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub neck_diameter: Option<f64>,
+    /// Height above the tip at which its neck ends; default: at the holder.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub neck_length: Option<f64>,
     /// Height of the cutting part above the tip.
     pub flute_length: f64,
     /// Number of teeth; default 2.
@@ -175,11 +187,21 @@ fn tool(t: &ToolTable, holders: &BTreeMap<&str, &Holder>) -> Result<Tool> {
         misfit("corner_radius", t.kind == ToolType::BullNose, t.corner_radius.is_some())?;
         misfit("entering_angle", false, t.entering_angle.is_some())?;
     }
-    misfit("half_angle", t.kind == ToolType::Tapered, t.half_angle.is_some())?;
+    let is_thread_mill = t.kind == ToolType::ThreadMill;
+    if !is_thread_mill {
+        misfit("half_angle", t.kind == ToolType::Tapered, t.half_angle.is_some())?;
+    }
     misfit("point_angle", t.kind == ToolType::Drill && t.point_angle.is_some(), t.point_angle.is_some())?;
     misfit("point", t.kind == ToolType::Drill && t.point.is_some(), t.point.is_some())?;
     let is_tap = t.kind == ToolType::Tap;
-    misfit("pitch", is_tap, t.pitch.is_some())?;
+    misfit("pitch", is_tap || is_thread_mill, t.pitch.is_some())?;
+    for (key, given) in [
+        ("rows", t.rows.is_some()),
+        ("neck_diameter", t.neck_diameter.is_some()),
+        ("neck_length", t.neck_length.is_some()),
+    ] {
+        misfit(key, is_thread_mill && given, given)?;
+    }
     for (key, given) in [
         ("chamfer", t.chamfer.is_some()),
         ("lead", t.lead.is_some()),
@@ -200,6 +222,7 @@ fn tool(t: &ToolTable, holders: &BTreeMap<&str, &Holder>) -> Result<Tool> {
             Cutter::Drill { diameter, point: DrillPoint::of_keys(t.point.as_ref(), t.point_angle, diameter)? }
         }
         ToolType::Tap => Cutter::Tap(tap(t, diameter)?),
+        ToolType::ThreadMill => Cutter::ThreadMill(thread_mill(t, diameter)?),
     };
     cutter.check()?;
     let flute_length = length("flute_length", t.flute_length, 0.0, 2000.0)?;
@@ -208,7 +231,7 @@ fn tool(t: &ToolTable, holders: &BTreeMap<&str, &Holder>) -> Result<Tool> {
         ToolType::Drill | ToolType::Tap | ToolType::BallNose | ToolType::Tapered => true,
         // Solid end mills are ground to the centre; larger cutters mostly carry inserts around a hole.
         ToolType::EndMill | ToolType::BullNose => diameter <= 20.0,
-        ToolType::FaceMill => false,
+        ToolType::FaceMill | ToolType::ThreadMill => false,
     });
     let holder = match &t.holder {
         None => None,
@@ -267,6 +290,30 @@ fn tap(t: &ToolTable, diameter: f64) -> Result<Tap> {
     })
 }
 
+/// The teeth of a thread mill, and its neck.
+fn thread_mill(t: &ToolTable, diameter: f64) -> Result<ThreadMill> {
+    /// Half angle of the metric profile, degrees.
+    const METRIC: f64 = 30.0;
+    let neck = match (t.neck_diameter, t.neck_length) {
+        (None, None) => None,
+        (Some(diameter), top) => {
+            let top = top.or(t.stickout).unwrap_or(t.flute_length);
+            Some(Neck { diameter, top: length("neck_length", top, 0.0, 2000.0)? })
+        }
+        (None, Some(_)) => {
+            let finding = Finding::error(Code::JOB_SHAPE, "the neck of a thread mill needs neck_diameter");
+            return Err(finding.help("give its diameter").key("neck_length").into());
+        }
+    };
+    Ok(ThreadMill {
+        diameter,
+        pitch: t.pitch.unwrap_or(0.0),
+        rows: t.rows.unwrap_or(1),
+        half_angle: t.half_angle.unwrap_or(METRIC).to_radians(),
+        neck,
+    })
+}
+
 /// The cutter of a face mill: its edge rises at the entering angle from the finished plane.
 fn face_mill(t: &ToolTable, diameter: f64) -> Result<Cutter> {
     let entering = t.entering_angle.unwrap_or(90.0);
@@ -305,5 +352,6 @@ fn kind_name(kind: ToolType) -> &'static str {
         ToolType::Tapered => "tapered mill",
         ToolType::Drill => "drill",
         ToolType::Tap => "tap",
+        ToolType::ThreadMill => "thread mill",
     }
 }

@@ -153,7 +153,7 @@ pub(super) fn reach(
         }
         best
     };
-    let mills: Vec<&Tool> = job.tools.iter().filter(|tool| !tool.cutter.is_axial()).collect();
+    let mills: Vec<&Tool> = job.tools.iter().filter(|tool| tool.cutter.mills_walls()).collect();
     let tools = mills.iter().map(|tool| moving(tool)).collect::<Result<Vec<_>>>()?;
     // Long enough for any place.
     let height = design.mesh.bounds().size().length() + SIZES[0];

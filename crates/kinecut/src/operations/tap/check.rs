@@ -107,7 +107,9 @@ fn operation(t: &TapTable, around: &Around<'_>) -> Result<TapOperation> {
             Code::POST_CONTROL,
             format!("{title} has no synchronised spindle: tapping is refused"),
         );
-        return Err(finding.help("post for a control with rigid tapping, or tap by hand").key("type").into());
+        return Err(finding
+            .help("type = \"thread-mill\" cuts this thread; or post for a control with rigid tapping, or tap by hand")
+            .key("type").into());
     }
     let tool = tool_of(t.tool, around.tools)?;
     let Cutter::Tap(tap) = tool.cutter else {

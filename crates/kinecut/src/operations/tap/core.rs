@@ -1,35 +1,18 @@
 //! The core hole of a thread: which of the holes that are there it is, and whether the tap fits it.
 
-use glam::DVec2;
-
 use super::TapOperation;
 use crate::base::{Code, Finding, Result};
 use crate::operations::RoundHole;
+use crate::operations::core_hole::{Core, SAME_HEIGHT};
 
-/// Distance within which two holes are about one axis [mm].
-const SAME_PLACE: f64 = 0.01;
 /// Way that stays free below the tap where a core hole is blind, in pitches.
 const FREE: f64 = 1.0;
-/// Heights that are the same [mm]: the rounding of posted heights is not known yet.
-const SAME_HEIGHT: f64 = 1e-6;
-
-/// The core hole of a thread, in coordinates of the work offset [mm].
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Core {
-    /// Diameter.
-    pub diameter: f64,
-    /// Lowest height at which it has its diameter all round.
-    pub bottom: f64,
-    /// Whether it is open below.
-    pub through: bool,
-}
-
 /// The core hole at a place, checked; a warning comes with it where a maker's data have the last word.
 ///
 /// # Errors
 /// `KC0907` where there is none, or the tap does not fit it.
 pub(super) fn core(of: &TapOperation, at: [f64; 2], holes: &[RoundHole]) -> Result<(Core, Option<Finding>)> {
-    let Some(core) = found(of, at, holes) else {
+    let Some(core) = Core::find(of.table.core, at, [of.table.top, of.tap.pitch], holes) else {
         let finding = Finding::error(Code::TAP_CORE, format!("{}: there is no core hole", place(of, at)));
         let drill = short(of.tap.core_diameter());
         return Err(finding
@@ -45,22 +28,6 @@ pub(super) fn core(of: &TapOperation, at: [f64; 2], holes: &[RoundHole]) -> Resu
     let doubt = diameter(of, at, &core)?;
     depth(of, at, &core)?;
     Ok((core, doubt))
-}
-
-/// The hole that is there: the one that is stated, or the widest that reaches into the thread.
-fn found(of: &TapOperation, at: [f64; 2], holes: &[RoundHole]) -> Option<Core> {
-    let top = of.table.top;
-    if let Some(core) = of.table.core {
-        let bottom = top - core.depth.unwrap_or(0.0);
-        return Some(Core { diameter: core.diameter, bottom, through: core.depth.is_none() });
-    }
-    let here = |h: &&RoundHole| {
-        h.centre.distance(DVec2::from_array(at)) <= SAME_PLACE
-            && h.bottom < top - SAME_HEIGHT
-            && h.top >= top - of.tap.pitch
-    };
-    let widest = holes.iter().filter(here).max_by(|a, b| a.diameter.total_cmp(&b.diameter))?;
-    Some(Core { diameter: widest.diameter, bottom: widest.bottom, through: widest.through })
 }
 
 fn diameter(of: &TapOperation, at: [f64; 2], core: &Core) -> Result<Option<Finding>> {

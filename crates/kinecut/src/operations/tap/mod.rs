@@ -12,7 +12,8 @@ mod prove;
 mod section;
 mod table;
 
-pub use self::core::Core;
 pub use check::TapOperation;
 pub use plan::{PlannedTapping, PlannedThread};
 pub use table::*;
+
+pub use crate::operations::core_hole::{Core, CoreTable};

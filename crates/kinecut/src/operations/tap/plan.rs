@@ -4,13 +4,14 @@ use std::sync::Arc;
 
 use glam::DVec3;
 
-use super::core::{Core, core};
+use super::core::core;
 use super::json::ThreadsJson;
 use super::section::section;
 use super::{TapOperation, prove};
 use crate::base::{Code, Finding, Result};
 use crate::geom::Line;
 use crate::nc::Control;
+use crate::operations::core_hole::Core;
 use crate::operations::kind::{self, Attempt};
 use crate::operations::measured::Proof;
 use crate::operations::places::HolePlace;

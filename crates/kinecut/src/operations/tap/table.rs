@@ -4,6 +4,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::operations::PlaneTable;
+use crate::operations::core_hole::CoreTable;
 use crate::operations::places::PatternTable;
 use crate::program::Coolant;
 
@@ -46,15 +47,4 @@ pub struct TapTable {
     /// Coolant; default flood.
     #[serde(default)]
     pub coolant: Coolant,
-}
-
-/// A core hole that is there.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct CoreTable {
-    /// Diameter.
-    pub diameter: f64,
-    /// Depth below `top` to which it has its diameter; default: through.
-    #[serde(default)]
-    pub depth: Option<f64>,
 }

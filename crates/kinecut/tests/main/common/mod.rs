@@ -5,6 +5,7 @@ pub(crate) mod drawing;
 pub(crate) mod end_mill;
 pub(crate) mod fixture;
 pub(crate) mod golden;
+pub(crate) mod groove;
 pub(crate) mod job;
 pub(crate) mod kept;
 pub(crate) mod planned;

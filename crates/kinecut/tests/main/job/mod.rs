@@ -25,4 +25,5 @@ mod rest;
 mod shape;
 mod slot;
 mod tap;
+mod thread_mill;
 mod uncertainty;
