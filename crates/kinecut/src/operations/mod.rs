@@ -9,6 +9,7 @@ mod list;
 
 pub(crate) mod band;
 pub mod bore;
+mod called_tool;
 pub mod chamfer;
 pub mod contour;
 pub mod drill;
@@ -33,7 +34,9 @@ mod uncut;
 pub mod wall;
 pub(crate) mod wanted;
 
-pub(crate) use kind::{Attempt, Found, Judged, Probes, Shown, Tally, WearRegister};
+pub use called_tool::CalledTool;
+pub(crate) use called_tool::plain_name;
+pub(crate) use kind::{Attempt, CuttingKeys, FeedKeys, Found, Judged, Probes, Shown, Tally, WearRegister};
 pub use milling::{JobPlane, Milling};
 pub(crate) use milling::{feed_of, milling, milling_of, spindle, tool_of, whole_revolutions};
 pub(crate) use pen::Pen;

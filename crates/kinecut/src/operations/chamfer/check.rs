@@ -12,7 +12,8 @@ use crate::operations::kind::{self, Attempt};
 use crate::operations::named::NamedOutline;
 use crate::operations::outlines::{OutlineEntry, outline_keys};
 use crate::operations::{
-    Around, Milling, PlaneTable, Setting, feed_of, milling_of, spindle, tool_of, whole_revolutions,
+    Around, CalledTool, CuttingKeys, FeedKeys, Milling, PlaneTable, Setting, feed_of, milling_of, spindle,
+    tool_of, whole_revolutions,
 };
 use crate::page::trimmed;
 use crate::tool::{Cutter, Hand, Tool};
@@ -94,6 +95,15 @@ impl kind::Table for ChamferTable {
         operation(self, around)
     }
 
+    fn called(&mut self) -> &mut CalledTool {
+        &mut self.tool
+    }
+
+    fn data(&mut self) -> Option<CuttingKeys<'_>> {
+        let feed = Some(FeedKeys { feed: &mut self.feed, per_tooth: &mut self.feed_per_tooth });
+        Some(CuttingKeys { speed: &mut self.speed, cutting_speed: &mut self.cutting_speed, feed })
+    }
+
     fn plane(&self) -> Option<&PlaneTable> {
         self.plane.as_ref()
     }
@@ -122,7 +132,7 @@ impl kind::Table for ChamferTable {
 }
 
 fn operation(t: &ChamferTable, around: &Around<'_>) -> Result<ChamferOperation> {
-    let tool = tool_of(t.tool, around.tools)?;
+    let tool = tool_of(&t.tool, around.tools)?;
     let chamfer = chamfer(t, &tool)?;
     let edge = edge(t, around)?;
     length("top", edge.top, -MAX_LENGTH, MAX_LENGTH)?;
