@@ -16,7 +16,7 @@ use crate::base::{Code, Error, FileId, Finding, Result, Sources, Span};
 pub(crate) struct Places {
     file: FileId,
     ranges: BTreeMap<String, Range<usize>>,
-    /// Places of files that the job names, by the key that stands for them, with the key within the file.
+    /// Places of files that the job names, by the key that names them, with the key within the file.
     included: BTreeMap<String, (Places, String)>,
 }
 
@@ -40,7 +40,7 @@ impl Places {
         self.included.insert(key.to_owned(), (Places::of(file, root), String::new()));
     }
 
-    /// Adds the places of a part of a file that stands under a key: `own` within the file.
+    /// Adds the places of a part of a file under a key: `own` within the file.
     pub(super) fn include_part(&mut self, key: &str, places: &Places, own: &str) {
         self.included.insert(key.to_owned(), (places.clone(), own.to_owned()));
     }

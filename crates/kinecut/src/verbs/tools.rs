@@ -73,9 +73,9 @@ pub enum ToolsTo {
 pub struct ConvertedTools {
     /// The text.
     pub text: String,
-    /// What is in the file and not in the text, in words.
+    /// Fields of the file that are not in the text, in words.
     pub lost: Vec<String>,
-    /// What the text lacks, in words.
+    /// Keys that the text lacks, in words.
     pub missing: Vec<String>,
 }
 
@@ -233,7 +233,7 @@ impl Answer for ToolFileSheet {
         }
         if !rows.is_empty() {
             let table = Table::new("", "Tool; ; Fields").rows(rows);
-            sections.push(Section::new("Not in the tools of a job as it is in the file").with(table));
+            sections.push(Section::new("Missing, assumed, not taken").with(table));
         }
         sections
     }

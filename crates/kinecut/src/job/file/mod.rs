@@ -41,7 +41,7 @@ pub struct JobFile {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub material: Option<String>,
     /// Files of tools: "shop.toml", or a list of them. TOML with [[tool]] and [[holder]] as here, the tool table of LinuxCNC
-    /// (.tbl), Fusion .json and .tools, FreeCAD .fctb and .fctl. A tool of the job stands in the place of one of the same number.
+    /// (.tbl), Fusion .json and .tools, FreeCAD .fctb and .fctl. A tool of the job is taken before one of the same number.
     #[serde(default, rename = "tools", skip_serializing_if = "Option::is_none")]
     pub libraries: Option<ToolFiles>,
     /// The wanted part, to compare the cut part with.

@@ -210,7 +210,7 @@ fn expressed(tool: &mut LibraryTool, fields: &mut Fields<'_>, stated: Option<f64
     Some(length)
 }
 
-/// The holder in which the tool stands: segments from the tool upwards, in a unit of their own.
+/// The holder of the tool: segments from the tool upwards, in a unit of their own.
 fn holder(tool: &mut LibraryTool, fields: &mut Fields<'_>, unit: f64, holders: &mut Vec<Holder>) {
     let assembly = fields.look("geometry.assemblyGaugeLength").and_then(Value::as_f64);
     let Some(segments) = fields.look("holder.segments").and_then(Value::as_array) else { return };

@@ -21,7 +21,7 @@ pub(super) fn called_numbers(text: &str) -> Option<BTreeSet<u32>> {
                 numbers.insert(number / 100);
             }
             Err(_) if word == "T" && !rest.starts_with(['#', '=', '[', '<', '"']) => {}
-            // A line end is a TOOL CALL of the tool that stands there.
+            // A line end is a TOOL CALL of the tool that is in the spindle.
             Err(_) if rest.is_empty() || rest.starts_with(['\r', '\n']) => {}
             // `TOOL CALL Z S2000` is one of the same tool, too.
             Err(_) if word != "T" && rest.starts_with(['X', 'Y', 'Z', 'S']) => {}

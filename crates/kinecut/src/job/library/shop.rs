@@ -25,7 +25,7 @@ pub(in crate::job) struct Shop {
     taken: Vec<(usize, usize, u32)>,
     /// Holders of the files that were taken: file, holder, name in the job.
     holders: Vec<(usize, usize, String)>,
-    /// Numbers for which a tool of the job stands in the place of one of a file.
+    /// Numbers of tools of the job that were taken before those of a file.
     replaced: BTreeSet<u32>,
     /// Cutting data that were taken, in words.
     data: Vec<Finding>,
@@ -110,7 +110,7 @@ impl Shop {
         for number in called {
             let found = self.of_number(number);
             let usable = |&&(k, i): &&(usize, usize)| self.libraries[k].tools[i].missing.is_empty();
-            // A number may stand in a comment: a tool that cannot be used is missed by the program, if that calls it.
+            // A number may be in a comment: a tool that cannot be used is missed by the program, if that calls it.
             if self.is_own(file, number) || found.iter().filter(usable).count() != 1 {
                 continue;
             }
@@ -119,7 +119,7 @@ impl Shop {
         Ok(())
     }
 
-    /// The number of a tool that is called, taken if a file has it; `None` where there is no such number anywhere.
+    /// The number of a tool that is called, taken if a file has it; `None` where nothing has this number.
     fn call(&mut self, file: &mut JobFile, places: &mut Places, called: &CalledTool) -> Result<Option<u32>> {
         let found = match called {
             CalledTool::Number(number) if self.is_own(file, *number) => {
@@ -174,7 +174,7 @@ impl Shop {
         self.all(|tool| tool.has("number") && tool.table.number == number)
     }
 
-    /// The tools of a name, but for those in whose place a tool of the job stands.
+    /// The tools of a name, but for those whose number a tool of the job has.
     fn of_name(&self, file: &JobFile, called: &CalledTool) -> Vec<(usize, usize)> {
         self.all(|tool| {
             let named = tool.table.name.as_deref().is_some_and(|name| called.is_name(name));

@@ -10,7 +10,7 @@ use crate::job::file::{ToolLibraryTable, ToolTable};
 use crate::job::json_text;
 use crate::tool::Holder;
 
-/// The tools as TOML. What a tool lacks stands there as a comment, so that it can be filled in.
+/// The tools as TOML. Keys that a tool lacks are comments there, to be filled in.
 ///
 /// # Errors
 /// `KC0706` for a number that TOML cannot hold.

@@ -22,4 +22,5 @@ mod prove_rules;
 mod rest;
 mod shape;
 mod tap;
+mod tool_files;
 mod uncertainty;
