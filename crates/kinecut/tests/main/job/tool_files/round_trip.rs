@@ -2,7 +2,6 @@
 
 use kinecut::job::file::{ToolTable, ToolType};
 use kinecut::job::library::{Library, library_json, library_table, library_toml};
-use kinecut_cases::property;
 use proptest::prelude::*;
 
 use super::{lacks, read};
@@ -70,7 +69,7 @@ fn file() -> impl Strategy<Value = String> {
 }
 
 proptest! {
-    #![proptest_config(property(200))]
+    #![proptest_config(kinecut_cases::property(200))]
 
     /// Ours to TOML or JSON to ours: the same tools and holders.
     #[test]
