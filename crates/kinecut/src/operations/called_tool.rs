@@ -6,13 +6,6 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Deserializer, Serialize, de};
 
 /// The number of a tool, or its name. Names are compared without case, and with any run of blanks as one.
-///
-/// ```
-/// use kinecut::operations::CalledTool;
-/// let called: CalledTool = serde_json::from_str("\"End  Mill 10\"").unwrap();
-/// assert!(called.is_name("end mill 10") && !called.is_name("end mill 1"));
-/// assert_eq!(serde_json::from_str::<CalledTool>("5").unwrap(), CalledTool::Number(5));
-/// ```
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, JsonSchema)]
 #[serde(untagged)]
 pub enum CalledTool {
@@ -24,6 +17,13 @@ pub enum CalledTool {
 
 impl CalledTool {
     /// Whether it is the name of a tool of this name.
+    ///
+    /// ```
+    /// use kinecut::operations::CalledTool;
+    /// let called: CalledTool = serde_json::from_str("\"End  Mill 10\"").unwrap();
+    /// assert!(called.is_name("end mill 10") && !called.is_name("end mill 1"));
+    /// assert_eq!(serde_json::from_str::<CalledTool>("5").unwrap(), CalledTool::Number(5));
+    /// ```
     pub fn is_name(&self, name: &str) -> bool {
         matches!(self, CalledTool::Name(called) if plain_name(called) == plain_name(name))
     }
