@@ -20,6 +20,7 @@ use crate::program::{Check, Post, Run, Simulate};
 use crate::surface::Surface;
 use crate::swept::{Envelope, Grazing};
 use crate::time::Time;
+use crate::tools::Tools;
 
 /// Plans, posts and proves metal cutting.
 #[derive(Debug, Parser)]
@@ -48,6 +49,7 @@ Examples:
   kinecut surface cone                              code, redistributions and processes of a surface
   kinecut layouts XYZAC --full                      every layout of these axes, compared
   kinecut ik trt_xyzac --at \"X10 Z5 J-0.7 K0.7\"    all axis positions for a pose
+  kinecut tools library.tools --to toml             the tools of a Fusion library for a job
   kinecut schema job > job.schema.json              completion and checks in an editor
   kinecut explain KC0501                            what a finding means
 
@@ -79,6 +81,8 @@ pub(crate) enum Verb {
     Envelope(Envelope),
     /// Show a machine: code, axes at home, travel; write it as a machine file
     Machine(Machine),
+    /// Show the tools of a file, and what of it is not taken; write them in another format
+    Tools(Tools),
     /// Forward kinematics: axis positions to tip and direction of the tool
     Fk(Fk),
     /// Inverse kinematics: tip and direction to all axis positions
@@ -120,6 +124,7 @@ impl Verb {
             Verb::Grazing(verb) => verb.answer(args),
             Verb::Envelope(verb) => verb.answer(args),
             Verb::Machine(verb) => verb.answer(args),
+            Verb::Tools(verb) => verb.answer(args),
             Verb::Fk(verb) => verb.answer(args),
             Verb::Ik(verb) => verb.answer(args),
             Verb::Reach(verb) => verb.answer(args),
@@ -157,6 +162,8 @@ pub(crate) enum SchemaName {
     Grazing,
     /// A machine file
     Machine,
+    /// Tools and holders in a file of their own
+    Tools,
     /// A surface by its generating lines
     Surface,
     /// A tool of any form of revolution: shape, shank, holder
@@ -174,6 +181,7 @@ impl SchemaName {
             SchemaName::Envelope => envelope_schema(),
             SchemaName::Grazing => grazing_schema(),
             SchemaName::Machine => job::file::machine_schema(),
+            SchemaName::Tools => job::file::tools_schema(),
             SchemaName::Surface => job::file::surface_schema(),
             SchemaName::Contour => job::file::contour_schema(),
         })

@@ -15,6 +15,7 @@ mod show;
 mod surface;
 mod swept;
 mod time;
+mod tools;
 
 use std::process::ExitCode;
 

@@ -19,3 +19,4 @@ mod program;
 mod shown;
 mod surface;
 mod time;
+mod tools;

@@ -2,7 +2,7 @@
 
 use std::f64::consts::{PI, TAU};
 
-use glam::DVec2;
+use glam::{DVec2, DVec3};
 
 use super::level::{Cleared, Element};
 use super::plan::CELLS;
@@ -104,11 +104,12 @@ fn helix(
 fn ramp(spec: &PocketSpec, route: &mut Route, edges: &[OutlineEdge], [above, floor]: [f64; 2]) -> Result<()> {
     let back: Vec<OutlineEdge> = edges.iter().rev().map(OutlineEdge::reversed).collect();
     let ends = [edges, &back].map(|way| way.first().map_or(DVec2::ZERO, |e| e.start));
-    let from_end = route.place().is_some_and(|at| at.distance(ends[1]) < at.distance(ends[0]));
+    let here = route.place().map(DVec3::truncate);
+    let from_end = here.is_some_and(|at| at.distance(ends[1]) < at.distance(ends[0]));
     let ways = if from_end { [&back[..], edges] } else { [edges, &back[..]] };
     let start = if from_end { ends[1] } else { ends[0] };
     let plunge = ToolpathPace::Feed(spec.plunge_feed);
-    if route.place().is_none_or(|at| at.distance(start) > 1e-9) || route.height() > spec.approach_z + 1e-9 {
+    if here.is_none_or(|at| at.distance(start) > 1e-9) || route.height() > spec.approach_z + 1e-9 {
         route.over(start);
         let open = if above < spec.top { ToolpathPace::Rapid } else { plunge };
         route.vertically(ToolpathRole::Entry, open, (above + ABOVE).min(spec.approach_z));

@@ -86,11 +86,6 @@ impl Route {
         self.here.map_or(f64::INFINITY, |here| here.z)
     }
 
-    /// Place of the tip, seen from above.
-    pub(crate) fn place(&self) -> Option<DVec2> {
-        self.here.map(DVec3::truncate)
-    }
-
     /// Along edges at the present height.
     ///
     /// # Errors

@@ -32,6 +32,9 @@ pub fn parts(file: &JobFile, loader: &dyn Loader) -> Result<Vec<Subject>> {
         part("setups", canonical(&file.setups)),
         part("design", canonical(&file.design)),
     ];
+    for name in &file.tool_files {
+        parts.push(bytes("tools", name)?);
+    }
     if let StockTable::Mesh(name) = &file.stock {
         parts.push(bytes("stock", name)?);
     }

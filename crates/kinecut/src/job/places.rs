@@ -16,8 +16,8 @@ use crate::base::{Code, Error, FileId, Finding, Result, Sources, Span};
 pub(crate) struct Places {
     file: FileId,
     ranges: BTreeMap<String, Range<usize>>,
-    /// Places of files that the job names, by the key that names them.
-    included: BTreeMap<String, Places>,
+    /// Places of files that the job names, by the key that names them, with the key within the file.
+    included: BTreeMap<String, (Places, String)>,
 }
 
 impl Places {
@@ -37,7 +37,12 @@ impl Places {
 
     /// Adds the places of a file that a key names.
     pub(super) fn include(&mut self, key: &str, file: FileId, root: &Spanned<DeTable<'_>>) {
-        self.included.insert(key.to_owned(), Places::of(file, root));
+        self.included.insert(key.to_owned(), (Places::of(file, root), String::new()));
+    }
+
+    /// Adds the places of a part of a file under a key: `own` within the file.
+    pub(super) fn include_part(&mut self, key: &str, places: &Places, own: &str) {
+        self.included.insert(key.to_owned(), (places.clone(), own.to_owned()));
     }
 
     /// A note for each key that has a new name, in the order of the keys.
@@ -54,9 +59,9 @@ impl Places {
             return error;
         }
         let Some(key) = error.0.key.clone() else { return error };
-        for (prefix, places) in &self.included {
+        for (prefix, (places, own)) in &self.included {
             if let Some(rest) = key.strip_prefix(prefix.as_str()).and_then(|r| r.strip_prefix('.')) {
-                error.0.key = Some(rest.to_owned());
+                error.0.key = Some(if own.is_empty() { rest.to_owned() } else { format!("{own}.{rest}") });
                 let mut located = places.locate(sources, error);
                 located.0.key = Some(key);
                 return located;

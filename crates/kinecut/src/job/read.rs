@@ -7,6 +7,7 @@ use toml::Spanned;
 use toml::de::{DeTable, DeValue, Deserializer};
 
 use super::file::{JobFile, MachineEntry, MachineTable};
+use super::library::Shop;
 use super::places::{Places, parse, span, toml_error};
 use crate::base::{Code, Error, FileId, Finding, Loader, Result, Sources};
 use crate::operations::{Decode, OperationTable};
@@ -19,6 +20,7 @@ pub struct JobText {
     /// The source text in the run's sources.
     pub id: FileId,
     places: Places,
+    shop: Shop,
 }
 
 impl JobText {
@@ -58,12 +60,24 @@ impl JobText {
                 Some(MachineEntry::Table(Box::new(table)))
             }
         };
-        Ok(JobText { file, id, places })
+        let mut shop = Shop::read(sources, &mut file, &places, loader)?;
+        shop.fill(&mut file, &mut places, loader).map_err(|e| places.locate(sources, e))?;
+        Ok(JobText { file, id, places, shop })
     }
 
-    /// A note for each key that has a new name.
-    pub fn renamed(&self, sources: &Sources) -> Vec<Finding> {
-        self.places.renamed(sources)
+    /// A note for each key that has a new name; what was taken of tool files, and what not.
+    pub fn notes(&self, sources: &Sources) -> Vec<Finding> {
+        let mut notes = self.places.renamed(sources);
+        notes.extend(self.shop.notes().into_iter().map(|note| *self.locate(sources, note.into()).0));
+        notes
+    }
+
+    /// Takes the tools that a program may call into a job made of this one.
+    ///
+    /// # Errors
+    /// Those of tools that cannot be taken together.
+    pub(super) fn call_program(&mut self, file: &mut JobFile, text: &str) -> Result<()> {
+        self.shop.call_program(file, &mut self.places, text)
     }
 
     /// An error or finding with the place of its key.

@@ -73,7 +73,7 @@ pub fn run_with(
     }];
     inputs.extend(parts(&job_text.file, loader)?);
     inputs.extend(design);
-    let notes = job_text.renamed(&sources);
+    let notes = job_text.notes(&sources);
     run_checked(name, job, (inputs, notes), &locate, progress)
 }
 

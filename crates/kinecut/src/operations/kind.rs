@@ -9,7 +9,7 @@ use super::face::FacingTable;
 use super::measured::{BoreMeasure, FaceMeasure, Loose, Probe, Proof, TakenOut, WallProbe};
 use super::named::NamedOutline;
 use super::wanted::{PlannedOutline, WantedPlane, WantedWall};
-use super::{Around, Milling, Pen, PlaneTable, PostedPlan, RoundHole, Setting};
+use super::{Around, CalledTool, Milling, Pen, PlaneTable, PostedPlan, RoundHole, Setting};
 use crate::base::{Finding, Result};
 use crate::page::Section;
 use crate::program::Setup;
@@ -25,6 +25,14 @@ pub(crate) trait Table {
     /// # Errors
     /// One finding with the key of the first wrong value, counted from the table.
     fn check(&self, around: &Around<'_>) -> Result<Self::Of>;
+
+    /// The tool that it calls.
+    fn called(&mut self) -> &mut CalledTool;
+
+    /// The keys of its speed and feed that may be left out where the tool has data for the material.
+    fn data(&mut self) -> Option<CuttingKeys<'_>> {
+        None
+    }
 
     /// The tilted plane in which it works, if it names one.
     fn plane(&self) -> Option<&PlaneTable> {
@@ -45,6 +53,24 @@ pub(crate) trait Table {
     fn file(&self) -> Option<(&'static str, &str)> {
         None
     }
+}
+
+/// Keys of the speed of an operation.
+pub(crate) struct CuttingKeys<'a> {
+    /// `speed` [rev/min].
+    pub(crate) speed: &'a mut Option<f64>,
+    /// `cutting_speed` [m/min].
+    pub(crate) cutting_speed: &'a mut Option<f64>,
+    /// Keys of its feed, where that may be left out.
+    pub(crate) feed: Option<FeedKeys<'a>>,
+}
+
+/// Keys of the feed of an operation.
+pub(crate) struct FeedKeys<'a> {
+    /// `feed` [mm/min].
+    pub(crate) feed: &'a mut Option<f64>,
+    /// `feed_per_tooth` [mm].
+    pub(crate) per_tooth: &'a mut Option<f64>,
 }
 
 /// A checked operation.

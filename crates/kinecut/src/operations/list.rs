@@ -69,6 +69,16 @@ macro_rules! kinds {
                 }
             }
 
+            /// The tool that it calls.
+            pub(crate) fn called(&mut self) -> &mut CalledTool {
+                match self { $(OperationTable::$kind(table) => table.called(),)* }
+            }
+
+            /// The keys of its speed and feed that may be left out where the tool has data for the material.
+            pub(crate) fn data(&mut self) -> Option<CuttingKeys<'_>> {
+                match self { $(OperationTable::$kind(table) => table.data(),)* }
+            }
+
             /// The outline along which it works, under the name by which others may refer to it.
             pub(crate) fn named_outline(&self) -> Option<NamedOutline<'_>> {
                 match self { $(OperationTable::$kind(table) => table.named_outline(),)* }

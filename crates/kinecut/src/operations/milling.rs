@@ -2,6 +2,7 @@
 
 use std::f64::consts::TAU;
 
+use super::CalledTool;
 use crate::base::bounded::{MAX_LENGTH, length, positive};
 use crate::base::{Code, Finding, Result};
 use crate::geom::Rigid;
@@ -36,7 +37,7 @@ pub struct JobPlane {
 
 /// Tool, speed and coolant as a table names them; speed [rev/min].
 pub(crate) fn milling(
-    tool: u32,
+    tool: &CalledTool,
     speed: f64,
     coolant: Coolant,
     tolerance: Option<f64>,
@@ -72,11 +73,15 @@ pub(crate) fn feed_of(
     }
 }
 
-/// The tool of a number.
-pub(crate) fn tool_of(number: u32, tools: &[Tool]) -> Result<Tool> {
-    let found = tools.iter().find(|t| t.number.0 == number).cloned();
+/// The tool that an operation calls.
+pub(crate) fn tool_of(called: &CalledTool, tools: &[Tool]) -> Result<Tool> {
+    let is_it = |tool: &&Tool| match called {
+        CalledTool::Number(number) => tool.number.0 == *number,
+        CalledTool::Name(_) => called.is_name(&tool.name),
+    };
+    let found = tools.iter().find(is_it).cloned();
     found.ok_or_else(|| {
-        Finding::error(Code::JOB_REFERENCE, format!("T{number} is not defined"))
+        Finding::error(Code::JOB_REFERENCE, format!("{called} is not defined"))
             .help("define it with [[tool]]")
             .key("tool")
             .into()

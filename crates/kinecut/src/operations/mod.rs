@@ -9,10 +9,11 @@ mod list;
 
 pub(crate) mod band;
 pub mod bore;
+mod called_tool;
 pub mod chamfer;
 pub mod contour;
-pub mod deburr;
 mod core_hole;
+pub mod deburr;
 pub mod drill;
 pub mod edge;
 pub mod face;
@@ -40,7 +41,9 @@ mod uncut;
 pub mod wall;
 pub(crate) mod wanted;
 
-pub(crate) use kind::{Attempt, Found, Judged, Probes, Shown, Tally, WearRegister};
+pub use called_tool::CalledTool;
+pub(crate) use called_tool::plain_name;
+pub(crate) use kind::{Attempt, CuttingKeys, FeedKeys, Found, Judged, Probes, Shown, Tally, WearRegister};
 pub(crate) use made_plane::MadePlane;
 pub use milling::{JobPlane, Milling};
 pub(crate) use milling::{feed_of, milling, milling_of, spindle, tool_of, whole_revolutions};

@@ -21,6 +21,7 @@ mod safe_height;
 pub mod schema;
 pub mod surface;
 pub mod time;
+pub mod tools;
 mod unknown_stock;
 mod verify;
 

@@ -125,6 +125,7 @@ pub fn check(file: &JobFile, name: &str, loader: &dyn Loader) -> Result<Job> {
     }
     numbers::within(file)?;
     let stock = stock(&file.stock, loader).map_err(|e| e.under("stock"))?;
+    text("material", file.material.as_deref().unwrap_or_default())?;
     let holders = super::file::holders(&file.holders)?;
     let tools = super::file::tools(&file.tools, &holders)?;
     let machine = match &file.machine {

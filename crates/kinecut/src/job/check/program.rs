@@ -9,7 +9,7 @@ use super::kept::kept;
 use crate::base::bounded::{MAX_LENGTH, length};
 use crate::base::{Code, FileKind, Finding, Loader, Result};
 use crate::nc::{self, Control, Kept, NumberInput, ReadSettings};
-use crate::operations::tool_of;
+use crate::operations::{CalledTool, tool_of};
 use crate::tool::{Tool, ToolNumber};
 
 /// A program that others wrote.
@@ -172,7 +172,7 @@ pub(super) fn program(
     program.beside = subprograms(&program.file, &program.text, control, &t.subprograms, loader);
     (program.kept, program.kept_in) = kept(t, control, loader)?;
     if let Some(number) = t.tool {
-        program.in_spindle = Some(tool_of(number, tools)?.number);
+        program.in_spindle = Some(tool_of(&CalledTool::Number(number), tools)?.number);
     }
     for (name, value) in &t.registers {
         let key = format!("registers.{name}");

@@ -225,7 +225,7 @@ pub fn given_with_job(
 ) -> Result<GivenJob> {
     let mut sources = Sources::default();
     let id: FileId = sources.add(name, text);
-    let job_text = JobText::read(&mut sources, id, loader)?;
+    let mut job_text = JobText::read(&mut sources, id, loader)?;
     let mut file = job_text.file.clone();
     let index = wants.setup.unwrap_or(1);
     let Some(mut setup) = index.checked_sub(1).and_then(|i| file.setups.get(i)).cloned() else {
@@ -260,6 +260,12 @@ pub fn given_with_job(
     });
     file.setups = vec![setup];
     file.title = Some(title(program.name));
+    let beside = wants.beside.iter().map(|(_, bytes)| bytes.as_slice());
+    for bytes in std::iter::once(program.bytes).chain(beside) {
+        job_text
+            .call_program(&mut file, &String::from_utf8_lossy(bytes))
+            .map_err(|e| job_text.locate(&sources, e))?;
+    }
     let all = With { files: with_beside(program, wants), others: loader };
     let job = check(&file, "program", &all).map_err(|e| job_text.locate(&sources, e))?;
     let mut subjects =
@@ -343,6 +349,9 @@ pub fn given_alone(program: GivenFile<'_>, wants: &ProgramWants, needs_stock: bo
     let file = JobFile {
         format: 1,
         title: Some(title(program.name)),
+        material: None,
+        libraries: None,
+        tool_files: Vec::new(),
         design: None,
         stock,
         drilled: Vec::new(),

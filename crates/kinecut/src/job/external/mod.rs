@@ -13,6 +13,7 @@ pub(crate) mod registers;
 mod setup;
 mod shown;
 
+pub(in crate::job) use carried::kind_in;
 pub use carried::{Carried, CarriedStock, CarriedTool, carried, is_tool_table};
 pub(crate) use carried::{TableTools, all_in_words, micrometres, toml_of};
 pub(crate) use follow::{Errors, Followed, at_block, follow, follow_passing};

@@ -9,6 +9,7 @@ mod fixture;
 mod machine;
 mod program;
 mod tool;
+mod tools;
 
 pub use body::*;
 pub use contour::*;
@@ -16,6 +17,7 @@ pub use fixture::*;
 pub use machine::*;
 pub use program::*;
 pub use tool::*;
+pub use tools::*;
 
 use std::collections::BTreeMap;
 
@@ -35,6 +37,13 @@ pub struct JobFile {
     /// Title of the job in program and report.
     #[serde(default)]
     pub title: Option<String>,
+    /// The material of the part: "C45". Operations without a speed take that of their tool's preset for it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub material: Option<String>,
+    /// Files of tools: "shop.toml", or a list of them. TOML with [[tool]] and [[holder]] as here, the tool table of LinuxCNC
+    /// (.tbl), Fusion .json and .tools, FreeCAD .fctb and .fctl. A tool of the job is taken before one of the same number.
+    #[serde(default, rename = "tools", skip_serializing_if = "Option::is_none")]
+    pub libraries: Option<ToolFiles>,
     /// The wanted part, to compare the cut part with.
     #[serde(default)]
     pub design: Option<DesignTable>,
@@ -55,8 +64,11 @@ pub struct JobFile {
     #[serde(default, rename = "holder")]
     pub holders: Vec<Holder>,
     /// The tools.
-    #[serde(rename = "tool")]
+    #[serde(default, rename = "tool")]
     pub tools: Vec<ToolTable>,
+    /// All files from which the tools of `libraries` were read.
+    #[serde(skip)]
+    pub tool_files: Vec<String>,
     /// Clamps, vises and what else stands around the part.
     #[serde(default, rename = "fixture", skip_serializing_if = "Vec::is_empty")]
     pub fixtures: Vec<FixtureTable>,
@@ -334,6 +346,11 @@ pub fn machine_schema() -> serde_json::Value {
 /// The JSON Schema of a surface in a file of its own.
 pub fn surface_schema() -> serde_json::Value {
     schemars::schema_for!(crate::machine::surface::SurfaceFile).to_value()
+}
+
+/// The JSON Schema of tools in a file of their own.
+pub fn tools_schema() -> serde_json::Value {
+    schemars::schema_for!(ToolLibraryTable).to_value()
 }
 
 /// The JSON Schema of a tool of revolution in a file of its own.

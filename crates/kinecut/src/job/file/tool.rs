@@ -129,6 +129,95 @@ pub struct ToolTable {
     /// Largest feed, mm/min.
     #[serde(default)]
     pub max_feed: Option<f64>,
+    /// Cutting data of it by material: `[[tool.preset]]`.
+    #[serde(default, rename = "preset", skip_serializing_if = "Vec::is_empty")]
+    pub presets: Vec<PresetTable>,
+}
+
+/// Cutting data of a tool for a material.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct PresetTable {
+    /// The material, as `material` of a job names it.
+    pub material: String,
+    /// A word for it: "slotting".
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub name: Option<String>,
+    /// Cutting speed, m/min; or give `speed`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub cutting_speed: Option<f64>,
+    /// Spindle speed, rev/min.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub speed: Option<f64>,
+    /// Feed per tooth.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub feed_per_tooth: Option<f64>,
+    /// Feed per revolution.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub feed_per_rev: Option<f64>,
+    /// Feed, mm/min.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub feed: Option<f64>,
+}
+
+impl PresetTable {
+    fn check(&self) -> Result<()> {
+        text("material", &self.material)?;
+        text("name", self.name.as_deref().unwrap_or_default())?;
+        if self.speed.is_some() && self.cutting_speed.is_some() {
+            let finding = Finding::error(Code::JOB_SHAPE, "`speed` and `cutting_speed` exclude each other");
+            return Err(finding.help("give one of them").key("speed").into());
+        }
+        for (key, value, most, unit) in [
+            ("cutting_speed", self.cutting_speed, 10_000.0, "m/min"),
+            ("speed", self.speed, 200_000.0, "rev/min"),
+            ("feed_per_tooth", self.feed_per_tooth, 100.0, "mm"),
+            ("feed_per_rev", self.feed_per_rev, 100.0, "mm/rev"),
+            ("feed", self.feed, 1e6, "mm/min"),
+        ] {
+            value.map(|v| positive(key, v, most, unit)).transpose()?;
+        }
+        Ok(())
+    }
+}
+
+impl ToolTable {
+    /// A tool of a number of which nothing else is known.
+    pub(crate) fn bare(number: u32) -> ToolTable {
+        ToolTable {
+            number,
+            name: None,
+            kind: ToolType::EndMill,
+            diameter: 0.0,
+            corner_radius: None,
+            entering_angle: None,
+            half_angle: None,
+            point_angle: None,
+            point: None,
+            rows: None,
+            neck_diameter: None,
+            neck_length: None,
+            pitch: None,
+            chamfer: None,
+            lead: None,
+            tip_length: None,
+            forming: None,
+            flute_length: 0.0,
+            teeth: None,
+            tooth_angles: None,
+            runout: None,
+            stickout: None,
+            shank_diameter: None,
+            holder: None,
+            gauge_length: None,
+            centre_cutting: None,
+            max_ramp_angle: None,
+            hand: Hand::Right,
+            max_speed: None,
+            max_feed: None,
+            presets: Vec::new(),
+        }
+    }
 }
 
 /// The holders by name, checked.
@@ -170,7 +259,14 @@ pub(in crate::job) fn tools(tables: &[ToolTable], holders: &BTreeMap<&str, &Hold
     Ok(tools)
 }
 
-fn tool(t: &ToolTable, holders: &BTreeMap<&str, &Holder>) -> Result<Tool> {
+/// One tool, checked.
+///
+/// # Errors
+/// One finding with the key of the first wrong value, counted from its table.
+pub(in crate::job) fn tool(t: &ToolTable, holders: &BTreeMap<&str, &Holder>) -> Result<Tool> {
+    for (i, preset) in t.presets.iter().enumerate() {
+        preset.check().map_err(|e| e.under(&format!("preset[{i}]")))?;
+    }
     let diameter = length("diameter", t.diameter, 0.0, 1000.0)?;
     let misfit = |key: &str, wanted: bool, given: bool| match (wanted, given) {
         (true, false) => Err(Error::from(
@@ -343,7 +439,8 @@ fn face_mill(t: &ToolTable, diameter: f64) -> Result<Cutter> {
     }
 }
 
-fn kind_name(kind: ToolType) -> &'static str {
+/// A kind in words.
+pub(in crate::job) fn kind_name(kind: ToolType) -> &'static str {
     match kind {
         ToolType::EndMill => "end mill",
         ToolType::FaceMill => "face mill",

@@ -12,7 +12,7 @@ use crate::holes::{Entry, Rough, Sense, Strategy};
 use crate::operations::kind::{self, Attempt};
 use crate::operations::wall::FinishTable;
 use crate::operations::wanted::PlannedOutline;
-use crate::operations::{Around, Milling, PlaneTable, Setting, milling};
+use crate::operations::{Around, CalledTool, Milling, PlaneTable, Setting, milling};
 use crate::program::Coolant;
 
 /// Milling of a bore.
@@ -23,8 +23,8 @@ pub struct BoreTable {
     /// with rotary axes.
     #[serde(default)]
     pub plane: Option<PlaneTable>,
-    /// Number of the tool.
-    pub tool: u32,
+    /// The tool: its number, or its name.
+    pub tool: CalledTool,
     /// Centre, in coordinates of the work offset.
     pub at: [f64; 2],
     /// Height of the upper rim, in coordinates of the work offset; default 0.
@@ -112,8 +112,12 @@ impl kind::Table for BoreTable {
     type Of = BoreOperation;
 
     fn check(&self, around: &Around<'_>) -> Result<BoreOperation> {
-        let milling = milling(self.tool, self.speed, self.coolant, self.tolerance, around.tools)?;
+        let milling = milling(&self.tool, self.speed, self.coolant, self.tolerance, around.tools)?;
         Ok(BoreOperation { milling, table: self.clone() })
+    }
+
+    fn called(&mut self) -> &mut CalledTool {
+        &mut self.tool
     }
 
     fn plane(&self) -> Option<&PlaneTable> {

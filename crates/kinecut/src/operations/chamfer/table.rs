@@ -6,10 +6,10 @@ use serde::{Deserialize, Serialize};
 use crate::contouring::{ContourLoops, ContourSide};
 use crate::geom::LengthUnit;
 use crate::holes::Sense;
-use crate::operations::PlaneTable;
 use crate::operations::edge::EdgesName;
 use crate::operations::outlines::{OutlineCircle, OutlineEntry, OutlineRectangle};
 use crate::operations::slot_outline::OutlineSlot;
+use crate::operations::{CalledTool, PlaneTable};
 use crate::program::Coolant;
 
 /// Chamfering of the upper edge of an outline by a V cutter.
@@ -23,8 +23,8 @@ pub struct ChamferTable {
     /// Name by which another chamfer refers to it: `of`.
     #[serde(default)]
     pub name: Option<String>,
-    /// Number of the tool, a tapered one.
-    pub tool: u32,
+    /// The tool, a tapered one: its number, or its name.
+    pub tool: CalledTool,
     /// Name of a contour or chamfer before it in the setup, whose edge is chamfered: its outline with its place, `side`, `loops`,
     /// `top` and `stock_to_leave`, unless they are said here; in place of an outline.
     #[serde(default)]

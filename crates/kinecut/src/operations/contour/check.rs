@@ -12,7 +12,8 @@ use crate::operations::kind::{self, Attempt};
 use crate::operations::named::NamedOutline;
 use crate::operations::outlines::{OutlineEntry, outline_keys};
 use crate::operations::{
-    Around, Milling, PlaneTable, Setting, feed_of, milling_of, spindle, tool_of, whole_revolutions,
+    Around, CalledTool, CuttingKeys, FeedKeys, Milling, PlaneTable, Setting, feed_of, milling_of, spindle,
+    tool_of, whole_revolutions,
 };
 use crate::tool::{Cutter, Hand};
 
@@ -108,6 +109,15 @@ impl kind::Table for ContourTable {
         operation(self, around)
     }
 
+    fn called(&mut self) -> &mut CalledTool {
+        &mut self.tool
+    }
+
+    fn data(&mut self) -> Option<CuttingKeys<'_>> {
+        let feed = Some(FeedKeys { feed: &mut self.feed, per_tooth: &mut self.feed_per_tooth });
+        Some(CuttingKeys { speed: &mut self.speed, cutting_speed: &mut self.cutting_speed, feed })
+    }
+
     fn plane(&self) -> Option<&PlaneTable> {
         self.plane.as_ref()
     }
@@ -135,7 +145,7 @@ impl kind::Table for ContourTable {
 }
 
 fn operation(t: &ContourTable, around: &Around<'_>) -> Result<ContourOperation> {
-    let tool = tool_of(t.tool, around.tools)?;
+    let tool = tool_of(&t.tool, around.tools)?;
     let (Cutter::EndMill { diameter } | Cutter::BullNose { diameter, .. }) = tool.cutter else {
         let finding = Finding::error(Code::JOB_REFERENCE, format!("{} has no cylindrical edge", tool.number));
         return Err(finding.help("use an end mill").key("tool").into());

@@ -6,9 +6,9 @@ use serde::{Deserialize, Serialize};
 use crate::contouring::{ContourLoops, ContourSide, TabShape};
 use crate::geom::LengthUnit;
 use crate::holes::{FeedAt, Sense};
-use crate::operations::PlaneTable;
 use crate::operations::outlines::{OutlineCircle, OutlineEntry, OutlineRectangle};
 use crate::operations::slot_outline::OutlineSlot;
+use crate::operations::{CalledTool, PlaneTable};
 use crate::program::Coolant;
 
 /// Milling along the edges of an outline: outside of it, inside, or on it.
@@ -22,8 +22,8 @@ pub struct ContourTable {
     /// Name by which a chamfer refers to it: `of`.
     #[serde(default)]
     pub name: Option<String>,
-    /// Number of the tool, one with a cylindrical edge.
-    pub tool: u32,
+    /// The tool, one with a cylindrical edge: its number, or its name.
+    pub tool: CalledTool,
     /// The outline as a rectangle; or give `circle`, `polygon`, `slot` or `outline`.
     #[serde(default)]
     pub rectangle: Option<OutlineRectangle>,

@@ -10,7 +10,7 @@ use crate::operations::edge::{self, EdgeOperation, ball, edge_keys, v_cutter};
 use crate::operations::kind::{self, Attempt};
 use crate::operations::named::NamedOutline;
 use crate::operations::outlines::OutlineEntry;
-use crate::operations::{Around, Milling, PlaneTable, Setting};
+use crate::operations::{Around, CalledTool, CuttingKeys, FeedKeys, Milling, PlaneTable, Setting};
 use crate::tool::{Cutter, Tool};
 
 /// Noun of the operation.
@@ -60,6 +60,15 @@ impl kind::Table for DeburrTable {
         let keys = edge_keys!(self, NOUN);
         let edge = edge::operation(&keys, around, |tool| cut(self, tool))?;
         Ok(DeburrOperation { table: self.clone(), edge })
+    }
+
+    fn called(&mut self) -> &mut CalledTool {
+        &mut self.tool
+    }
+
+    fn data(&mut self) -> Option<CuttingKeys<'_>> {
+        let feed = Some(FeedKeys { feed: &mut self.feed, per_tooth: &mut self.feed_per_tooth });
+        Some(CuttingKeys { speed: &mut self.speed, cutting_speed: &mut self.cutting_speed, feed })
     }
 
     fn plane(&self) -> Option<&PlaneTable> {

@@ -6,11 +6,11 @@ use serde::{Deserialize, Serialize};
 use crate::contouring::ContourLoops;
 use crate::geom::LengthUnit;
 use crate::holes::Sense;
-use crate::operations::PlaneTable;
 use crate::operations::chamfer::ChamferSide;
 use crate::operations::edge::EdgesName;
 use crate::operations::outlines::{OutlineCircle, OutlineEntry, OutlineRectangle};
 use crate::operations::slot_outline::OutlineSlot;
+use crate::operations::{CalledTool, PlaneTable};
 use crate::program::Coolant;
 
 /// Deburring: a small break along the edges on which the face milling before has left a burr, or along an outline, by a V cutter or a
@@ -25,8 +25,8 @@ pub struct DeburrTable {
     /// Name by which another operation refers to it: `of`.
     #[serde(default)]
     pub name: Option<String>,
-    /// Number of the tool, a tapered one or a ball-nose end mill.
-    pub tool: u32,
+    /// The tool, a tapered one or a ball-nose end mill: its number, or its name.
+    pub tool: CalledTool,
     /// Name of an operation along an outline before it in the setup, whose edge is deburred: its outline with its place, `side`, `loops`,
     /// `top` and `stock_to_leave`, unless they are said here; in place of an outline.
     #[serde(default)]

@@ -12,7 +12,8 @@ use crate::geom::{Mesh, load_mesh};
 use crate::operations::kind::{self, Attempt};
 use crate::operations::places::{HolePlace, places};
 use crate::operations::{
-    Around, Milling, PlaneTable, Setting, milling_of, spindle, tool_of, whole_revolutions,
+    Around, CalledTool, CuttingKeys, Milling, PlaneTable, Setting, milling_of, spindle, tool_of,
+    whole_revolutions,
 };
 use crate::tool::{Cutter, Tool};
 
@@ -85,6 +86,14 @@ impl kind::Table for DrillTable {
         operation(self, around.tools, around.loader)
     }
 
+    fn called(&mut self) -> &mut CalledTool {
+        &mut self.tool
+    }
+
+    fn data(&mut self) -> Option<CuttingKeys<'_>> {
+        Some(CuttingKeys { speed: &mut self.speed, cutting_speed: &mut self.cutting_speed, feed: None })
+    }
+
     fn plane(&self) -> Option<&PlaneTable> {
         self.plane.as_ref()
     }
@@ -95,7 +104,7 @@ impl kind::Table for DrillTable {
 }
 
 fn operation(t: &DrillTable, tools: &[Tool], loader: &dyn Loader) -> Result<DrillOperation> {
-    let tool = tool_of(t.tool, tools)?;
+    let tool = tool_of(&t.tool, tools)?;
     let Cutter::Drill { diameter, .. } = tool.cutter else {
         return Err(Finding::error(Code::JOB_REFERENCE, format!("{} is no drill", tool.number))
             .help("give the tool type = \"drill\" and a point")

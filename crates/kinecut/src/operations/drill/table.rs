@@ -8,8 +8,8 @@ use serde::de::{self, MapAccess, Visitor};
 use serde::{Deserialize, Deserializer, Serialize};
 
 use crate::drilling::{DrillMethod, FeedChoice};
-use crate::operations::PlaneTable;
 use crate::operations::places::PatternTable;
+use crate::operations::{CalledTool, PlaneTable};
 use crate::program::Coolant;
 
 /// Drilling and its kin: one or many holes with one tool, each with feed zones of its own.
@@ -22,8 +22,8 @@ pub struct DrillTable {
     /// with rotary axes.
     #[serde(default)]
     pub plane: Option<PlaneTable>,
-    /// Number of the tool, a drill.
-    pub tool: u32,
+    /// The tool, a drill: its number, or its name.
+    pub tool: CalledTool,
     /// Kind of drilling; default drilling.
     #[serde(default)]
     pub method: DrillMethod,

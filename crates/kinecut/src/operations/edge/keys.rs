@@ -3,9 +3,9 @@
 use super::EdgesName;
 use crate::contouring::ContourLoops;
 use crate::holes::Sense;
-use crate::operations::PlaneTable;
 use crate::operations::chamfer::ChamferSide;
 use crate::operations::outlines::OutlineKeys;
+use crate::operations::{CalledTool, PlaneTable};
 use crate::program::Coolant;
 
 /// The keys of a table, whichever it is.
@@ -13,7 +13,7 @@ use crate::program::Coolant;
 pub(crate) struct EdgeKeys<'a> {
     /// Noun of the operation.
     pub(crate) noun: &'static str,
-    pub(crate) tool: u32,
+    pub(crate) tool: &'a CalledTool,
     pub(crate) name: Option<&'a str>,
     pub(crate) of: Option<&'a str>,
     /// The outline that the table itself says.
@@ -44,7 +44,7 @@ macro_rules! edge_keys {
     ($table:expr, $noun:expr) => {
         $crate::operations::edge::EdgeKeys {
             noun: $noun,
-            tool: $table.tool,
+            tool: &$table.tool,
             name: $table.name.as_deref(),
             of: $table.of.as_deref(),
             own: $crate::operations::outlines::outline_keys!($table),

@@ -12,7 +12,9 @@ use crate::facing::{BadSet, FaceCase, Thresholds};
 use crate::geom::{Outline, OutlineRead};
 use crate::operations::kind::{self, Attempt};
 use crate::operations::outlines::{Drawn, OutlineEntry};
-use crate::operations::{Around, Milling, Setting, StockOutline, milling_of, tool_of};
+use crate::operations::{
+    Around, CalledTool, CuttingKeys, FeedKeys, Milling, Setting, StockOutline, milling_of, tool_of,
+};
 use crate::tool::Tool;
 
 /// Milling of a face.
@@ -96,6 +98,15 @@ impl kind::Table for FacingTable {
         Some(self)
     }
 
+    fn called(&mut self) -> &mut CalledTool {
+        &mut self.tool
+    }
+
+    fn data(&mut self) -> Option<CuttingKeys<'_>> {
+        let feed = Some(FeedKeys { feed: &mut self.feed, per_tooth: &mut self.feed_per_tooth });
+        Some(CuttingKeys { speed: &mut self.speed, cutting_speed: &mut self.cutting_speed, feed })
+    }
+
     fn file(&self) -> Option<(&'static str, &str)> {
         match &self.outline {
             OutlineEntry::Name(name) if name != "top" => Some(("outline", name)),
@@ -118,7 +129,7 @@ fn operation(
     stock: &StockOutline<'_>,
     loader: &dyn Loader,
 ) -> Result<FaceOperation> {
-    let tool = tool_of(t.tool, tools)?;
+    let tool = tool_of(&t.tool, tools)?;
     let Some(radius) = tool.cutter.flat_radius() else {
         return Err(Finding::error(Code::JOB_REFERENCE, format!("{} mills no flat face", tool.number))
             .help("use a face mill or an end mill")

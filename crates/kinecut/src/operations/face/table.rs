@@ -7,6 +7,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::facing::{BadPart, PassesChoice, PlacementChoice};
 use crate::geom::LengthUnit;
+use crate::operations::CalledTool;
 use crate::operations::outlines::OutlineEntry;
 use crate::program::Coolant;
 
@@ -14,8 +15,8 @@ use crate::program::Coolant;
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct FacingTable {
-    /// Number of the tool.
-    pub tool: u32,
+    /// The tool: its number, or its name.
+    pub tool: CalledTool,
     /// The edges of the face: a drawing ("cover.dxf", .svg, .json, or the top face of an .stl), "top" for the stock's own
     /// edges at the finished plane, or a table with the loops themselves.
     pub outline: OutlineEntry,

@@ -13,7 +13,7 @@ use crate::base::{Code, Finding, Loader, Result};
 use crate::machine::Machine;
 use crate::nc::Control;
 use crate::operations::kind::{self, Attempt};
-use crate::operations::{Around, Milling, OrientationName, Setting, milling};
+use crate::operations::{Around, CalledTool, Milling, OrientationName, Setting, milling};
 use crate::tool::Tool;
 
 /// A tool path that comes from elsewhere.
@@ -69,6 +69,10 @@ impl kind::Table for PathTable {
         operation(self, around.tools, (around.machine, (around.orientation, around.control)), around.loader)
     }
 
+    fn called(&mut self) -> &mut CalledTool {
+        &mut self.tool
+    }
+
     fn file(&self) -> Option<(&'static str, &str)> {
         self.file.as_ref().map(|name| ("path", name.as_str()))
     }
@@ -81,7 +85,7 @@ fn operation(
     loader: &dyn Loader,
 ) -> Result<PathOperation> {
     let operation = PathOperation {
-        milling: milling(t.tool, t.speed, t.coolant, None, tools)?,
+        milling: milling(&t.tool, t.speed, t.coolant, None, tools)?,
         feed: positive("feed", t.feed, 1e6, "mm/min")? / 60.0,
         clearance: length("clearance", t.clearance.unwrap_or(10.0), 0.0, MAX_LENGTH)?,
         points: points(t, loader)?,

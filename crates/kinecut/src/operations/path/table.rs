@@ -3,14 +3,15 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use crate::operations::CalledTool;
 use crate::program::Coolant;
 
 /// A tool path that comes from elsewhere: points of the tool tip with directions of the tool.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct PathTable {
-    /// Number of the tool.
-    pub tool: u32,
+    /// The tool: its number, or its name.
+    pub tool: CalledTool,
     /// Spindle speed, rev/min.
     pub speed: f64,
     /// Feed of the tip, mm/min; a file may give its own.

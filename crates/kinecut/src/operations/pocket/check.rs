@@ -13,7 +13,8 @@ use crate::operations::kind::{self, Attempt};
 use crate::operations::named::NamedOutline;
 use crate::operations::outlines::{OutlineEntry, outline_keys};
 use crate::operations::{
-    Around, Milling, PlaneTable, Setting, feed_of, milling_of, spindle, tool_of, whole_revolutions,
+    Around, CalledTool, CuttingKeys, FeedKeys, Milling, PlaneTable, Setting, feed_of, milling_of, spindle,
+    tool_of, whole_revolutions,
 };
 use crate::tool::{Cutter, Hand};
 
@@ -121,6 +122,15 @@ impl kind::Table for PocketTable {
         checked(self, "pocket", around, || outline_keys!(self).read(around.loader))
     }
 
+    fn called(&mut self) -> &mut CalledTool {
+        &mut self.tool
+    }
+
+    fn data(&mut self) -> Option<CuttingKeys<'_>> {
+        let feed = Some(FeedKeys { feed: &mut self.feed, per_tooth: &mut self.feed_per_tooth });
+        Some(CuttingKeys { speed: &mut self.speed, cutting_speed: &mut self.cutting_speed, feed })
+    }
+
     fn plane(&self) -> Option<&PlaneTable> {
         self.plane.as_ref()
     }
@@ -156,7 +166,7 @@ pub(crate) fn checked(
     around: &Around<'_>,
     outline: impl FnOnce() -> Result<OutlineRead>,
 ) -> Result<PocketOperation> {
-    let tool = tool_of(t.tool, around.tools)?;
+    let tool = tool_of(&t.tool, around.tools)?;
     let (diameter, corner) = match tool.cutter {
         Cutter::EndMill { diameter } => (diameter, 0.0),
         Cutter::BullNose { diameter, corner_radius } => (diameter, corner_radius),

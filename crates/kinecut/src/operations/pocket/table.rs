@@ -5,10 +5,10 @@ use serde::{Deserialize, Serialize};
 
 use crate::geom::LengthUnit;
 use crate::holes::{FeedAt, Sense};
-use crate::operations::PlaneTable;
 use crate::operations::contour::ContourFinishTable;
 use crate::operations::outlines::{OutlineCircle, OutlineEntry, OutlineRectangle};
 use crate::operations::slot_outline::OutlineSlot;
+use crate::operations::{CalledTool, PlaneTable};
 use crate::program::Coolant;
 
 /// Milling of a pocket: a face of any outline is cleared, its holes stay as islands, and no pass cuts with a larger engagement
@@ -23,8 +23,8 @@ pub struct PocketTable {
     /// with rotary axes.
     #[serde(default)]
     pub plane: Option<PlaneTable>,
-    /// Number of the tool, one with a cylindrical edge.
-    pub tool: u32,
+    /// The tool, one with a cylindrical edge: its number, or its name.
+    pub tool: CalledTool,
     /// The pocket as a rectangle; or give `circle`, `polygon`, `slot` or `outline`.
     #[serde(default)]
     pub rectangle: Option<OutlineRectangle>,

@@ -13,7 +13,7 @@ use crate::holes::{Entry, Rough, Sense};
 use crate::operations::kind::{self, Attempt};
 use crate::operations::wall::ContactName;
 use crate::operations::wanted::PlannedOutline;
-use crate::operations::{Around, Milling, PlaneTable, Setting, milling};
+use crate::operations::{Around, CalledTool, Milling, PlaneTable, Setting, milling};
 use crate::program::Coolant;
 
 /// Milling of an elliptic pocket: a spiral that grows from a circle into the ellipse.
@@ -24,8 +24,8 @@ pub struct EllipseTable {
     /// with rotary axes.
     #[serde(default)]
     pub plane: Option<PlaneTable>,
-    /// Number of the tool.
-    pub tool: u32,
+    /// The tool: its number, or its name.
+    pub tool: CalledTool,
     /// Centre, in coordinates of the work offset.
     pub at: [f64; 2],
     /// Height of the upper rim, in coordinates of the work offset; default 0.
@@ -134,8 +134,12 @@ impl kind::Table for EllipseTable {
     type Of = EllipseOperation;
 
     fn check(&self, around: &Around<'_>) -> Result<EllipseOperation> {
-        let milling = milling(self.tool, self.speed, self.coolant, self.tolerance, around.tools)?;
+        let milling = milling(&self.tool, self.speed, self.coolant, self.tolerance, around.tools)?;
         Ok(EllipseOperation { milling, table: self.clone() })
+    }
+
+    fn called(&mut self) -> &mut CalledTool {
+        &mut self.tool
     }
 
     fn plane(&self) -> Option<&PlaneTable> {

@@ -11,7 +11,7 @@ use crate::operations::kind::{self, Attempt};
 use crate::operations::named::NamedOutline;
 use crate::operations::outlines::OutlineKeys;
 use crate::operations::pocket::{CentredSlot, PocketOperation, checked, planned};
-use crate::operations::{Around, Milling, PlaneTable, Setting};
+use crate::operations::{Around, CalledTool, CuttingKeys, FeedKeys, Milling, PlaneTable, Setting};
 use crate::page::trimmed;
 
 /// Milling of a slot.
@@ -63,6 +63,15 @@ impl kind::Table for SlotTable {
         let mut pocket = checked(&self.pocket(), "slot", around, || Ok(read))?;
         pocket.slot = Some(CentredSlot { line, width: self.width });
         Ok(SlotOperation { pocket: Arc::new(pocket) })
+    }
+
+    fn called(&mut self) -> &mut CalledTool {
+        &mut self.tool
+    }
+
+    fn data(&mut self) -> Option<CuttingKeys<'_>> {
+        let feed = Some(FeedKeys { feed: &mut self.feed, per_tooth: &mut self.feed_per_tooth });
+        Some(CuttingKeys { speed: &mut self.speed, cutting_speed: &mut self.cutting_speed, feed })
     }
 
     fn plane(&self) -> Option<&PlaneTable> {

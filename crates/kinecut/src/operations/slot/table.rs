@@ -4,10 +4,10 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::holes::{FeedAt, Sense};
-use crate::operations::PlaneTable;
 use crate::operations::contour::ContourFinishTable;
 use crate::operations::pocket::{PocketEntryTable, PocketTable};
 use crate::operations::slot_outline::{OutlineSlot, SlotArc};
+use crate::operations::{CalledTool, PlaneTable};
 use crate::program::Coolant;
 
 /// Milling of a slot: a line or an arc of a width, with round ends. An end beyond the stock is open.
@@ -21,8 +21,8 @@ pub struct SlotTable {
     /// with rotary axes.
     #[serde(default)]
     pub plane: Option<PlaneTable>,
-    /// Number of the tool, one with a cylindrical edge.
-    pub tool: u32,
+    /// The tool, one with a cylindrical edge: its number, or its name.
+    pub tool: CalledTool,
     /// Centres of its two round ends, in coordinates of the work offset; or give `arc`.
     #[serde(default)]
     pub line: Option<[[f64; 2]; 2]>,

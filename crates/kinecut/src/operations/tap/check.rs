@@ -9,7 +9,8 @@ use crate::base::{Code, Finding, Result};
 use crate::operations::kind::{self, Attempt};
 use crate::operations::places::{HolePlace, places};
 use crate::operations::{
-    Around, Milling, PlaneTable, Setting, milling_of, spindle, tool_of, whole_revolutions,
+    Around, CalledTool, CuttingKeys, Milling, PlaneTable, Setting, milling_of, spindle, tool_of,
+    whole_revolutions,
 };
 use crate::tool::{Cutter, Hand, Tap};
 
@@ -95,6 +96,14 @@ impl kind::Table for TapTable {
         operation(self, around)
     }
 
+    fn called(&mut self) -> &mut CalledTool {
+        &mut self.tool
+    }
+
+    fn data(&mut self) -> Option<CuttingKeys<'_>> {
+        Some(CuttingKeys { speed: &mut self.speed, cutting_speed: &mut self.cutting_speed, feed: None })
+    }
+
     fn plane(&self) -> Option<&PlaneTable> {
         self.plane.as_ref()
     }
@@ -111,7 +120,7 @@ fn operation(t: &TapTable, around: &Around<'_>) -> Result<TapOperation> {
             .help("type = \"thread-mill\" cuts this thread; or post for a control with rigid tapping, or tap by hand")
             .key("type").into());
     }
-    let tool = tool_of(t.tool, around.tools)?;
+    let tool = tool_of(&t.tool, around.tools)?;
     let Cutter::Tap(tap) = tool.cutter else {
         let finding = Finding::error(Code::JOB_REFERENCE, format!("{} is no tap", tool.number));
         return Err(finding.help("give the tool type = \"tap\" and its pitch").key("tool").into());

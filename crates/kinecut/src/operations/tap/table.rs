@@ -3,9 +3,9 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::operations::PlaneTable;
 use crate::operations::core_hole::CoreTable;
 use crate::operations::places::PatternTable;
+use crate::operations::{CalledTool, PlaneTable};
 use crate::program::Coolant;
 
 /// Tapping of one or many core holes with one tap; its pitch is the tool's, its feed pitch times speed.
@@ -16,8 +16,8 @@ pub struct TapTable {
     /// with rotary axes.
     #[serde(default)]
     pub plane: Option<PlaneTable>,
-    /// Number of the tool, a tap.
-    pub tool: u32,
+    /// The tool, a tap: its number, or its name.
+    pub tool: CalledTool,
     /// Places of the holes, in coordinates of the work offset.
     #[serde(default)]
     pub points: Option<Vec<[f64; 2]>>,

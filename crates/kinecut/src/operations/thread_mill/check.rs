@@ -9,7 +9,8 @@ use crate::base::{Code, Finding, Result};
 use crate::operations::kind::{self, Attempt};
 use crate::operations::places::{HolePlace, places};
 use crate::operations::{
-    Around, Milling, PlaneTable, Setting, feed_of, milling_of, spindle, tool_of, whole_revolutions,
+    Around, CalledTool, CuttingKeys, FeedKeys, Milling, PlaneTable, Setting, feed_of, milling_of, spindle,
+    tool_of, whole_revolutions,
 };
 use crate::page::trimmed;
 use crate::threading::{Thread, ThreadForm, ThreadSide, ThreadSize};
@@ -90,13 +91,22 @@ impl kind::Table for ThreadMillTable {
         operation(self, around)
     }
 
+    fn called(&mut self) -> &mut CalledTool {
+        &mut self.tool
+    }
+
+    fn data(&mut self) -> Option<CuttingKeys<'_>> {
+        let feed = Some(FeedKeys { feed: &mut self.feed, per_tooth: &mut self.feed_per_tooth });
+        Some(CuttingKeys { speed: &mut self.speed, cutting_speed: &mut self.cutting_speed, feed })
+    }
+
     fn plane(&self) -> Option<&PlaneTable> {
         self.plane.as_ref()
     }
 }
 
 fn operation(t: &ThreadMillTable, around: &Around<'_>) -> Result<ThreadMillOperation> {
-    let tool = tool_of(t.tool, around.tools)?;
+    let tool = tool_of(&t.tool, around.tools)?;
     let Cutter::ThreadMill(mill) = tool.cutter else {
         let finding = Finding::error(Code::JOB_REFERENCE, format!("{} is no thread mill", tool.number));
         return Err(finding

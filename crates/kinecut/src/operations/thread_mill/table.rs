@@ -4,9 +4,9 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::holes::Sense;
-use crate::operations::PlaneTable;
 use crate::operations::core_hole::CoreTable;
 use crate::operations::places::PatternTable;
+use crate::operations::{CalledTool, PlaneTable};
 use crate::program::Coolant;
 use crate::threading::{MillProfile, ThreadForm, ThreadSide};
 use crate::tool::Hand;
@@ -19,8 +19,8 @@ pub struct ThreadMillTable {
     /// with rotary axes.
     #[serde(default)]
     pub plane: Option<PlaneTable>,
-    /// Number of the tool, a thread mill of the thread's pitch.
-    pub tool: u32,
+    /// The tool, a thread mill of the thread's pitch: its number, or its name.
+    pub tool: CalledTool,
     /// Places of the threads' axes, in coordinates of the work offset.
     #[serde(default)]
     pub points: Option<Vec<[f64; 2]>>,

@@ -44,6 +44,9 @@ pub(crate) fn job_file(table: &HoleTable, stock: StockTable, setup: SetupTable) 
     JobFile {
         format: 1,
         title: table.title.clone(),
+        material: None,
+        libraries: None,
+        tool_files: Vec::new(),
         design: None,
         stock,
         drilled: Vec::new(),

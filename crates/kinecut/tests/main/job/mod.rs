@@ -26,4 +26,5 @@ mod shape;
 mod slot;
 mod tap;
 mod thread_mill;
+mod tool_files;
 mod uncertainty;

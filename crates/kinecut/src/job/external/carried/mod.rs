@@ -14,6 +14,7 @@ pub(crate) use table::TableTools;
 pub use table::is_tool_table;
 pub(crate) use toml::{all_in_words, micrometres, toml_of};
 pub use tools::CarriedTool;
+pub(in crate::job) use tools::kind_in;
 
 use crate::nc::Control;
 

@@ -81,7 +81,7 @@ pub(super) fn solid(kind: &'static str, corner: Option<f64>, diameter: f64) -> (
 }
 
 /// The kind that a comment in capitals names.
-pub(super) fn kind_in(comment: &str) -> Option<&'static str> {
+pub(in crate::job) fn kind_in(comment: &str) -> Option<&'static str> {
     KINDS.iter().find(|(word, _)| comment.contains(word)).map(|(_, kind)| *kind)
 }
 

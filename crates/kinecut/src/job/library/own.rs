@@ -1,0 +1,52 @@
+//! Tools as kinecut writes them: `[[tool]]` and `[[holder]]` in TOML, or the same tables in JSON.
+
+use std::collections::BTreeMap;
+
+use super::read::json_error;
+use super::{Library, LibraryFormat, LibraryTool, MOST_TOOLS};
+use crate::base::{Code, FileId, Finding, Location, Result, Sources};
+use crate::job::file::ToolLibraryTable;
+use crate::job::places::{Places, parse};
+use crate::job::read::decode;
+
+/// Reads TOML.
+pub(super) fn toml(sources: &Sources, id: FileId, file: &str) -> Result<Library> {
+    let root = parse(sources, id, sources.text(id))?;
+    let places = Places::of(id, &root);
+    let table: ToolLibraryTable = decode(sources, id, root)?;
+    let mut library = library(file, table).map_err(|finding| places.locate(sources, finding.into()))?;
+    library.places = Some(places);
+    Ok(library)
+}
+
+/// Reads JSON.
+pub(super) fn json(sources: &Sources, id: FileId, file: &str) -> Result<Library> {
+    let table = serde_json::from_str(sources.text(id)).map_err(|e| json_error(sources, id, &e))?;
+    library(file, table).map_err(|finding| finding.at(Location::whole_file(file)).into())
+}
+
+/// Numbers are unique.
+fn library(file: &str, table: ToolLibraryTable) -> std::result::Result<Library, Finding> {
+    if table.tools.len() > MOST_TOOLS {
+        return Err(too_many(table.tools.len()).key("tool"));
+    }
+    let mut numbers = BTreeMap::new();
+    for (i, tool) in table.tools.iter().enumerate() {
+        if let Some(first) = numbers.insert(tool.number, i) {
+            let message = format!("T{} is defined twice", tool.number);
+            return Err(Finding::error(Code::JOB_VALUE, message)
+                .help(format!("tools {} and {} of the file have this number", first + 1, i + 1))
+                .key(format!("tool[{i}].number")));
+        }
+    }
+    let tools = table.tools.into_iter().map(LibraryTool::of).collect();
+    Ok(Library { tools, holders: table.holders, ..Library::of(file, LibraryFormat::Own) })
+}
+
+/// The error of a file with too many tools.
+pub(super) fn too_many(count: usize) -> Finding {
+    Finding::error(Code::TOOL_FILE, "a tool file has too many tools")
+        .value(count as f64, "tools")
+        .bound(MOST_TOOLS as f64, "tools")
+        .help("keep the tools of one machine in a file")
+}

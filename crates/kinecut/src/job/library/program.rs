@@ -1,0 +1,49 @@
+//! Numbers of the tools that the text of a program calls, as far as that can be seen without running it.
+
+use std::collections::BTreeSet;
+
+/// All numbers that could be those of its tools, comments among them; `None` where a tool is called by a value or a name.
+pub(super) fn called_numbers(text: &str) -> Option<BTreeSet<u32>> {
+    let text = text.to_ascii_uppercase();
+    let bytes = text.as_bytes();
+    let mut numbers = BTreeSet::new();
+    for (at, word) in text.match_indices("TOOL CALL").chain(text.match_indices('T')) {
+        let begins = at == 0 || !(bytes[at - 1].is_ascii_alphanumeric() || bytes[at - 1] == b'_');
+        if !begins {
+            continue;
+        }
+        let rest = text[at + word.len()..].trim_start_matches(' ');
+        let digits = rest.bytes().take_while(u8::is_ascii_digit).count();
+        match rest[..digits].parse::<u32>() {
+            Ok(number) => {
+                numbers.insert(number);
+                // Two digits behind the number are that of its offset on some controls.
+                numbers.insert(number / 100);
+            }
+            Err(_) if word == "T" && !rest.starts_with(['#', '=', '[', '<', '"']) => {}
+            // A line end is a TOOL CALL of the tool that is in the spindle.
+            Err(_) if rest.is_empty() || rest.starts_with(['\r', '\n']) => {}
+            // `TOOL CALL Z S2000` is one of the same tool, too.
+            Err(_) if word != "T" && rest.starts_with(['X', 'Y', 'Z', 'S']) => {}
+            Err(_) => return None,
+        }
+    }
+    Some(numbers)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_are_those_of_words_and_calls() {
+        let of = |text: &str| called_numbers(text).map(|all| all.into_iter().collect::<Vec<_>>());
+        assert_eq!(of("N1 T5 M6\nG1 X1\nT 12\n"), Some(vec![0, 5, 12]));
+        assert_eq!(of("T0101"), Some(vec![1, 101]));
+        assert_eq!(of("1 TOOL CALL 7 Z S2000\n2 TOOL CALL Z S900\n3 TOOL CALL\n"), Some(vec![0, 7]));
+        assert_eq!(of("G0 X1 (ROUT ALL)\nSTOP\n"), Some(vec![]));
+        for text in ["T#500 M6", "T=\"MILL\"", "T[1+#2]", "1 TOOL CALL Q5 Z", "1 TOOL CALL \"D10\" Z"] {
+            assert_eq!(of(text), None, "{text}");
+        }
+    }
+}

@@ -1,0 +1,377 @@
+//! The tool files of a job, and which of their tools it takes: those that its operations and programs call.
+
+use std::collections::BTreeSet;
+
+use super::program::called_numbers;
+use super::{Library, LibraryTool, read_library};
+use crate::base::{Code, Error, FileKind, Finding, Loader, Location, Result, Sources};
+use crate::job::file::{JobFile, PresetTable, ToolTable};
+use crate::job::places::Places;
+use crate::nc::Control;
+use crate::operations::{CalledTool, OperationTable, plain_name};
+
+/// Least likeness of a name that is proposed.
+const ALIKE: f64 = 0.7;
+/// Most names that are proposed.
+const PROPOSED: usize = 3;
+
+/// The tool files of a job.
+#[derive(Clone, Debug, Default)]
+pub(in crate::job) struct Shop {
+    libraries: Vec<Library>,
+    /// Tools of the job itself.
+    own: usize,
+    /// Tools of the files that were taken: file, tool, number.
+    taken: Vec<(usize, usize, u32)>,
+    /// Holders of the files that were taken: file, holder, name in the job.
+    holders: Vec<(usize, usize, String)>,
+    /// Numbers of tools of the job that were taken before those of a file.
+    replaced: BTreeSet<u32>,
+    /// Cutting data that were taken, in words.
+    data: Vec<Finding>,
+}
+
+impl Shop {
+    /// Reads the tool files that a job names; `places` are those of the job.
+    pub(in crate::job) fn read(
+        sources: &mut Sources,
+        file: &mut JobFile,
+        places: &Places,
+        loader: &dyn Loader,
+    ) -> Result<Shop> {
+        let entries = file.libraries.as_ref().map(|files| files.tables()).unwrap_or_default();
+        let mut shop = Shop { own: file.tools.len(), ..Shop::default() };
+        for (k, entry) in entries.iter().enumerate() {
+            let key = if entries.len() == 1 { "tools".to_owned() } else { format!("tools[{k}]") };
+            let library = read_library(sources, entry, loader);
+            let library = library.map_err(|e| places.locate(sources, e.under(&key)))?;
+            for name in &library.files {
+                if !file.tool_files.contains(name) {
+                    file.tool_files.push(name.clone());
+                }
+            }
+            shop.libraries.push(library);
+        }
+        Ok(shop)
+    }
+
+    /// Takes what the operations and the programs of a job call; operations call by number from then on.
+    pub(in crate::job) fn fill(
+        &mut self,
+        file: &mut JobFile,
+        places: &mut Places,
+        loader: &dyn Loader,
+    ) -> Result<()> {
+        let mut setups = std::mem::take(&mut file.setups);
+        for (s, setup) in setups.iter_mut().enumerate() {
+            for (o, operation) in setup.operations.iter_mut().enumerate() {
+                let key = format!("setup[{s}].operation[{o}]");
+                let called = operation.called().clone();
+                if let Some(number) = self.call(file, places, &called).map_err(|e| e.under(&key))? {
+                    *operation.called() = CalledTool::Number(number);
+                    self.choose_data(file, operation, number, (s, o));
+                }
+            }
+            let Some(program) = setup.program.as_ref().filter(|_| !self.libraries.is_empty()) else {
+                continue;
+            };
+            // A program that cannot be read is an error of its own, later.
+            let Ok(bytes) = loader.read_as(&program.file, FileKind::Program) else { continue };
+            let mut texts = vec![String::from_utf8_lossy(&bytes).into_owned()];
+            let control = Control::parse(program.control.as_deref().unwrap_or(&file.post.control));
+            if let Ok(control) = control {
+                let called =
+                    crate::job::subprograms(&program.file, &texts[0], control, &program.subprograms, loader);
+                texts.extend(called.into_iter().map(|called| called.text.to_string()));
+            }
+            for text in texts {
+                self.call_program(file, places, &text)
+                    .map_err(|e| e.under(&format!("setup[{s}].program")))?;
+            }
+        }
+        file.setups = setups;
+        Ok(())
+    }
+
+    /// Takes the tools that the text of a program may call, as far as they can be used.
+    pub(in crate::job) fn call_program(
+        &mut self,
+        file: &mut JobFile,
+        places: &mut Places,
+        text: &str,
+    ) -> Result<()> {
+        let numbers = called_numbers(text);
+        let is_called = |tool: &LibraryTool| {
+            let number = tool.table.number;
+            tool.has("number") && numbers.as_ref().is_none_or(|numbers| numbers.contains(&number))
+        };
+        let all = self.libraries.iter().flat_map(|library| &library.tools);
+        let called: BTreeSet<u32> = all.filter(|t| is_called(t)).map(|t| t.table.number).collect();
+        for number in called {
+            let found = self.of_number(number);
+            let usable = |&&(k, i): &&(usize, usize)| self.libraries[k].tools[i].missing.is_empty();
+            // A number may be in a comment: a tool that cannot be used is missed by the program, if that calls it.
+            if self.is_own(file, number) || found.iter().filter(usable).count() != 1 {
+                continue;
+            }
+            self.call(file, places, &CalledTool::Number(number))?;
+        }
+        Ok(())
+    }
+
+    /// The number of a tool that is called, taken if a file has it; `None` where nothing has this number.
+    fn call(&mut self, file: &mut JobFile, places: &mut Places, called: &CalledTool) -> Result<Option<u32>> {
+        let found = match called {
+            CalledTool::Number(number) if self.is_own(file, *number) => {
+                if !self.of_number(*number).is_empty() {
+                    self.replaced.insert(*number);
+                }
+                return Ok(Some(*number));
+            }
+            CalledTool::Number(number) => self.of_number(*number),
+            CalledTool::Name(_) => {
+                let own: Vec<&ToolTable> = file.tools[..self.own]
+                    .iter()
+                    .filter(|tool| tool.name.as_deref().is_some_and(|name| called.is_name(name)))
+                    .collect();
+                let found = self.of_name(file, called);
+                match (&own[..], found.is_empty()) {
+                    ([one], true) => return Ok(Some(one.number)),
+                    ([], _) => found,
+                    _ => {
+                        let mut all: Vec<String> =
+                            own.iter().map(|tool| format!("T{} of the job", tool.number)).collect();
+                        all.extend(found.iter().map(|&at| self.title(at)));
+                        return Err(several(called, &all));
+                    }
+                }
+            }
+        };
+        match &found[..] {
+            [one] => self.take(file, places, *one).map(Some),
+            [] => match called {
+                CalledTool::Number(_) if self.libraries.is_empty() => Ok(None),
+                _ => Err(self.unknown(file, called).into()),
+            },
+            more => Err(several(called, &more.iter().map(|&at| self.title(at)).collect::<Vec<_>>())),
+        }
+    }
+
+    fn is_own(&self, file: &JobFile, number: u32) -> bool {
+        file.tools[..self.own].iter().any(|tool| tool.number == number)
+    }
+
+    /// The tools of files, each as number of the file and of the tool, that a rule accepts.
+    fn all(&self, accept: impl Fn(&LibraryTool) -> bool) -> Vec<(usize, usize)> {
+        let of_file = |(k, library): (usize, &Library)| -> Vec<(usize, usize)> {
+            let tools = library.tools.iter().enumerate().filter(|(_, tool)| accept(tool));
+            tools.map(|(i, _)| (k, i)).collect()
+        };
+        self.libraries.iter().enumerate().flat_map(of_file).collect()
+    }
+
+    fn of_number(&self, number: u32) -> Vec<(usize, usize)> {
+        self.all(|tool| tool.has("number") && tool.table.number == number)
+    }
+
+    /// The tools of a name, but for those whose number a tool of the job has.
+    fn of_name(&self, file: &JobFile, called: &CalledTool) -> Vec<(usize, usize)> {
+        self.all(|tool| {
+            let named = tool.table.name.as_deref().is_some_and(|name| called.is_name(name));
+            named && !(tool.has("number") && self.is_own(file, tool.table.number))
+        })
+    }
+
+    fn title(&self, (k, i): (usize, usize)) -> String {
+        format!("{} of `{}`", self.libraries[k].tools[i].title(), self.libraries[k].file)
+    }
+
+    /// Takes a tool of a file into the job, with its holder; its number.
+    fn take(&mut self, file: &mut JobFile, places: &mut Places, at: (usize, usize)) -> Result<u32> {
+        let (k, i) = at;
+        let (library, tool) = (&self.libraries[k], &self.libraries[k].tools[i]);
+        let number = tool.table.number;
+        if self.taken.iter().any(|&(file, tool, _)| (file, tool) == at) {
+            return Ok(number);
+        }
+        if !tool.missing.is_empty() {
+            let message = format!("{}, and `{}` does not tell it", tool.lack(), library.file);
+            let help = "write the tool as [[tool]] in the job, or make a TOML file of the tools with `kinecut tools`";
+            return Err(Finding::error(Code::TOOL_FILE, message).help(help).key("tool").into());
+        }
+        if let Some(&(file, tool, _)) = self.taken.iter().find(|(_, _, other)| *other == number) {
+            let message = format!("{} and {} have one number", self.title((file, tool)), self.title(at));
+            let help = "give one of them another number, or write it as [[tool]] in the job";
+            return Err(Finding::error(Code::JOB_VALUE, message).help(help).key("tool").into());
+        }
+        let mut table = tool.table.clone();
+        let key = format!("tool[{}]", file.tools.len());
+        if let Some(own) = &library.places {
+            places.include_part(&key, own, &format!("tool[{i}]"));
+        }
+        let named = table.holder.as_deref();
+        if let Some(at) = library.holders.iter().position(|holder| Some(holder.name.as_str()) == named) {
+            table.holder = Some(self.take_holder(file, places, (k, at)));
+        }
+        file.tools.push(table);
+        self.taken.push((k, i, number));
+        Ok(number)
+    }
+
+    /// Takes a holder of a file into the job; its name there.
+    fn take_holder(&mut self, file: &mut JobFile, places: &mut Places, at: (usize, usize)) -> String {
+        if let Some((.., name)) = self.holders.iter().find(|(k, i, _)| (*k, *i) == at) {
+            return name.clone();
+        }
+        let library = &self.libraries[at.0];
+        let mut holder = library.holders[at.1].clone();
+        let is_there = |name: &str| file.holders.iter().any(|other| other.name == name);
+        let plain = holder.name.clone();
+        for number in 2.. {
+            if !is_there(&holder.name) {
+                break;
+            }
+            holder.name = format!("{plain} ({number})");
+        }
+        if let Some(own) = &library.places {
+            places.include_part(
+                &format!("holder[{}]", file.holders.len()),
+                own,
+                &format!("holder[{}]", at.1),
+            );
+        }
+        self.holders.push((at.0, at.1, holder.name.clone()));
+        file.holders.push(holder);
+        file.holders.last().map(|holder| holder.name.clone()).unwrap_or_default()
+    }
+
+    /// The error of a tool that is nowhere, with the nearest that are there.
+    fn unknown(&self, file: &JobFile, called: &CalledTool) -> Finding {
+        let own = file.tools[..self.own].iter().map(|tool| (tool.name.as_deref(), Some(tool.number)));
+        let tools = self.libraries.iter().flat_map(|library| &library.tools);
+        let others = tools.map(|t| (t.table.name.as_deref(), t.has("number").then_some(t.table.number)));
+        let all: Vec<(Option<&str>, Option<u32>)> = own.chain(others).collect();
+        let finding = Finding::error(Code::JOB_REFERENCE, format!("{called} is not defined")).key("tool");
+        let help = match called {
+            CalledTool::Number(number) => {
+                let mut numbers: Vec<u32> = all.iter().filter_map(|(_, number)| *number).collect();
+                numbers.sort_by_key(|n| (n.abs_diff(*number), *n));
+                let near: Vec<String> = numbers.iter().take(PROPOSED).map(|n| format!("T{n}")).collect();
+                if near.is_empty() { String::new() } else { format!("; the nearest are {}", near.join(", ")) }
+            }
+            CalledTool::Name(name) => {
+                let plain = plain_name(name);
+                let like = |other: &str| strsim::jaro_winkler(&plain, &plain_name(other));
+                let mut names: Vec<(f64, &str)> =
+                    all.iter().filter_map(|(name, _)| name.map(|name| (like(name), name))).collect();
+                names.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(b.1)));
+                names.dedup();
+                let near: Vec<String> = names
+                    .iter()
+                    .filter(|(alike, _)| *alike > ALIKE)
+                    .take(PROPOSED)
+                    .map(|(_, name)| format!("`{}`", name.escape_debug()))
+                    .collect();
+                if near.is_empty() { String::new() } else { format!("; did you mean {}?", near.join(" or ")) }
+            }
+        };
+        let files: Vec<String> = self.libraries.iter().map(|library| format!("`{}`", library.file)).collect();
+        let place = if files.is_empty() { String::new() } else { format!(", or in {}", files.join(" or ")) };
+        finding.help(format!("define it with [[tool]]{place}{help}"))
+    }
+
+    /// Gives an operation without a speed that of the preset of its tool for the material of the job.
+    fn choose_data(
+        &mut self,
+        file: &JobFile,
+        operation: &mut OperationTable,
+        number: u32,
+        at: (usize, usize),
+    ) {
+        let Some(material) = &file.material else { return };
+        let Some((index, tool)) = file.tools.iter().enumerate().find(|(_, t)| t.number == number) else {
+            return;
+        };
+        let plain = plain_name(material);
+        let Some(preset) = tool.presets.iter().find(|p| plain_name(&p.material) == plain) else { return };
+        let taken = taken_data(operation, preset);
+        if taken.is_empty() {
+            return;
+        }
+        let of = match index.checked_sub(self.own).and_then(|i| self.taken.get(i)) {
+            Some(&(k, ..)) => format!(" of `{}`", self.libraries[k].file),
+            None => String::new(),
+        };
+        let message = format!("{} from the preset {} of T{number}{of}", taken.join(", "), preset.material);
+        let key = format!("setup[{}].operation[{}]", at.0, at.1);
+        self.data.push(Finding::note(Code::TOOL_CHOSEN, message).key(key));
+    }
+
+    /// Findings about what was taken, without their places.
+    pub(in crate::job) fn notes(&self) -> Vec<Finding> {
+        let mut notes = Vec::new();
+        for number in &self.replaced {
+            let files: BTreeSet<&str> =
+                self.of_number(*number).iter().map(|&(k, _)| self.libraries[k].file.as_str()).collect();
+            let files: Vec<String> = files.iter().map(|file| format!("`{file}`")).collect();
+            let message = format!("T{number} is that of the job, not that of {}", files.join(" or "));
+            notes.push(Finding::note(Code::TOOL_CHOSEN, message));
+        }
+        for &(k, i, _) in &self.taken {
+            let (library, tool) = (&self.libraries[k], &self.libraries[k].tools[i]);
+            let place = || Location::whole_file(&*library.file);
+            if !tool.dropped.is_empty() {
+                let message = format!("not taken of {}: {}", tool.title(), tool.dropped.join(", "));
+                notes.push(Finding::note(Code::TOOL_FIELDS, message).at(place()));
+            }
+            if !tool.assumed.is_empty() {
+                let message = format!("assumed of {}: {}", tool.title(), tool.assumed.join(", "));
+                let help = "write it as [[tool]] in the job, where nothing is left open";
+                notes.push(Finding::doubt(Code::TOOL_ASSUMED, message).help(help).at(place()));
+            }
+        }
+        notes.extend(self.data.iter().cloned());
+        notes
+    }
+}
+
+/// Gives an operation speed and feed of a preset where it has none; what it was given, in words.
+fn taken_data(operation: &mut OperationTable, preset: &PresetTable) -> Vec<String> {
+    let mut taken = Vec::new();
+    let Some(keys) = operation.data() else { return taken };
+    if keys.speed.is_some() || keys.cutting_speed.is_some() {
+        return taken;
+    }
+    if let Some(speed) = preset.cutting_speed {
+        *keys.cutting_speed = Some(speed);
+        taken.push(format!("cutting_speed {speed} m/min"));
+    } else if let Some(speed) = preset.speed {
+        *keys.speed = Some(speed);
+        taken.push(format!("speed {speed} rev/min"));
+    } else {
+        return taken;
+    }
+    let Some(feed) = keys.feed.filter(|keys| keys.feed.is_none() && keys.per_tooth.is_none()) else {
+        return taken;
+    };
+    if let Some(per_tooth) = preset.feed_per_tooth {
+        *feed.per_tooth = Some(per_tooth);
+        taken.push(format!("feed_per_tooth {per_tooth} mm"));
+    } else if let Some(value) = preset.feed {
+        *feed.feed = Some(value);
+        taken.push(format!("feed {value} mm/min"));
+    }
+    taken
+}
+
+/// The error of a name or number that several tools have.
+fn several(called: &CalledTool, all: &[String]) -> Error {
+    let what = if matches!(called, CalledTool::Number(_)) { "number" } else { "name" };
+    Finding::error(
+        Code::JOB_REFERENCE,
+        format!("{called} is the {what} of several tools: {}", all.join(", ")),
+    )
+    .help("call it by what only one of them has, or write it as [[tool]] in the job")
+    .key("tool")
+    .into()
+}
