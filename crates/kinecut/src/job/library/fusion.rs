@@ -157,16 +157,11 @@ fn sizes(tool: &mut LibraryTool, fields: &mut Fields<'_>, unit: f64) {
         tool.table.teeth = Some(teeth);
         fields.take("geometry.NOF");
     }
-    match fields.look("geometry.HAND").and_then(Value::as_bool) {
-        Some(true) => _ = fields.take("geometry.HAND"),
-        _ if tool.table.kind != ToolType::Tap => {
-            // `false` says nothing by itself, but is there.
-            if entry_says_left(fields) {
-                tool.table.hand = Hand::Left;
-            }
-        }
-        _ => {}
+    // The type of a tap says its hand.
+    if tool.table.kind != ToolType::Tap && entry_says_left(fields) {
+        tool.table.hand = Hand::Left;
     }
+    fields.take("geometry.HAND");
 }
 
 /// Whether `geometry.HAND` is there and false.
