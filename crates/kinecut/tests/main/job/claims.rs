@@ -27,7 +27,7 @@ safe_height = 40
     )
 }
 
-const BOX: &str = "{ box = { min = [-40, -30, -20], max = [40, 30, 0] } }";
+const BOX: &str = "{ box = { min = [-40, -20, -20], max = [40, 20, 0] } }";
 const FACE: &str =
     "[[setup.operation]]\ntype = \"face\"\ntool = 1\noutline = \"top\"\nspeed = 1000\nfeed_per_tooth = 0.1\n";
 const DRILL: &str =
@@ -71,7 +71,7 @@ fn a_hole_begins_at_the_face_that_was_milled() {
 #[test]
 fn a_face_that_ends_within_the_hole_is_not_where_it_begins() {
     // The face reaches to X 10: the drill at X 9 is half over it.
-    let half = "outline = { loops = [ { points = [[-40, -30], [10, -30], [10, 30], [-40, 30]] } ] }\n";
+    let half = "outline = { loops = [ { points = [[-40, -20], [10, -20], [10, 20], [-40, 20]] } ] }\n";
     let face = FACE.replace("outline = \"top\"\n", half);
     let face = format!("{face}top = -0.5\ndepth = 0.5\n");
     let at = |x: f64| done(BOX, &format!("{face}{DRILL}points = [[{x}, 0]]\n"));
