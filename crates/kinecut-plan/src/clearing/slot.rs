@@ -105,7 +105,7 @@ pub fn plan_slot(spec: &SlotSpec) -> Result<PocketPlan> {
     let around_now = around.unwrap_or(0.0);
     let free = Free { stock: stock.as_ref(), holes: &holes };
     let line = if mirrored { spec.line.mirrored() } else { spec.line.clone() };
-    let line = free.from_free_end(line, a, around_now + a);
+    let line = free.freer_end_first(line, a, around_now + a);
     let face = turned(&pocket.outline);
     let bounds = face.bounds();
     CELLS.check(Clearing::cells(bounds, a))?;
@@ -233,7 +233,7 @@ impl Free<'_> {
     }
 
     /// A line, turned so that it begins at the end with more room; `reach`: that of the loops [mm].
-    fn from_free_end(&self, line: CentreLine, radius: f64, reach: f64) -> CentreLine {
+    fn freer_end_first(&self, line: CentreLine, radius: f64, reach: f64) -> CentreLine {
         let [start, end] = [0.0, line.length()].map(|along| line.pose(along).at);
         let value = |at: DVec2| match self.around(at) {
             room if room >= reach => 2,

@@ -42,9 +42,13 @@ fn facts(plan: &PlannedPocket, wall: Option<&BoreMeasure>) -> Vec<Fact> {
             )),
     );
     let share = |length: f64| format!("{} mm", trimmed(length, 0));
+    let [title, one, more] = match plan.of.slot.is_some() && f.largest < PI {
+        true => ["Loops", "loop", "loops"],
+        false => ["Passes", "pass", "passes"],
+    };
     let ratio = if f.bound > 0.0 { fixed(f.cutting / f.bound, 2) } else { "\u{2013}".to_owned() };
     facts.push(
-        Fact::new("Passes", uncut::count(f.passes, "pass", "passes")).note(format!(
+        Fact::new(title, uncut::count(f.passes, one, more)).note(format!(
             "{} on each level, {ratio} of the least length at this engagement",
             share(f.cutting)
         )),
