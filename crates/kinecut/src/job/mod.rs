@@ -15,6 +15,7 @@ pub(crate) mod following;
 pub(crate) mod held_feed;
 pub mod inspect;
 pub(crate) mod items;
+mod lacking;
 pub mod library;
 mod look;
 pub mod machine;

@@ -2,11 +2,14 @@
 
 use std::ops::Range;
 
+use schemars::JsonSchema;
 use serde::Deserialize;
+use serde::de::DeserializeOwned;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue, Deserializer};
 
 use super::file::{JobFile, MachineEntry, MachineTable};
+use super::lacking::{Keys, Lacking, is_missing, missing};
 use super::library::Shop;
 use super::places::{Places, parse, span, toml_error};
 use crate::base::{Code, Error, FileId, Finding, Loader, Result, Sources};
@@ -35,12 +38,22 @@ impl JobText {
         let mut places = Places::of(id, &root);
         let operations = take_operations(root.get_mut());
         let machine = root.get_mut().remove("machine");
-        let mut file: JobFile = decode(sources, id, root)?;
-        for (s, tables) in operations.into_iter().enumerate() {
+        let mut lacking = Vec::new();
+        let file: Option<JobFile> = decode_or_lack(sources, id, root, &mut lacking)?;
+        let mut decoded = Vec::with_capacity(operations.len());
+        for tables in operations {
+            let mut own = Vec::with_capacity(tables.len());
             for table in tables {
-                let operation = decode_operation(sources, id, table)?;
-                file.setups[s].operations.push(operation);
+                own.extend(operation_or_lack(sources, id, table, &mut lacking)?);
             }
+            decoded.push(own);
+        }
+        if let Some(error) = missing(sources, id, &lacking) {
+            return Err(error);
+        }
+        let Some(mut file) = file else { return Err(Finding::error(Code::JOB_SHAPE, "no job").into()) };
+        for (setup, own) in file.setups.iter_mut().zip(decoded) {
+            setup.operations.extend(own);
         }
         file.machine = match machine.map(|m| (m.span(), m.into_inner())) {
             None => None,
@@ -179,11 +192,47 @@ fn table_of<'a>(
     }
 }
 
+/// Decodes a table; one that lacks keys comes as `None`, and is added to those that do.
+fn decode_or_lack<T: DeserializeOwned + JsonSchema>(
+    sources: &Sources,
+    id: FileId,
+    table: Spanned<DeTable<'_>>,
+    lacking: &mut Vec<Lacking>,
+) -> Result<Option<T>> {
+    let keys = Keys::of(&table);
+    T::deserialize(Deserializer::from(table)).map(Some).or_else(|e| {
+        let lacks = if is_missing(e.message()) { keys.lacking::<T>() } else { Vec::new() };
+        if lacks.is_empty() {
+            return Err(toml_error(sources, id, Code::JOB_SHAPE, &e));
+        }
+        lacking.extend(lacks);
+        Ok(None)
+    })
+}
+
+/// Decodes an operation.
+///
+/// # Errors
+/// `KC0102` for what is wrong with it: all keys that it lacks at once.
 pub(crate) fn decode_operation(
     sources: &Sources,
     id: FileId,
     value: Spanned<DeValue<'_>>,
 ) -> Result<OperationTable> {
+    let mut lacking = Vec::new();
+    let operation = operation_or_lack(sources, id, value, &mut lacking)?;
+    match missing(sources, id, &lacking) {
+        Some(error) => Err(error),
+        None => operation.ok_or_else(|| Finding::error(Code::JOB_SHAPE, "no operation").into()),
+    }
+}
+
+fn operation_or_lack(
+    sources: &Sources,
+    id: FileId,
+    value: Spanned<DeValue<'_>>,
+    lacking: &mut Vec<Lacking>,
+) -> Result<Option<OperationTable>> {
     let range = value.span();
     let mut table = table_of(sources, id, range.clone(), value.into_inner())?;
     let kind = table.get_mut().remove("type");
@@ -195,8 +244,12 @@ pub(crate) fn decode_operation(
     };
     let Some(kind) = kind else { return fail("an operation has no type".to_owned(), &range) };
     match kind.get_ref().as_str() {
-        Some(name) => OperationTable::of_kind(name, InText { sources, id, table })
-            .unwrap_or_else(|| fail(format!("unknown operation `{name}`"), &kind.span())),
+        Some(name) => match OperationTable::of_kind(name, InText { sources, id, table, lacking }) {
+            Some(Ok(operation)) => Ok(Some(operation)),
+            Some(Err(None)) => Ok(None),
+            Some(Err(Some(error))) => Err(error),
+            None => fail(format!("unknown operation `{name}`"), &kind.span()),
+        },
         None => fail("the type of an operation must be a text".to_owned(), &kind.span()),
     }
 }
@@ -206,10 +259,14 @@ struct InText<'a, 'de> {
     sources: &'a Sources,
     id: FileId,
     table: Spanned<DeTable<'de>>,
+    lacking: &'a mut Vec<Lacking>,
 }
 
 impl Decode for InText<'_, '_> {
-    fn table<T: serde::de::DeserializeOwned>(self) -> Result<T> {
-        decode(self.sources, self.id, self.table)
+    fn table<T: DeserializeOwned + JsonSchema>(self) -> std::result::Result<T, Option<Error>> {
+        match decode_or_lack(self.sources, self.id, self.table, self.lacking) {
+            Ok(table) => table.ok_or(None),
+            Err(error) => Err(Some(error)),
+        }
     }
 }

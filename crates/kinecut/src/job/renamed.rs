@@ -19,8 +19,13 @@ fn new_name(key: &str) -> Option<&'static str> {
 /// The key under its old name, if it has one.
 pub(super) fn old_key(key: &str) -> Option<String> {
     let (above, last) = key.rsplit_once('.')?;
-    let (old, _) = RENAMED.iter().find(|(_, new)| *new == last)?;
-    Some(format!("{above}.{}", old.rsplit('.').next()?))
+    Some(format!("{above}.{}", old_name(last)?))
+}
+
+/// The old name of a key of an operation, if it has one.
+pub(super) fn old_name(new: &str) -> Option<&'static str> {
+    let (old, _) = RENAMED.iter().find(|(_, of)| *of == new)?;
+    old.rsplit('.').next()
 }
 
 /// A message that lists the keys of a table, without the old names of those that it lists by their new ones.

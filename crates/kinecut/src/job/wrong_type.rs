@@ -4,6 +4,10 @@
 pub(super) fn wrong_type(message: &str) -> Option<(String, String)> {
     let rest = message.strip_prefix("invalid type: ").or_else(|| message.strip_prefix("invalid value: "))?;
     let (given, wanted) = rest.split_once(", expected ")?;
+    if given == "unit variant" && wanted == "newtype variant" {
+        let help = "write it as a table: { name = value }".to_owned();
+        return Some(("the name alone says too little here: it needs a value".to_owned(), help));
+    }
     let wanted = match wanted {
         "f64" | "f32" => "a number",
         "u8" | "u16" | "u32" | "u64" | "usize" => "a whole number from 0",
@@ -63,5 +67,7 @@ mod tests {
             text("a list belongs here, not 1.0", "put it in square brackets")
         );
         assert!(wrong_type("missing field `tool`").is_none());
+        let rows = told::<crate::facing::PassesChoice>("d = \"rows\"");
+        assert_eq!(rows.1, "write it as a table: { name = value }");
     }
 }

@@ -14,7 +14,7 @@ macro_rules! kinds {
         use self::named::NamedOutline;
         use self::measured::{Loose, Proof, TakenOut};
         use self::wanted::{PlannedOutline, WantedPlane, WantedWall};
-        use crate::base::{Finding, Result};
+        use crate::base::{Error, Finding, Result};
         use crate::page::Section;
         use crate::program::Setup;
 
@@ -42,7 +42,10 @@ macro_rules! kinds {
             pub const NAMES: &'static [&'static str] = &[$($name),*];
 
             /// The table of a kind, made by `decode`; `None` for a name that is no kind.
-            pub(crate) fn of_kind<D: Decode>(name: &str, decode: D) -> Option<Result<OperationTable>> {
+            pub(crate) fn of_kind<D: Decode>(
+                name: &str,
+                decode: D,
+            ) -> Option<std::result::Result<OperationTable, Option<Error>>> {
                 match name {
                     $($name => Some(decode.table::<$table>().map(|t| OperationTable::$kind(Box::new(t)))),)*
                     _ => None,
@@ -291,8 +294,8 @@ macro_rules! kinds {
             /// The table.
             ///
             /// # Errors
-            /// Those of the text.
-            fn table<T: serde::de::DeserializeOwned>(self) -> Result<T>;
+            /// Those of the text; `None` for a table that lacks keys, which is noted elsewhere.
+            fn table<T: serde::de::DeserializeOwned + JsonSchema>(self) -> std::result::Result<T, Option<Error>>;
         }
     };
 }

@@ -40,7 +40,7 @@ pub struct JobFile {
     /// The material of the part: "C45". Operations without a speed take that of their tool's preset for it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub material: Option<String>,
-    /// Files of tools: "shop.toml", or a list of them. TOML with [[tool]] and [[holder]] as here, the tool table of LinuxCNC
+    /// Files of tools: "shop.toml", or a list of them. TOML with the tools and holders of a job, the tool table of LinuxCNC
     /// (.tbl), Fusion .json and .tools, FreeCAD .fctb and .fctl. A tool of the job is taken before one of the same number.
     #[serde(default, rename = "tools", skip_serializing_if = "Option::is_none")]
     pub libraries: Option<ToolFiles>,

@@ -165,6 +165,31 @@ fn the_schema_beside_the_examples_is_the_present_one() {
 }
 
 #[test]
+fn all_keys_that_are_missing_are_named_at_once() {
+    let text = with("flute_length = 22\n", "").replace("depth = 8\n", "").replace("speed = 8000\n", "")
+        + "[[setup.operation]]\ntype = \"slot\"\nwidth = 12\n";
+    let error = run(&text).unwrap_err().0;
+    assert_eq!((error.code, error.message.as_str()), (Code::JOB_SHAPE, "`flute_length` is missing"));
+    let place = error.place.as_ref().expect("a place");
+    assert_eq!((place.file.as_str(), place.line), ("jobs/test.toml", 12));
+    let help = &error.help;
+    assert!(help.starts_with("flute_length: "), "{help}");
+    for words in ["line 21 lacks `depth`, `speed`", "line 30 lacks `tool`, `depth`"] {
+        assert!(help.contains(words), "{help}");
+    }
+    // In one table: all of them, each with what it is; a key under its old name is there.
+    let text = with("stepover = 2, allowance = 0.2, feed = 1200", "step = 2");
+    let error = run(&text).unwrap_err().0;
+    assert_eq!(error.message, "`feed` is missing");
+    let text = with("tool = 1\nat = [0, 0]\n", "");
+    let error = run(&text).unwrap_err().0;
+    assert!(error.message.starts_with("`tool`"), "{error:?}");
+    // Another fault of a table comes first.
+    let error = run(&with("depth = 8", "dept = 8")).unwrap_err().0;
+    assert!(error.message.contains("unknown field `dept`"), "{error:?}");
+}
+
+#[test]
 fn keys_under_their_old_names_are_read_and_a_note_tells_the_new_ones() {
     let renamed = |old: &str| -> String {
         with("stepover = 2,", "step = 2, axial_step = 3,").replace("depth = 8", &format!("depth = 8\n{old}"))
