@@ -6,9 +6,10 @@ use super::PocketTable;
 use super::plan::{PlannedPocket, planned};
 use crate::base::bounded::{MAX_LENGTH, length, positive};
 use crate::base::{Code, Finding, Result};
-use crate::clearing::CentreLine;
+use crate::clearing::{CentreLine, PocketSpec, SlotSpec};
 use crate::contouring::{ContourLoops, ContourSide};
 use crate::geom::{Outline, OutlineRead};
+use crate::holes::CutterData;
 use crate::operations::kind::{self, Attempt};
 use crate::operations::named::NamedOutline;
 use crate::operations::outlines::{OutlineEntry, outline_keys};
@@ -56,6 +57,21 @@ pub struct CentredSlot {
     pub line: CentreLine,
     /// Width.
     pub width: f64,
+}
+
+impl CentredSlot {
+    /// It with all else of a pocket.
+    pub(super) fn of(&self, pocket: &PocketSpec) -> SlotSpec {
+        SlotSpec { line: self.line.clone(), width: self.width, pocket: pocket.clone() }
+    }
+
+    /// Radius of the arcs on which its wall is joined and left, for which there is room beside the opposite one [mm].
+    pub(super) fn lead_radius(&self, cutter: &CutterData, leave: f64) -> Option<f64> {
+        let radius = 0.5 * cutter.diameter;
+        let room = 0.5 * self.width - leave - radius;
+        let usual = if radius > 2.0 { 0.5 * radius } else { 1.0 };
+        (room > 0.0 && room < usual).then_some(room)
+    }
 }
 
 /// Feeds of a pocket [mm/s].

@@ -4,11 +4,11 @@ use std::sync::Arc;
 
 use glam::{DVec2, DVec3};
 
+use super::PocketOperation;
 use super::json::PocketJson;
 use super::section::section;
-use super::{CentredSlot, PocketOperation};
 use crate::base::{Code, Finding, Result};
-use crate::clearing::{AS_WIDE, PocketPlan, PocketSpec, SlotSpec, WALL_STOCK, plan_pocket, plan_slot};
+use crate::clearing::{AS_WIDE, PocketPlan, PocketSpec, WALL_STOCK, plan_pocket, plan_slot};
 use crate::contouring::{ContourFinish, ContourPlan, ContourSide, ContourSpec, plan_contour};
 use crate::geom::{Line, Outline};
 use crate::holes::{CutterData, PlannedMove, ToolpathPace, ToolpathRole};
@@ -42,11 +42,10 @@ pub(crate) fn planned(of: &Arc<PocketOperation>, setting: &Setting<'_>) -> Resul
     let (spec, lap) = specs(setting, of)?;
     let (clearing, wall) = match &of.slot {
         None => (plan_pocket(&spec)?, plan_contour(&lap)?),
-        Some(CentredSlot { line, width }) => {
-            let slot = SlotSpec { line: line.clone(), width: *width, pocket: spec.clone() };
+        Some(slot) => {
             // Passes as wide as the slot have cut its walls.
-            let is_cut = width - 2.0 * lap.stock_to_leave <= spec.cutter.diameter + AS_WIDE;
-            (plan_slot(&slot)?, if is_cut { ContourPlan::default() } else { plan_contour(&lap)? })
+            let is_cut = slot.width - 2.0 * lap.stock_to_leave <= spec.cutter.diameter + AS_WIDE;
+            (plan_slot(&slot.of(&spec))?, if is_cut { ContourPlan::default() } else { plan_contour(&lap)? })
         }
     };
     let wear =
@@ -83,6 +82,8 @@ fn specs(setting: &Setting<'_>, of: &PocketOperation) -> Result<(PocketSpec, Con
         approach_z,
         ..PocketSpec::new(of.outline.clone(), t.depth, cutter, of.feeds.pass)
     };
+    // Passes as wide as the cutter have run in the middle: leads begin there.
+    let is_full = of.slot.as_ref().is_some_and(|s| s.of(&spec).around().is_none());
     let lap = ContourSpec {
         side: ContourSide::Inside,
         left_hand: of.left_hand(),
@@ -96,13 +97,13 @@ fn specs(setting: &Setting<'_>, of: &PocketOperation) -> Result<(PocketSpec, Con
         ramp: None,
         cleared: true,
         finish: t.finish.as_ref().map(|f| ContourFinish {
-            allowance: f.allowance + WALL_STOCK,
+            allowance: if is_full { 0.0 } else { f.allowance + WALL_STOCK },
             feed: of.feeds.finish,
             stepdown: f.stepdown,
             spring_passes: f.spring_passes,
             wear,
         }),
-        lead_radius: t.lead_radius,
+        lead_radius: t.lead_radius.or_else(|| of.slot.as_ref()?.lead_radius(&cutter, t.stock_to_leave)),
         retract_z,
         approach_z,
         ..ContourSpec::new(of.outline.clone(), t.depth, cutter, of.feeds.pass)
