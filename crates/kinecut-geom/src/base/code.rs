@@ -127,6 +127,9 @@ codes! {
     THREAD_FORM = "KC0415", "a posted thread is not the wanted one",
         "The helix was read back from the posted text, and its radius, pitch, hand, direction or height does not give the wanted thread: the pitch diameter by the envelope of the tool's flanks is off by more than the tolerance. The message gives both numbers.";
 
+    FULL_WIDTH = "KC0416", "levels of a slot are deep for a cutter that is wholly in the stock",
+        "A slot as wide as the cutter is cut with half of its circle. Usual depths of a level there are half the diameter in steel and the diameter in aluminium; deeper, chips stay in the slot and the cutter breaks. Give a smaller stepdown, or take a smaller cutter, which goes in loops.";
+
     RAPID_IN_STOCK = "KC0501", "a rapid move goes through stock",
         "The cutter meets material in a rapid move. On most machines this breaks the cutter, and at times the spindle.";
     SHANK_IN_STOCK = "KC0502", "the shank meets stock",

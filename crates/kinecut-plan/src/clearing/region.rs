@@ -18,7 +18,7 @@ pub(super) struct CentreRegion {
 #[derive(Clone, Debug)]
 pub(super) struct WallLoop {
     pub(super) edges: Vec<OutlineEdge>,
-    /// What it goes around, where the region lies inside of it.
+    /// The face within it where it is an outer loop; none for one around an island.
     pub(super) around: Option<Outline>,
 }
 

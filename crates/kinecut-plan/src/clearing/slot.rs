@@ -67,9 +67,9 @@ impl SlotSpec {
 
 /// Plans the clearing of a slot.
 ///
-/// Where there is room beside the cutter, it goes in loops of a trochoid whose largest engagement is the wanted one: the front
-/// of a loop cuts, the way back is shorter and faster. Else passes go along the line with all of the cutter in the stock. It
-/// begins at an open end or at a hole where there is one.
+/// The cutter goes in loops of a trochoid where there is room beside it: their largest engagement is the wanted one, the front
+/// of a loop cuts, and the way back is shorter and faster. Without room, passes go along the line with all of the cutter in the
+/// stock. Both begin at an open end or at a hole, where there is one.
 ///
 /// # Errors
 /// `KC0401` where the cutter is too wide, `KC0403` where it cannot enter, `KC0404` for numbers out of range, among them an
@@ -151,8 +151,10 @@ pub fn plan_slot(spec: &SlotSpec) -> Result<PocketPlan> {
     };
     let is_whole = stock.is_none() && holes.is_empty() || region.is_none();
     let figures = figures(pocket, [area, if is_whole { area } else { stock_area.min(area) }], &cleared);
+    let deepest = floors.iter().map(|l| l.above - l.floor).fold(0.0, f64::max);
+    let findings = deep(spec, deepest).filter(|_| around.is_none()).into_iter().collect();
     let levels = floors.iter().map(|l| l.floor).collect();
-    Ok(PocketPlan { moves: route.moves, levels, figures, findings: Vec::new() })
+    Ok(PocketPlan { moves: route.moves, levels, figures, findings })
 }
 
 /// Whether the cutter is not wider than what is roughed.
@@ -185,6 +187,24 @@ fn as_wide(spec: &SlotSpec) -> Finding {
         .key("engagement")
 }
 
+/// A warning where levels are deep for a cutter that is wholly in the stock.
+fn deep(spec: &SlotSpec, depth: f64) -> Option<Finding> {
+    let diameter = spec.pocket.cutter.diameter;
+    (depth > diameter + 1e-9).then(|| {
+        Finding::warning(
+            Code::FULL_WIDTH,
+            "levels are deeper than the cutter is wide, and all of its width cuts",
+        )
+        .value_mm(depth)
+        .bound_mm(diameter)
+        .help(format!(
+            "usual is half the diameter in steel, the diameter in aluminium: stepdown = {}",
+            0.5 * diameter
+        ))
+        .key("stepdown")
+    })
+}
+
 /// Passes with all of the cutter in the stock.
 fn as_wide_as_cutter(spec: &SlotSpec, line: &CentreLine, free: &Free<'_>) -> Result<Cleared> {
     let pocket = &spec.pocket;
@@ -192,7 +212,7 @@ fn as_wide_as_cutter(spec: &SlotSpec, line: &CentreLine, free: &Free<'_>) -> Res
     let start = line.pose(0.0).at;
     let edges = line.edges().to_vec();
     let mut cleared = Cleared::default();
-    if free.around(start) >= a || free.hole(start, a).is_some() {
+    if free.hole(start, a).is_some() {
         cleared.elements.push(Element::Down(start));
         cleared.elements.push(Element::Pass(Pass { edges, largest: PI }));
         return Ok(cleared);
@@ -210,7 +230,7 @@ fn as_wide_as_cutter(spec: &SlotSpec, line: &CentreLine, free: &Free<'_>) -> Res
     Ok(cleared)
 }
 
-/// What is free of stock before the slot is cut.
+/// Places without stock before the slot is cut.
 struct Free<'a> {
     stock: Option<&'a Outline>,
     holes: &'a [(DVec2, f64)],

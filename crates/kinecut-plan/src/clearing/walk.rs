@@ -31,6 +31,9 @@ const BELOW: f64 = 1e-3;
 const TRIALS: usize = 14;
 /// Excess with which a pass goes on where no way has less [rad].
 const STUCK: f64 = 1e-6;
+/// Grid on which the points [mm] and headings [rad] of a way lie. Each step hangs on all before it: without a grid the last
+/// bit of a sine, which may differ between machines and builds, has grown to another way a few passes later.
+const GRID: f64 = 1.0 / (1 << 20) as f64;
 
 /// A way of the cutter's centre, point by point.
 #[derive(Clone, Debug, Default)]
@@ -53,6 +56,14 @@ pub(super) struct Walker<'a> {
     pub(super) work: Scratch,
 }
 
+fn on_grid(value: f64) -> f64 {
+    (value / GRID).round() * GRID
+}
+
+fn point_on_grid(p: DVec2) -> DVec2 {
+    DVec2::new(on_grid(p.x), on_grid(p.y))
+}
+
 /// Step of the walk for a cutter's radius [mm].
 pub(super) fn step_of(radius: f64) -> f64 {
     (STEP * radius).min(LONGEST)
@@ -63,6 +74,7 @@ impl Walker<'_> {
     pub(super) fn pass(&mut self, start: DVec2, heading: f64, most: usize) -> Way {
         let step = step_of(self.radius);
         let sharpest = -2.0 * (0.5 * step / (RIGHT_TURN * self.radius)).asin();
+        let (start, heading) = (point_on_grid(start), on_grid(heading));
         let mut way = Way { points: vec![start], ..Way::default() };
         let (mut at, mut heading, mut bend) = (start, heading, 0.0_f64);
         let mut air = 0.0;
@@ -117,8 +129,8 @@ impl Walker<'_> {
         let room = self.region.room_within(at, step);
         let wanted = self.wanted;
         let mut look = |turn: f64| {
-            let mut along = heading + turn;
-            let mut next = at + step * DVec2::from_angle(along);
+            let mut along = heading + on_grid(turn);
+            let mut next = point_on_grid(at + step * DVec2::from_angle(along));
             if room < step {
                 let inside = self.region.nearest_inside(next);
                 if inside != next {
@@ -126,8 +138,8 @@ impl Walker<'_> {
                     if ahead.dot(DVec2::from_angle(along)) < 0.3 * step {
                         return (next, along, f64::INFINITY);
                     }
-                    next = inside;
-                    along = heading + wrap(ahead.to_angle() - heading);
+                    next = point_on_grid(inside);
+                    along = heading + on_grid(wrap(ahead.to_angle() - heading));
                 }
             }
             // The way turns on as it has turned: half of it belongs to this point. To the left, where that cuts less, no more

@@ -7,7 +7,7 @@ use super::tilt::{all_zero, tilt, tilted};
 use crate::base::{Code, Error, Finding, Progress, Result};
 use crate::machine::Machine;
 use crate::operations::{
-    Attempt, Clamping, MadeHole, MadePlane, Milling, Operation, OperationPlan, Pen, Setting, WearRegister,
+    Attempt, Clamping, MadeHole, Milling, Operation, OperationPlan, Pen, PlacedPlane, Setting, WearRegister,
 };
 use crate::program::{
     Coolant, Frame, FrameId, Move, Origin, Path, Program, Role, SetupId, Speed, Spindle, State, StopKind,
@@ -79,11 +79,11 @@ pub fn plan(job: &Job, progress: &dyn Progress) -> Result<Vec<SetupPlan>> {
     Ok(planned)
 }
 
-/// What operations leave, over all setups.
+/// Holes and planes that operations leave, over all setups.
 #[derive(Default)]
 struct Made {
     holes: Vec<MadeHole>,
-    planes: Vec<MadePlane>,
+    planes: Vec<PlacedPlane>,
 }
 
 /// Plans the operations of a setup, the first of which has the number `first`; `made` gathers what they leave.
@@ -123,7 +123,7 @@ fn plan_setup(
         writer.operation(operation, &mut plan, setting).map_err(at)?;
         let to_part = clamping.to_work().inverse();
         made.holes.extend(plan.holes().into_iter().map(|hole| MadeHole { hole, to_part }));
-        made.planes.extend(plan.plane().and_then(|plane| MadePlane::new(&plane, &to_part)));
+        made.planes.extend(plan.made_plane().map(|plane| PlacedPlane { plane, to_part }));
         milled = plan.milled().or(milled);
         operations.push(PlannedOperation { number, plan });
     }

@@ -9,7 +9,7 @@ use super::face::FacingTable;
 use super::measured::{BoreMeasure, FaceMeasure, Loose, Probe, Proof, TakenOut, WallProbe};
 use super::named::NamedOutline;
 use super::wanted::{PlannedOutline, WantedPlane, WantedWall};
-use super::{Around, CalledTool, Milling, Pen, PlaneTable, PostedPlan, RoundHole, Setting};
+use super::{Around, CalledTool, MadePlane, Milling, Pen, PlaneTable, PostedPlan, RoundHole, Setting};
 use crate::base::{Finding, Result};
 use crate::page::Section;
 use crate::program::Setup;
@@ -189,6 +189,11 @@ pub(crate) trait Plan: Sized {
     /// The round holes that it leaves.
     fn holes(&self) -> Vec<RoundHole> {
         self.walls().iter().filter_map(RoundHole::of_wall).collect()
+    }
+
+    /// The plane that it leaves, for operations after it.
+    fn made_plane(&self) -> Option<MadePlane> {
+        None
     }
 
     /// The face that it has milled, for operations after it that go by its edges.

@@ -212,6 +212,11 @@ macro_rules! kinds {
                 match self { $(OperationPlan::$kind(p) => p.milled(),)* }
             }
 
+            /// The plane that it leaves.
+            pub(crate) fn made_plane(&self) -> Option<MadePlane> {
+                match self { $(OperationPlan::$kind(p) => p.made_plane(),)* }
+            }
+
             /// The plane that it wants.
             pub(crate) fn plane(&self) -> Option<WantedPlane<'_>> {
                 match self { $(OperationPlan::$kind(p) => p.plane(),)* }

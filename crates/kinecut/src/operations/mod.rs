@@ -44,7 +44,7 @@ pub(crate) mod wanted;
 pub use called_tool::CalledTool;
 pub(crate) use called_tool::plain_name;
 pub(crate) use kind::{Attempt, CuttingKeys, FeedKeys, Found, Judged, Probes, Shown, Tally, WearRegister};
-pub(crate) use made_plane::MadePlane;
+pub(crate) use made_plane::{MadePlane, PlacedPlane};
 pub use milling::{JobPlane, Milling};
 pub(crate) use milling::{feed_of, milling, milling_of, spindle, tool_of, whole_revolutions};
 pub(crate) use pen::Pen;

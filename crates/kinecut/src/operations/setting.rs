@@ -5,7 +5,7 @@ use std::borrow::Cow;
 use glam::DVec3;
 
 use super::edge::FaceEdges;
-use super::{MadeHole, MadePlane, Milling, OperationTable, OrientationName};
+use super::{MadeHole, Milling, OperationTable, OrientationName, PlacedPlane};
 use crate::base::{Loader, Progress};
 use crate::geom::{Aabb, Rigid, Solid};
 use crate::machine::Machine;
@@ -100,7 +100,7 @@ pub(crate) struct Setting<'a> {
     /// Holes that operations before it leave.
     pub(crate) made: &'a [MadeHole],
     /// Planes that operations before it leave.
-    pub(crate) faced: &'a [MadePlane],
+    pub(crate) faced: &'a [PlacedPlane],
     /// The face that was milled last before it in its setup.
     pub(crate) milled: Option<&'a FaceEdges>,
     /// The machine, if there is one.

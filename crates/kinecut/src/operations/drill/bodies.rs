@@ -6,7 +6,7 @@ use super::DrillOperation;
 use crate::base::Result;
 use crate::drilling::{BoundarySurface, PartFace, PartMesh, Passage, PreHole, Side};
 use crate::geom::{Aabb, EdgeProfile, Mesh, Rigid, Solid};
-use crate::operations::{Drilled, MadePlane, Setting};
+use crate::operations::{Drilled, PlacedPlane, Setting};
 
 /// A body that is drilled, in part coordinates, and the way from the work offset to it.
 pub(super) struct DrilledBody<'a> {
@@ -15,7 +15,7 @@ pub(super) struct DrilledBody<'a> {
     kind: Kind<'a>,
     drilled: &'a [Drilled],
     /// Planes that have been milled before; on a stock that is a mesh they are not looked at.
-    faced: &'a [MadePlane],
+    faced: &'a [PlacedPlane],
 }
 
 enum Kind<'a> {

@@ -13,7 +13,7 @@ use crate::geom::Rigid;
 use crate::operations::edge::FaceEdges;
 use crate::operations::kind::Checked as _;
 use crate::operations::wanted::WantedPlane;
-use crate::operations::{Found, Judged, Pen, PostedPlan, Probes, Setting, Shown, kind};
+use crate::operations::{Found, Judged, MadePlane, Pen, PostedPlan, Probes, Setting, Shown, kind};
 use crate::page::Section;
 use crate::program::{Frame, Setup};
 
@@ -60,6 +60,11 @@ impl kind::Plan for PlannedFace {
             rule: self.of.rule.clone(),
             psi_side: self.of.table.psi_side,
         })
+    }
+
+    fn made_plane(&self) -> Option<MadePlane> {
+        let case = &self.of.case;
+        Some(MadePlane::new(&case.outline, self.of.table.top, self.path(), case.radius))
     }
 
     fn plane(&self) -> Option<WantedPlane<'_>> {

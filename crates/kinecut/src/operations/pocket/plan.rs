@@ -37,6 +37,9 @@ pub struct PlannedPocket {
     wear: Option<WearRegister>,
 }
 
+/// Depth of a level where the cutter is wholly in the stock and the job does not say it, in its diameter.
+const FULL_STEPDOWN: f64 = 0.5;
+
 /// Plans a pocket.
 pub(crate) fn planned(of: &Arc<PocketOperation>, setting: &Setting<'_>) -> Result<Attempt<PlannedPocket>> {
     let (spec, lap) = specs(setting, of)?;
@@ -84,6 +87,8 @@ fn specs(setting: &Setting<'_>, of: &PocketOperation) -> Result<(PocketSpec, Con
     };
     // Passes as wide as the cutter have run in the middle: leads begin there.
     let is_full = of.slot.as_ref().is_some_and(|s| s.of(&spec).around().is_none());
+    let spec =
+        PocketSpec { stepdown: spec.stepdown.or(is_full.then_some(FULL_STEPDOWN * cutter.diameter)), ..spec };
     let lap = ContourSpec {
         side: ContourSide::Inside,
         left_hand: of.left_hand(),
@@ -91,7 +96,7 @@ fn specs(setting: &Setting<'_>, of: &PocketOperation) -> Result<(PocketSpec, Con
         top: t.top,
         breakthrough: t.breakthrough,
         stock_to_leave: t.stock_to_leave,
-        stepdown: t.stepdown,
+        stepdown: spec.stepdown,
         feed_at: t.feed_at,
         plunge_feed: of.feeds.down,
         ramp: None,

@@ -39,7 +39,7 @@ pub struct SlotTable {
     /// Depth that the tool goes below `depth`, for a cut that goes through; default 0.
     #[serde(default)]
     pub breakthrough: f64,
-    /// Largest depth of a level; default: the length of the flutes.
+    /// Largest depth of a level; default: the length of the flutes, half the cutter's diameter in a slot as wide as the cutter.
     #[serde(default, alias = "axial_step")]
     pub stepdown: Option<f64>,
     /// Stock to leave on the wall when all is done; default 0.

@@ -1,4 +1,4 @@
-//! What an operation leaves, operations after it begin with: a milled face is where holes begin.
+//! Milled faces as operations after them see them: holes begin there.
 
 use kinecut::base::{MemoryLoader, Silent};
 use kinecut::job::{Outcome, run};
@@ -69,23 +69,29 @@ fn a_hole_begins_at_the_face_that_was_milled() {
 }
 
 #[test]
-fn a_face_that_ends_within_the_hole_is_not_where_it_begins() {
-    // The face reaches to X 10: the drill at X 9 is half over it.
-    let half = "outline = { loops = [ { points = [[-40, -20], [10, -20], [10, 20], [-40, 20]] } ] }\n";
-    let face = FACE.replace("outline = \"top\"\n", half);
-    let face = format!("{face}top = -0.5\ndepth = 0.5\n");
-    let at = |x: f64| done(BOX, &format!("{face}{DRILL}points = [[{x}, 0]]\n"));
-    let zones =
-        |outcome: &Outcome| outcome.verdict.found.iter().filter(|f| f.code.to_string() == "KC0905").count();
-    let outcomes = [-20.0, 9.0, 30.0].map(|x| (x, at(x)));
-    assert_eq!(outcomes.each_ref().map(|(_, outcome)| zones(outcome)), [0; 3]);
-    // Half over the end of the face it is drilled from the raw stock's height, as beside the face.
-    let [over, half, beside] = outcomes.map(|(x, outcome)| {
-        let lines = drilled(&outcome).into_iter().filter(|l| !l.contains(" AT X"));
-        lines.map(|l| l.replace(&format!("X{x:.0}."), "X")).collect::<Vec<_>>()
-    });
-    assert_eq!(half, beside);
-    assert_ne!(over, half);
+fn a_hole_begins_at_the_face_where_all_of_it_was_milled() {
+    // The face reaches to X 10, the cutter of 50 ends with its middle at X 40, and the stock goes on.
+    let long = "{ box = { min = [-40, -20, -20], max = [120, 20, 0] } }";
+    let face = |more: &str| {
+        let loops = format!(
+            "outline = {{ loops = [ {{ points = [[-40, -20], [10, -20], [10, 20], [-40, 20]] }}{more} ] }}\n"
+        );
+        format!("{}top = -0.5\ndepth = 0.5\n", FACE.replace("outline = \"top\"\n", &loops))
+    };
+    let at = |more: &str, x: f64| {
+        let outcome = done(long, &format!("{}{DRILL}points = [[{x}, 0]]\n", face(more)));
+        let zones = outcome.verdict.found.iter().filter(|f| f.code.to_string() == "KC0905").count();
+        assert_eq!(zones, 0, "{more} {x}: {:?}", outcome.verdict.found);
+        let lines = drilled(&outcome).into_iter().filter(|l| l.starts_with("G1 Z"));
+        lines.last().expect("the entry")
+    };
+    let [over, beside, raw] = [-20.0, 30.0, 100.0].map(|x| at("", x));
+    assert_eq!(over, beside);
+    assert_ne!(over, raw);
+    // Half under the end of the cutter's way: from the raw stock.
+    assert_eq!(at("", 63.0), raw);
+    // A hole that the drawing of the face has already.
+    assert_eq!(at(", { centre = [-20, 0], radius = 4 }", -20.0), over);
 }
 
 #[test]

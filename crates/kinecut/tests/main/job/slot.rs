@@ -2,8 +2,8 @@
 
 use std::f64::consts::PI;
 
-use kinecut::base::{Finding, MemoryLoader, Silent};
-use kinecut::job::{Outcome, plan_json, run};
+use kinecut::base::{Code, Finding, MemoryLoader, Silent};
+use kinecut::job::{Outcome, engagement_json, plan_json, run};
 
 use super::pocket::{done, job, removed};
 
@@ -61,6 +61,56 @@ fn arcs_finishes_and_full_widths_are_what_they_are() {
     assert!(outcome.verdict.is_safe(), "{:?}", outcome.verdict.found);
     let plan: serde_json::Value = serde_json::from_str(&plan_json(&outcome)).unwrap();
     assert_eq!(plan["setups"][0]["slots"][0]["entries"].as_u64(), Some(0));
+}
+
+#[test]
+fn slots_hardly_wider_than_the_cutter_are_cut_to_size() {
+    let line = "line = [[-20, 5], [25, -8.3]]\ndepth = 4\n";
+    for (width, keys) in [
+        (10.02, "engagement = 180\n"),
+        (10.05, "engagement = 180\n"),
+        (10.1, ""),
+        (10.4, ""),
+        (10.5, "engagement = 180\nfinish = { allowance = 0.25 }\n"),
+        (10.9, "finish = { allowance = 0.2 }\n"),
+    ] {
+        let outcome = cut("fanuc", &format!("{line}width = {width}\n{keys}"));
+        is_good(
+            &format!("{width}"),
+            &outcome,
+            4.0 * (width * 45.0_f64.hypot(13.3) + 0.25 * PI * width * width),
+        );
+    }
+}
+
+#[test]
+fn levels_at_the_full_width_are_shallow_unless_the_job_says_otherwise() {
+    let line = "line = [[-20, 5], [25, -8.3]]\ndepth = 12\nwidth = 10\nengagement = 180\n";
+    let levels = |outcome: &Outcome| {
+        let plan: serde_json::Value = serde_json::from_str(&plan_json(outcome)).unwrap();
+        plan["setups"][0]["slots"][0]["levels"].as_array().map(Vec::len)
+    };
+    let usual = cut("fanuc", line);
+    assert!(usual.verdict.found.is_empty(), "{:?}", usual.verdict.found);
+    assert_eq!(levels(&usual), Some(3));
+    let deep = cut("fanuc", &format!("{line}stepdown = 12\n"));
+    let found: Vec<_> = deep.verdict.found.iter().map(|f| f.code).collect();
+    assert_eq!((found, levels(&deep)), (vec![Code::FULL_WIDTH], Some(1)));
+}
+
+#[test]
+fn the_simulator_measures_the_engagement_of_loops() {
+    let outcome = cut("fanuc", "line = [[-20, 5], [25, -8.3]]\nwidth = 16\ndepth = 5\n");
+    let all: serde_json::Value = serde_json::from_str(&engagement_json(&outcome).unwrap()).unwrap();
+    let blocks = all["setups"][0]["blocks"].as_array().unwrap();
+    let arcs = blocks.iter().filter_map(|b| Some((b["arc"].as_f64()?, b["length"].as_f64()?)));
+    // The helix cuts all around; the others are loops, ways back and the lap.
+    let mut arcs: Vec<f64> =
+        arcs.filter(|(arc, length)| *arc < 180.0 && *length > 5.0).map(|(arc, _)| arc).collect();
+    arcs.sort_by(f64::total_cmp);
+    assert!(arcs.len() > 40, "{}", arcs.len());
+    let at = |share: f64| arcs[(share * arcs.len() as f64) as usize];
+    assert!(at(0.5) > 50.0 && at(0.95) < 62.0, "{} {}", at(0.5), at(0.95));
 }
 
 #[test]
