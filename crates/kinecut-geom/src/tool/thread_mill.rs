@@ -56,12 +56,22 @@ impl ThreadMill {
     pub fn check(&self) -> Result<()> {
         let positive = |v: f64| v.is_finite() && v > 0.0;
         if !positive(self.diameter) {
-            return Err(refused("diameter", "the diameter must be positive", self.diameter, 0.0));
+            return Err(refused(
+                "diameter",
+                "the diameter must be positive",
+                [self.diameter, 0.0],
+                "write the diameter at the crests of the teeth",
+            ));
         }
         if !(positive(self.pitch) && self.pitch < self.diameter) {
             let bound = if positive(self.pitch) { self.diameter } else { 0.0 };
             let what = "the pitch must lie between 0 and the diameter of the thread mill";
-            return Err(refused("pitch", what, self.pitch, bound));
+            return Err(refused(
+                "pitch",
+                what,
+                [self.pitch, bound],
+                "write the pitch of the thread that the tool is made for",
+            ));
         }
         if !(1..=MOST_ROWS).contains(&self.rows) {
             let finding = Finding::error(Code::TOOL_VALUE, "the number of rows of teeth is out of range");
@@ -75,13 +85,22 @@ impl ThreadMill {
         if !(self.half_angle > 0.0 && self.half_angle <= FRAC_PI_4) {
             let what = "the half angle of a thread lies above 0 and at most at 45 degrees";
             let finding = Finding::error(Code::TOOL_VALUE, what).value(self.half_angle.to_degrees(), "deg");
-            return Err(finding.bound(45.0, "deg").key("half_angle").into());
+            return Err(finding
+                .bound(45.0, "deg")
+                .help("write half of the angle between the flanks: 30 for metric and NPT, 27.5 for Whitworth")
+                .key("half_angle")
+                .into());
         }
         if let Some(Neck { diameter, .. }) = self.neck
             && !(positive(diameter) && diameter <= self.diameter)
         {
             let what = "the neck is not wider than the crests of the teeth";
-            return Err(refused("neck_diameter", what, diameter, self.diameter));
+            return Err(refused(
+                "neck_diameter",
+                what,
+                [diameter, self.diameter],
+                "write the diameter of the thin part above the teeth, or leave the neck out",
+            ));
         }
         Ok(())
     }
@@ -90,26 +109,36 @@ impl ThreadMill {
     pub(super) fn check_lengths(&self, flute_length: f64, stickout: f64, shank: f64) -> Result<()> {
         if flute_length < self.height() - ROUNDING {
             let what = "the cutting part is shorter than its rows of teeth";
-            return Err(refused("flute_length", what, flute_length, self.height()));
+            return Err(refused(
+                "flute_length",
+                what,
+                [flute_length, self.height()],
+                "write at least rows times pitch, or fewer rows",
+            ));
         }
         let Some(neck) = self.neck else { return Ok(()) };
         if !(neck.top >= flute_length && neck.top <= stickout) {
             let bound = if neck.top >= flute_length { stickout } else { flute_length };
             let what = "the neck ends between the cutting part and the holder";
-            return Err(refused("neck_length", what, neck.top, bound));
+            return Err(refused(
+                "neck_length",
+                what,
+                [neck.top, bound],
+                "write its end as a height above the tip, from the flute length up to the stickout",
+            ));
         }
         if shank < neck.diameter - ROUNDING {
             return Err(refused(
                 "neck_diameter",
                 "the neck is not wider than the shank",
-                neck.diameter,
-                shank,
+                [neck.diameter, shank],
+                "correct neck_diameter or shank_diameter",
             ));
         }
         Ok(())
     }
 }
 
-fn refused(key: &str, what: &str, value: f64, bound: f64) -> Error {
-    Finding::error(Code::TOOL_VALUE, what).value_mm(value).bound_mm(bound).key(key).into()
+fn refused(key: &str, what: &str, [value, bound]: [f64; 2], help: &str) -> Error {
+    Finding::error(Code::TOOL_VALUE, what).value_mm(value).bound_mm(bound).help(help).key(key).into()
 }
