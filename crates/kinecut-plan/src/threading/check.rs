@@ -20,6 +20,18 @@ const TURNS: CountBound = CountBound {
     help: "use a larger pitch, or less depth",
 };
 
+/// Moves of all helices of all places, turns by themselves: each turn is compared at 64 points.
+const MOVES: CountBound = CountBound {
+    what: "moves and turns of milled threads",
+    most: 1e6,
+    bytes: 2000,
+    code: Code::PLAN_VALUE,
+    help: "mill fewer threads in one operation, or with fewer passes",
+};
+
+/// Way by which a major diameter below nominal is said [mm].
+const SHORT: f64 = 0.02;
+
 /// Radial passes, with spring passes.
 const MOST_PASSES: usize = 20;
 
@@ -57,8 +69,48 @@ impl ThreadMillSpec {
             .key("infeed[0]")
             .into());
         }
+        self.check_engagement(low)?;
         super::neck::check(self, [low, high])?;
+        MOVES.check(self.move_count()).map_err(|e| e.under("points"))?;
         Ok([low, high])
+    }
+
+    /// Whether each pass of a cylindrical thread reaches the wall of its core hole, or its boss; `full`: radius of the path at full
+    /// depth.
+    fn check_engagement(&self, full: f64) -> Result<()> {
+        if self.thread.taper > 0.0 {
+            return Ok(());
+        }
+        let tool = 0.5 * self.cutter.mill.diameter;
+        let deep = match self.side {
+            ThreadSide::Inside => full + tool - 0.5 * self.thread.minor_diameter(),
+            ThreadSide::Outside => 0.5 * self.thread.diameter - (full - tool),
+        };
+        if !(deep > 0.0) {
+            return Err(self.too_steep());
+        }
+        let least = 1.0 - deep / self.thread.height(self.side);
+        let Some(i) = self.infeed.iter().position(|share| *share <= least) else { return Ok(()) };
+        let what = match self.side {
+            ThreadSide::Inside => "a radial pass does not reach the wall of the hole",
+            ThreadSide::Outside => "a radial pass does not reach the boss",
+        };
+        let what = format!("{what}: the correction for the overcut of the flanks takes it back");
+        let finding = Finding::error(Code::PLAN_VALUE, what).value(self.infeed[i], "of the depth");
+        Err(finding
+            .bound(least, "of the depth")
+            .help(format!("write more than {}", shown((least * 1e3).ceil() / 1e3)))
+            .key(format!("infeed[{i}]"))
+            .into())
+    }
+
+    /// Moves of all threads, about; of a helix its turns, on a cone its quarters of a turn.
+    fn move_count(&self) -> f64 {
+        /// Moves to a helix and away from it.
+        const WAYS: f64 = 8.0;
+        let pieces = if self.thread.taper > 0.0 { 4.0 } else { 1.0 } * self.turns().ceil();
+        let passes = self.infeed.len() + self.spring_passes as usize;
+        self.places.len() as f64 * passes as f64 * self.steps().len() as f64 * (WAYS + pieces)
     }
 
     fn check_numbers(&self) -> Result<()> {
@@ -200,23 +252,36 @@ impl ThreadMillSpec {
         finding.bound_mm(most).help(format!("take {} or less", shown(most))).key("tool").into()
     }
 
-    /// A warning about a tool so large that its flanks overcut much; `gain`: by how much [mm].
-    pub(super) fn overcut(&self, gain: f64) -> Option<Finding> {
+    /// A warning about a tool so large that its flanks overcut much, by `gain` radially, or a note about the major diameter alone,
+    /// which is `short` of the nominal one [mm].
+    pub(super) fn overcut(&self, gain: f64, short: f64) -> Option<Finding> {
         let (tool, thread) = (self.cutter.mill.diameter, &self.thread);
         let fine = coarse_pitch(thread.diameter).is_some_and(|coarse| thread.pitch < coarse - SAME);
         let most = LARGEST[usize::from(fine)] * thread.diameter;
         let standard = self.cutter.profile == super::MillProfile::Standard;
-        (self.side == ThreadSide::Inside && standard && tool > most + SAME).then(|| {
+        if self.side == ThreadSide::Outside || !standard {
+            return None;
+        }
+        let pair = format!("thread mill {} for {}", shown(tool), thread.name());
+        if tool > most + SAME {
+            let major = if short > 0.0 {
+                format!(", and the major diameter is {short:.3} mm too small")
+            } else {
+                String::new()
+            };
             let message = format!(
-                "thread mill {} for {} overcuts the flanks by {gain:.3} radially: the path is corrected for it, the form of the flanks is not",
-                shown(tool),
-                thread.name()
+                "{pair} overcuts the flanks by {gain:.3} radially: the path is corrected for it, the form of the flanks is not{major}"
             );
-            Finding::warning(Code::THREAD_OVERCUT, message)
-                .value_mm(tool)
-                .bound_mm(most)
-                .help(format!("take {} or less, or say profile = \"corrected\"", shown(most)))
-                .key("tool")
+            let help = format!("take {} or less, or say profile = \"corrected\"", shown(most));
+            let finding = Finding::warning(Code::THREAD_OVERCUT, message);
+            return Some(finding.value_mm(tool).bound_mm(most).help(help).key("tool"));
+        }
+        (short > SHORT).then(|| {
+            let message = format!(
+                "{pair}: the major diameter is {short:.3} mm below nominal, since the path is corrected for the overcut of the flanks"
+            );
+            let help = "gauge it; a smaller cutter leaves less, one whose maker corrected the profile for this thread nothing";
+            Finding::note(Code::THREAD_OVERCUT, message).value_mm(short).bound_mm(SHORT).help(help).key("tool")
         })
     }
 }

@@ -25,7 +25,8 @@ pub struct ThreadPlan {
     pub radii: [f64; 2],
     /// Way by which the flanks would overcut radially without a correction, and the same to second order.
     pub gain: [f64; 2],
-    /// Feed of the tool's centre along helix and leads.
+    /// Feed of the tool's centre along helix and leads at full depth, of a taper thread where the radius is the least; those of the
+    /// passes are in the runs.
     pub feed: f64,
     /// Angle of the helix over the plane [rad].
     pub slope: f64,
@@ -50,6 +51,8 @@ pub struct ThreadRun {
     pub heights: [f64; 2],
     /// Turns.
     pub turns: f64,
+    /// Feed of the tool's centre along it and its leads [mm/s].
+    pub feed: f64,
     /// Its moves.
     pub moves: Range<usize>,
 }
@@ -81,7 +84,7 @@ pub fn plan_threads(spec: &ThreadMillSpec) -> Result<ThreadPlan> {
         spec,
         travel: spec.travel(),
         line: room::line(spec, least)?,
-        feed: spec.feed * spec.feed_share() * slope.cos(),
+        feed: 0.0,
         route: Route::new(spec.retract_z, spec.approach_z),
         runs: Vec::new(),
     };
@@ -91,14 +94,14 @@ pub fn plan_threads(spec: &ThreadMillSpec) -> Result<ThreadPlan> {
     maker.route.retract();
     Ok(ThreadPlan {
         travel: maker.travel,
-        feed: maker.feed,
+        feed: spec.feed_on(least),
         runs: maker.runs,
         moves: maker.route.moves,
         radii: [nominal, low],
         gain: [gain, second],
         slope,
         lowest: spec.lowest(),
-        findings: spec.overcut(gain).into_iter().collect(),
+        findings: spec.overcut(gain, 2.0 * (nominal - low) - spec.oversize).into_iter().collect(),
     })
 }
 
@@ -108,6 +111,7 @@ struct Maker<'a> {
     travel: ThreadTravel,
     /// Length of the straight lines under compensation; 0 without.
     line: f64,
+    /// Feed of the helix that is run.
     feed: f64,
     route: Route,
     runs: Vec<ThreadRun>,
@@ -144,7 +148,9 @@ impl Maker<'_> {
         let heights = if self.travel.upwards { [low, high] } else { [high, low] };
         let finishing = self.route.finishing;
         let radii = heights.map(|z| self.radius(z, share));
-        ThreadRun { place, share, finishing, radii, heights, turns, moves: 0..0 }
+        // On the least radius the edge is the fastest.
+        let feed = spec.feed_on(if radii[0] < radii[1] { radii[0] } else { radii[1] });
+        ThreadRun { place, share, finishing, radii, heights, turns, feed, moves: 0..0 }
     }
 
     /// Radius of the path where the lowest row's middle has a height, in a pass to a share of the thread's depth.
@@ -173,6 +179,7 @@ impl Maker<'_> {
         let way_out = lead(spec.side, outs[1], r1, round, [turn, -1.0]);
         let rise = |radius: f64| climb * spec.lead_rise(radius);
         let line = if run.finishing { self.line } else { 0.0 };
+        self.feed = run.feed;
         let begin = at + way_in.free + line * way_in.away;
         let start = z0 - rise(r0);
         self.come(begin, start, first);

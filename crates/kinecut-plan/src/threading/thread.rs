@@ -144,7 +144,14 @@ impl Thread {
         (0.5 * self.taper).atan()
     }
 
-    /// Name: "M8x1.25", "20 x 1.5 whitworth"; with its taper and hand.
+    /// Name: "M8x1.25", "20 x 1.5 Whitworth"; with its taper and hand.
+    ///
+    /// ```
+    /// # use kinecut_plan as kinecut;
+    /// use kinecut::threading::{Thread, ThreadForm};
+    /// let npt = Thread { taper: 1.0 / 16.0, ..Thread::new(ThreadForm::Npt, 21.223, 1.8143) };
+    /// assert_eq!(npt.name(), "21.223 x 1.8143 NPT taper 1 in 16");
+    /// ```
     pub fn name(&self) -> String {
         let [d, p] = [self.diameter, self.pitch].map(|v| (v * 1e4).round() / 1e4);
         let size = match self.form {
@@ -152,7 +159,9 @@ impl Thread {
             ThreadForm::Whitworth => format!("{d} x {p} Whitworth"),
             ThreadForm::Npt => format!("{d} x {p} NPT"),
         };
-        size + if self.hand == Hand::Left { " left-hand" } else { "" }
+        let taper =
+            if self.taper > 0.0 { format!(" taper 1 in {}", shown(1.0 / self.taper)) } else { String::new() };
+        size + &taper + if self.hand == Hand::Left { " left-hand" } else { "" }
     }
 }
 

@@ -2,7 +2,7 @@
 
 use std::f64::consts::{FRAC_PI_2, TAU};
 
-use glam::{DVec3, dvec2};
+use glam::{DVec2, DVec3, dvec2};
 use kinecut::base::{Code, Severity};
 use kinecut::geom::CurveKind;
 use kinecut::holes::{PlannedMove, Sense, ToolpathPace, ToolpathRole, Wear};
@@ -424,11 +424,24 @@ fn passes_come_from_the_axis_of_a_hole_and_from_beyond_a_boss() {
 
 #[test]
 fn the_feed_is_that_of_the_edge_and_nothing_rapid_touches_the_wall() {
-    let spec = ThreadMillSpec { infeed: vec![0.7, 1.0], ..spec(20.0, 2.5, 16.0, 1) };
+    let spec = ThreadMillSpec { infeed: vec![0.3, 0.7, 1.0], ..spec(20.0, 2.5, 16.0, 1) };
     let plan = planned(&spec);
     let slope = (2.5 / (TAU * plan.radii[1])).atan();
     // 11 degrees, 2 %.
-    assert!((plan.feed - 10.0 * 0.2 * slope.cos()).abs() < 1e-12 && (slope.to_degrees() - 11.8).abs() < 0.2);
+    assert!((slope.to_degrees() - 11.8).abs() < 0.2);
+    assert_eq!(plan.feed, plan.runs[2].feed);
+    let mut before = 0.0;
+    for run in &plan.runs {
+        let [radius, _] = run.radii;
+        let slope = (2.5 / (TAU * radius)).atan();
+        // The crests are on a radius that is larger by 8.
+        let edge = run.feed / slope.cos() * (radius + 8.0) / radius;
+        assert!((edge - 10.0).abs() < 1e-12, "{edge} on {radius}");
+        assert!(run.feed > before, "{run:?}");
+        before = run.feed;
+        assert!(plan.moves[run.moves.clone()].iter().all(|m| m.pace == ToolpathPace::Feed(run.feed)));
+    }
+    assert_eq!(plan.runs.len(), 3);
     let open = 0.5 * (spec.thread.minor_diameter() - 16.0);
     for m in plan.moves.iter().filter(|m| m.pace == ToolpathPace::Rapid) {
         for end in [m.curve.start(), m.curve.end()] {
@@ -448,6 +461,8 @@ fn a_boss_is_joined_from_clear_of_it() {
             assert!(end.z > 0.0 || end.truncate().length() >= 10.0 + 8.0 + 1.9, "{m:?}");
         }
     }
+    let slope = (2.5 / (TAU * plan.radii[1])).atan();
+    assert!((plan.runs[0].feed - 10.0 * 1.8 * slope.cos()).abs() < 1e-12 && plan.feed == plan.runs[0].feed);
     let way_in = plan.moves.iter().find(|m| m.role == ToolpathRole::LeadIn).unwrap();
     let CurveKind::Arc(arc) = way_in.curve.kind() else { panic!("{way_in:?}") };
     assert!((arc.sweep.abs() - FRAC_PI_2).abs() < 1e-12);
@@ -522,6 +537,7 @@ fn values_out_of_range_are_refused_with_their_key() {
         (with(|s| s.infeed = vec![0.0, 1.0]), "infeed[0]"),
         (with(|s| s.infeed = vec![f64::NAN, 1.0]), "infeed[0]"),
         (with(|s| s.spring_passes = 30), "infeed"),
+        (with(|s| s.places = vec![DVec2::ZERO; 100_000]), "points"),
         (with(|s| s.wear = Some(Wear { register: 2, largest: 0.9 })), "wear_largest"),
         (with(|s| s.wear = Some(Wear { register: 2, largest: 0.6 })), "wear_largest"),
     ] {
@@ -534,20 +550,66 @@ fn values_out_of_range_are_refused_with_their_key() {
 }
 
 #[test]
-fn a_large_tool_is_warned_of_with_its_overcut() {
-    let warned = |spec: &ThreadMillSpec| -> Vec<String> {
-        let plan = planned(spec);
-        assert!(
-            plan.findings.iter().all(|f| f.severity == Severity::Warning && f.code == Code::THREAD_OVERCUT)
-        );
-        plan.findings.iter().map(ToString::to_string).collect()
+fn a_pass_that_the_correction_takes_out_of_the_material_is_refused() {
+    // The crests end a tenth short of a groove 1.353 deep: 7.4 %.
+    let m20 = |side, first| ThreadMillSpec { side, infeed: vec![first, 1.0], ..spec(20.0, 2.5, 16.0, 1) };
+    let inside = ["does not reach the wall of the hole", "write more than 0.075"];
+    refused(&m20(ThreadSide::Inside, 0.07), Code::PLAN_VALUE, "infeed[0]", &inside);
+    planned(&m20(ThreadSide::Inside, 0.075));
+    // About a boss 0.7 %.
+    let outside = ["does not reach the boss", "write more than 0.008"];
+    refused(&m20(ThreadSide::Outside, 0.007), Code::PLAN_VALUE, "infeed[0]", &outside);
+    planned(&m20(ThreadSide::Outside, 0.008));
+    // A tool whose path is not corrected cuts in each pass.
+    let mut corrected = m20(ThreadSide::Inside, 0.01);
+    corrected.cutter.profile = MillProfile::Corrected;
+    planned(&corrected);
+    let second = ThreadMillSpec { infeed: vec![0.01, 0.02, 1.0], ..m20(ThreadSide::Inside, 1.0) };
+    refused(&second, Code::PLAN_VALUE, "infeed[0]", &inside);
+}
+
+#[test]
+fn more_moves_than_a_program_holds_are_refused_before_they_are_made() {
+    // 8 moves and 13 turns in each of ten passes.
+    let many = |places: usize| ThreadMillSpec {
+        infeed: (1..=10).map(|i| 0.1 * f64::from(i)).collect(),
+        places: vec![DVec2::ZERO; places],
+        ..spec(20.0, 2.5, 12.0, 1)
     };
+    let text = ["too many moves and turns of milled threads", "fewer threads"];
+    refused(&many(5000), Code::PLAN_VALUE, "points", &text);
+    planned(&many(50));
+    // Quarters of a turn on a cone.
+    let cone = ThreadMillSpec { places: vec![DVec2::ZERO; 30_000], ..npt(ThreadSide::Inside) };
+    refused(&cone, Code::PLAN_VALUE, "points", &text);
+}
+
+#[test]
+fn the_name_of_a_thread_has_its_taper() {
+    let name = npt(ThreadSide::Inside).thread.name();
+    assert_eq!(name, "21.223 x 1.8143 NPT taper 1 in 16");
+    assert_eq!(spec(20.0, 2.5, 12.0, 1).thread.name(), "M20x2.5");
+}
+
+/// The findings of a plan about the overcut of the flanks, of a severity.
+fn overcut(spec: &ThreadMillSpec, severity: Severity) -> Vec<String> {
+    let plan = planned(spec);
+    assert!(plan.findings.len() <= 1 && plan.findings.iter().all(|f| f.code == Code::THREAD_OVERCUT));
+    plan.findings.iter().filter(|f| f.severity == severity).map(ToString::to_string).collect()
+}
+
+#[test]
+fn a_large_tool_is_warned_of_with_its_overcut() {
+    let warned = |spec: &ThreadMillSpec| overcut(spec, Severity::Warning);
     let m20 = spec(20.0, 2.5, 16.0, 1);
     let told = warned(&m20);
     assert_eq!(told.len(), 1);
-    for part in
-        ["thread mill 16 for M20x2.5 overcuts the flanks by 0.094", "14 or less", "profile = \"corrected\""]
-    {
+    for part in [
+        "thread mill 16 for M20x2.5 overcuts the flanks by 0.094",
+        "the major diameter is 0.201 mm too small",
+        "14 or less",
+        "profile = \"corrected\"",
+    ] {
         assert!(told[0].contains(part), "no `{part}` in {told:?}");
     }
     assert!(warned(&spec(20.0, 2.5, 14.0, 1)).is_empty());
@@ -555,5 +617,27 @@ fn a_large_tool_is_warned_of_with_its_overcut() {
     assert!(warned(&spec(20.0, 1.5, 16.0, 1)).is_empty());
     assert_eq!(warned(&spec(20.0, 1.5, 16.1, 1)).len(), 1);
     let corrected = ThreadCutter { profile: MillProfile::Corrected, ..m20.cutter };
-    assert!(warned(&ThreadMillSpec { cutter: corrected, ..m20 }).is_empty());
+    let corrected = ThreadMillSpec { cutter: corrected, ..m20 };
+    assert!(planned(&corrected).findings.is_empty());
+}
+
+#[test]
+fn a_major_diameter_below_nominal_is_noted_above_two_hundredths() {
+    let noted = |spec: &ThreadMillSpec| overcut(spec, Severity::Note);
+    let m20 = spec(20.0, 2.5, 14.0, 1);
+    let told = noted(&m20);
+    assert_eq!(told.len(), 1);
+    for part in ["thread mill 14 for M20x2.5", "the major diameter is 0.110 mm below nominal"] {
+        assert!(told[0].contains(part), "no `{part}` in {told:?}");
+    }
+    // That is what the crests leave.
+    let [_, run] = planned(&m20).radii;
+    assert!((20.0 - 2.0 * (run + 7.0) - 0.110).abs() < 5e-4, "{run}");
+    // An oversize brings it back; what is below two hundredths is not said.
+    let wider = ThreadMillSpec { oversize: 0.1, ..m20.clone() };
+    assert!(noted(&wider).is_empty());
+    let wider = ThreadMillSpec { oversize: 0.05, ..m20.clone() };
+    assert!(noted(&wider)[0].contains("is 0.059 mm below nominal"), "{:?}", noted(&wider));
+    assert!(planned(&spec(20.0, 2.5, 5.0, 1)).findings.is_empty());
+    assert!(planned(&ThreadMillSpec { side: ThreadSide::Outside, ..m20 }).findings.is_empty());
 }
