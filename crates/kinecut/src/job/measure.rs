@@ -124,3 +124,81 @@ pub(super) fn loose_cores(job: &Job, setup: usize, done: &SetupOutcome) -> Vec<L
     cores.sort_by_key(|c| c.item);
     cores
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::run::{followed, run};
+    use super::*;
+    use crate::base::{Code, MemoryLoader, Silent};
+    use crate::nc::Posted;
+
+    /// M8, 5 deep, in a hole that is there.
+    const THREAD: &str = r#"format = 1
+post = { control = "fanuc" }
+stock = { box = { min = [10, 0, -30], max = [30, 20, 0] } }
+drilled = [{ at = [20, 10], diameter = 6.647, top = 0, bottom = -30 }]
+simulate = { step = 0.5, engagement = false }
+[[tool]]
+number = 4
+type = "thread-mill"
+diameter = 5
+pitch = 1.25
+teeth = 3
+flute_length = 1.25
+neck_diameter = 2.8
+neck_length = 22
+shank_diameter = 6
+stickout = 40
+gauge_length = 110
+[[setup]]
+offset = "G54"
+[[setup.operation]]
+type = "thread-mill"
+tool = 4
+size = "M8"
+points = [[20, 10]]
+depth = 5
+speed = 6000
+feed = 500
+"#;
+
+    /// Judges the thread by a changed text; the tally, and the message of the finding.
+    fn judged_by(change: impl Fn(&str) -> String) -> (Tally, String) {
+        let mut outcome = run("job.toml", THREAD, &MemoryLoader::default(), &Silent).unwrap();
+        let SetupOutcome { planned, posted, .. } = outcome.setups.remove(0);
+        let posted = Posted { text: change(&posted.text).into(), ..posted };
+        let mut setups = [followed(&outcome.job, &outcome.job.post, planned, posted).unwrap()];
+        let wanted = wanted(&outcome.job, &setups);
+        let measured = judged(&outcome.job, &mut setups, wanted, &outcome.simulation);
+        let own = &measured[0].judged;
+        assert!(own.findings.iter().all(|(f, _)| f.code == Code::THREAD_FORM), "{:?}", own.findings);
+        (own.tally, own.findings.iter().map(|(f, _)| f.to_string()).collect())
+    }
+
+    #[test]
+    fn a_text_with_another_helix_is_not_the_wanted_thread() {
+        let (tally, told) = judged_by(str::to_owned);
+        assert_eq!((tally.good, tally.bad, told.as_str()), (1, 0, ""));
+        let replaced = |text: &str, pairs: &[(&str, &str)]| {
+            pairs.iter().fold(text.to_owned(), |text, (from, to)| {
+                assert!(text.contains(from), "no {from} in {text}");
+                text.replace(from, to)
+            })
+        };
+        // The radius less by a hundredth, with the half circles to it.
+        let radius =
+            [("X21.476", "X21.466"), ("X18.524", "X18.534"), ("I-1.476", "I-1.466"), ("I0.738", "I0.733")];
+        for (pairs, part) in [
+            (&radius[..], "the pitch diameter by the helix of the text is off"),
+            (&[("Z-4.375", "Z-4.355")][..], "does not have the pitch and hand of the thread"),
+            (&[("G3 ", "G2 ")][..], "does not run counter-clockwise"),
+        ] {
+            let (tally, told) = judged_by(|text| replaced(text, pairs));
+            assert_eq!((tally.good, tally.bad), (0, 1), "{told}");
+            assert!(told.contains("M8x1.25 at X20 Y10") && told.contains(part), "no `{part}` in {told}");
+        }
+        let (tally, told) = judged_by(|_| "%\nO0001\nM30\n%\n".to_owned());
+        assert_eq!((tally.good, tally.bad), (0, 1), "{told}");
+        assert!(told.contains("leave Z -5 to Z 0.625 out"), "{told}");
+    }
+}

@@ -241,9 +241,20 @@ fn setup(job: &Job, mut post: PostSettings, planned: SetupPlan, verdict_line: &s
 
 /// The text of a plan, read back and compared.
 fn written(job: &Job, post: &PostSettings, planned: SetupPlan) -> Result<SetupOutcome> {
-    let name = post.program_name.clone();
     let posted = nc::write(&planned.program, &job.tools, post).map_err(at_post_key)?;
-    let file = format!("{name}.{}", post.control.extension());
+    let mut outcome = followed(job, post, planned, posted)?;
+    outcome.read_back = compare(&outcome.plan_trace, &outcome.trace, |item| outcome.planned_item(item))?;
+    Ok(outcome)
+}
+
+/// A text that was written for a plan, read back.
+pub(super) fn followed(
+    job: &Job,
+    post: &PostSettings,
+    planned: SetupPlan,
+    posted: Posted,
+) -> Result<SetupOutcome> {
+    let file = format!("{}.{}", post.program_name, post.control.extension());
     let mut sources = Sources::default();
     let reading = nc::read(&mut sources, &file, &posted.text, post.control, &planned.program.setups)?;
     let program = reading.program;
@@ -254,7 +265,7 @@ fn written(job: &Job, post: &PostSettings, planned: SetupPlan) -> Result<SetupOu
     let place = |e: Error| in_text(e, &file, &posted, &lines);
     let plan_trace = trace(&planned.program, &options)?;
     let trace = trace(&program, &options).map_err(place)?;
-    let mut outcome = SetupOutcome {
+    Ok(SetupOutcome {
         file,
         planned,
         posted,
@@ -266,9 +277,7 @@ fn written(job: &Job, post: &PostSettings, planned: SetupPlan) -> Result<SetupOu
         time: None,
         external: None,
         known: Known::default(),
-    };
-    outcome.read_back = compare(&outcome.plan_trace, &outcome.trace, |item| outcome.planned_item(item))?;
-    Ok(outcome)
+    })
 }
 
 /// An error about a template, at the key of the job that names its file.

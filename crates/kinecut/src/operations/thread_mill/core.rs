@@ -5,7 +5,7 @@ use crate::base::{Code, Finding, Result};
 use crate::operations::RoundHole;
 use crate::operations::core_hole::{Core, SAME_HEIGHT};
 use crate::page::trimmed;
-use crate::threading::{ThreadForm, ThreadMillSpec};
+use crate::threading::{ThreadForm, ThreadMillSpec, ThreadSide};
 use crate::tool::Tap;
 
 /// Diameter that is rounding of drills and bores [mm].
@@ -64,14 +64,27 @@ pub(super) fn core(
         let finding = found(what).value_mm(deep).bound_mm(wanted);
         return Err(finding.help(format!("bore to {}, or ask for less thread", shown(to))).into());
     }
-    Ok((Some(core), shallow(of, core, at)))
+    Ok((Some(core), shallow(of, core, at, minor)))
 }
 
-/// A warning about a hole that is wider than class 6H allows.
-fn shallow(of: &ThreadMillOperation, core: Core, at: [f64; 2]) -> Option<Finding> {
+/// A warning about a hole that is wider than class 6H allows, or, where that is not for the thread, than leaves it most of its height
+/// at the bottom; `minor`: the minor diameter there [mm].
+fn shallow(of: &ThreadMillOperation, core: Core, at: [f64; 2], minor: f64) -> Option<Finding> {
+    /// Share of a thread's height that should be left.
+    const LEFT: f64 = 0.75;
     let thread = &of.thread;
     if thread.form != ThreadForm::Metric || thread.taper > 0.0 {
-        return None;
+        let most = minor + (1.0 - LEFT) * 2.0 * thread.height(ThreadSide::Inside);
+        return (core.diameter > most + ROUNDING).then(|| {
+            let [hole, shown] = [core.diameter, most].map(|mm| trimmed(mm, 3));
+            let bottom = if thread.taper > 0.0 { " at its bottom" } else { "" };
+            let message = format!(
+                "{}: the core hole is {hole}: more than {shown} leaves less than three quarters of the thread's height{bottom}",
+                of.at(at)
+            );
+            let help = format!("bore {}", trimmed(minor, 3));
+            Finding::warning(Code::THREAD_CORE, message).value_mm(core.diameter).bound_mm(most).help(help)
+        });
     }
     let tap = Tap { diameter: thread.diameter, pitch: thread.pitch, lead: 1.0, tip: 0.0, forming: false };
     let [_, most] = tap.core_bounds();

@@ -16,7 +16,10 @@ pub(crate) struct MilledThreadsJson {
     hand: Hand,
     diameter: f64,
     pitch: f64,
+    /// Nominal, as all diameters.
     pitch_diameter: f64,
+    /// Added to the diameters; deviations are from the sums.
+    oversize: f64,
     minor_diameter: f64,
     /// Change of the diameter over a length along the axis.
     taper: f64,
@@ -35,10 +38,10 @@ pub(crate) struct MilledThreadsJson {
     slope: f64,
     /// Z of the tool's lowest point.
     lowest: f64,
-    /// mm/min, of the edge at the major diameter and of the centre.
+    /// mm/min, of the edge at the major diameter and of the centre at full depth.
     feed: f64,
     centre_feed: f64,
-    /// Largest deviation of the pitch diameter in the text; `null` where a helix is wrong.
+    /// Largest deviation of the pitch diameter in the text; `null` where a helix is wrong, or where the profile is the maker's.
     deviation: Option<f64>,
     helices: Vec<HelixJson>,
 }
@@ -54,6 +57,8 @@ struct HelixJson {
     /// Z of the lowest row's middle there.
     heights: [f64; 2],
     turns: f64,
+    /// mm/min, of the tool's centre along it and its leads.
+    centre_feed: f64,
 }
 
 impl MilledThreadsJson {
@@ -66,6 +71,7 @@ impl MilledThreadsJson {
             radii: run.radii,
             heights: run.heights,
             turns: run.turns,
+            centre_feed: run.feed * 60.0,
         });
         MilledThreadsJson {
             operation,
@@ -76,6 +82,7 @@ impl MilledThreadsJson {
             diameter: thread.diameter,
             pitch: thread.pitch,
             pitch_diameter: thread.pitch_diameter(),
+            oversize: spec.oversize,
             minor_diameter: thread.minor_diameter(),
             taper: thread.taper,
             depth: spec.depth,

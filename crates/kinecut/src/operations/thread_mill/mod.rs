@@ -11,8 +11,11 @@ mod json;
 mod plan;
 mod posted;
 mod prove;
+mod reach;
 mod section;
+mod standard;
 mod table;
+mod wanted;
 
 pub use check::ThreadMillOperation;
 pub use plan::PlannedThreadMilling;

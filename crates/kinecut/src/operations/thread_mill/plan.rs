@@ -11,7 +11,7 @@ use super::core::core;
 use super::json::MilledThreadsJson;
 use super::prove;
 use super::section::section;
-use crate::base::Result;
+use crate::base::{Code, Finding, Result};
 use crate::geom::{Outline, OutlineEdge};
 use crate::holes::Wear;
 use crate::operations::band::Band;
@@ -53,7 +53,17 @@ pub(super) fn planned(
     setting: &Setting<'_>,
 ) -> Result<Attempt<PlannedThreadMilling>> {
     let spec = spec(of, setting)?;
+    let above = spec.retract_z > spec.top;
+    if !above {
+        let what = "the moves between threads run below the start of the thread";
+        let finding = Finding::error(Code::JOB_VALUE, what).value_mm(spec.retract_z).bound_mm(spec.top);
+        let help = "raise `clearance` above `top`, or the safe height of the setup";
+        return Err(finding.help(help).key("clearance").into());
+    }
     let plan = plan_threads(&spec).map_err(|mut e| {
+        if of.table.points.is_none() && e.0.key.as_deref() == Some("points") {
+            e.0.key = Some("pattern".to_owned());
+        }
         // Diameter and pitch were said by the size.
         if of.table.size.is_some() && matches!(e.0.key.as_deref(), Some("diameter" | "pitch")) {
             e.0.key = Some("size".to_owned());
@@ -140,14 +150,30 @@ impl PlannedThreadMilling {
         self.spec.thread.taper == 0.0
     }
 
+    /// Heights of the wall of the crests that is measured: where it is all round, since in its first turn the lowest tooth rises by a
+    /// pitch; `None` where that is nothing.
+    fn wall_heights(&self) -> Option<[f64; 2]> {
+        let [top, bottom] = [self.spec.top, self.spec.top - self.spec.depth + 0.5 * self.spec.thread.pitch];
+        (bottom < top).then_some([top, bottom])
+    }
+
+    /// Why the wall of the crests is not measured, if it is not.
+    fn unmeasured(&self) -> Option<&'static str> {
+        if !self.has_wall() {
+            Some("in the simulated part, which is a cone of steps")
+        } else if self.wall_heights().is_none() {
+            Some(
+                "in the simulated part: the thread is at most half a pitch deep, nowhere with crests all round",
+            )
+        } else {
+            None
+        }
+    }
+
     /// The wall of the crests at a place.
     fn wall(&self, centre: DVec2) -> Option<WantedWall> {
         let (spec, radius) = (&self.spec, self.crest_radius());
-        // In its first turn the lowest tooth rises by a pitch.
-        let [top, bottom] = [spec.top, spec.top - spec.depth + 0.5 * spec.thread.pitch];
-        if bottom >= top {
-            return None;
-        }
+        let [top, bottom] = self.wall_heights()?;
         let (wall, centre) = match spec.side {
             ThreadSide::Inside => (Wall::Round { radii: [radius; 2], heights: [top, bottom] }, centre),
             ThreadSide::Outside => {
@@ -204,11 +230,7 @@ impl kind::Plan for PlannedThreadMilling {
     fn judge(&mut self, name: &str, posted: &PostedPlan<'_>, _found: &Found<'_>) -> Judged {
         let (mut judged, deviation) = prove::judged(self, posted);
         self.deviation = deviation;
-        if !self.has_wall() {
-            judged.unchecked = Some(format!(
-                "{name}: the wall of the crests in the simulated part, which is a cone of steps"
-            ));
-        }
+        judged.unchecked = self.unmeasured().map(|why| format!("{name}: the wall of the crests {why}"));
         judged
     }
 

@@ -20,7 +20,7 @@ pub(super) struct PostedHelix {
     /// Whether the control runs it as one of the last passes.
     pub(super) finishing: bool,
     /// Points in the coordinates of the operation.
-    points: Vec<DVec3>,
+    pub(super) points: Vec<DVec3>,
 }
 
 /// A point of a helix: distance from the axis, angle turned since its start, height of the tool's tip [mm, rad].

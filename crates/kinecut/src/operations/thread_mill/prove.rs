@@ -1,227 +1,139 @@
 //! Whether the posted text mills the wanted threads: its helices are read back and compared, point by point.
 //!
 //! Radius, pitch, hand, direction, height and phase are those of the points; the pitch diameter follows by the envelope of
-//! [`Cut`]. Nothing here comes from the planner but the list of its helices.
-
-use std::f64::consts::TAU;
+//! [`Cut`](super::envelope::Cut), with the numbers of the standards written down here. Shared with the planner are the thread and
+//! the tool as the job has them, the value of the wear register, which moves of the program are helices and which of them finish,
+//! and the list of helices by their places.
 
 use super::PlannedThreadMilling;
-use super::envelope::Cut;
-use super::posted::{About, PostedHelix};
+use super::posted::PostedHelix;
+use super::wanted::Wanted;
 use crate::base::{Code, Finding};
-use crate::holes::Sense;
-use crate::operations::kind::Checked as _;
 use crate::operations::measured::Proof;
 use crate::operations::{Judged, PostedPlan, Tally};
-use crate::page::{fixed, trimmed};
-use crate::threading::{MillProfile, ThreadRun, ThreadSide};
-use crate::tool::Hand;
+use crate::page::fixed;
 
-/// Way along the axis by which a thread may begin late or end early: rounding of heights [mm].
-const HEIGHT: f64 = 2e-3;
-/// Intervals along a taper thread in which the radius of its helix changes evenly.
-const NODES: usize = 32;
-
-/// The wanted thread, as points of its helices are compared with it [mm].
-struct Wanted<'a> {
-    plan: &'a PlannedThreadMilling,
-    /// Radius of the finished helix at even heights from the bottom to the mouth; of a cylinder at one.
-    radii: Vec<f64>,
-    /// Counter-clockwise.
-    counter_clockwise: bool,
-}
-
-/// Compares all helices; the largest deviation of the pitch diameter where all are right [mm].
+/// Compares all helices; the largest deviation of the pitch diameter where all are right and it follows from them [mm].
 pub(super) fn judged(plan: &PlannedThreadMilling, posted: &PostedPlan<'_>) -> (Judged, Option<f64>) {
     let mut judged = Judged::default();
     let wanted = Wanted::of(plan);
     let found = PostedHelix::all(plan, posted);
     let runs = &plan.plan.runs;
-    for place in 0..plan.spec.places.len() {
-        let pairs: Vec<(&ThreadRun, &PostedHelix)> =
-            runs.iter().zip(&found).filter(|(run, _)| run.place == place).collect();
-        let missing = runs.iter().filter(|run| run.place == place).count() != pairs.len();
-        match wanted.thread(place, &pairs) {
-            Ok(worst) if !missing && found.len() == runs.len() => {
+    let places = &plan.of.places;
+    let start = found.first().map_or(plan.items.start, |h| h.item);
+    if let Some(finding) = surplus(&plan.of.thread_name(), found.len(), runs.len()) {
+        judged.tally.bad = places.len();
+        judged.findings.push((finding, start));
+        return (judged, None);
+    }
+    for (place, at) in places.iter().enumerate() {
+        let name = plan.of.at(at.at);
+        let own = |of: usize| of == place;
+        let helices: Vec<&PostedHelix> =
+            runs.iter().zip(&found).filter(|(run, _)| own(run.place)).map(|(_, helix)| helix).collect();
+        let missing = runs.iter().filter(|run| own(run.place)).count() != helices.len();
+        match wanted.compared(at.at.into(), &helices) {
+            Ok(_) if missing => {
+                judged.tally.bad += 1;
+                let message = format!("{name}: the text lacks a helix of it");
+                judged.findings.push((Finding::error(Code::THREAD_FORM, message), start));
+            }
+            Ok(worst) if wanted.by_envelope => {
                 judged.tally.good += 1;
                 judged.tally.worst = judged.tally.worst.max(worst);
             }
-            Ok(_) => {
+            // What the maker corrected in the profile is not known here.
+            Ok(_) => judged.tally.unmeasured += 1,
+            Err(wrong) => {
                 judged.tally.bad += 1;
-                let item = found.first().map_or(plan.items.start, |h| h.item);
-                let message = format!("{}: the text lacks a helix of it", wanted.name(place));
-                judged.findings.push((Finding::error(Code::THREAD_FORM, message), item));
-            }
-            Err((finding, item)) => {
-                judged.tally.bad += 1;
-                judged.findings.push((*finding, item));
+                judged.findings.push((wrong.finding(&name), wrong.item.unwrap_or(start)));
             }
         }
     }
-    let deviation = (judged.tally.bad == 0).then_some(judged.tally.worst);
+    let deviation = (judged.tally.bad == 0 && wanted.by_envelope).then_some(judged.tally.worst);
     (judged, deviation)
 }
 
-impl<'a> Wanted<'a> {
-    fn of(plan: &'a PlannedThreadMilling) -> Wanted<'a> {
-        let (spec, table) = (&plan.spec, &plan.of.table);
-        let inside = spec.side == ThreadSide::Inside;
-        let thread = &plan.of.thread;
-        let radius = |depth: f64| {
-            // A hole narrows downwards, a boss widens.
-            let wider = if inside { -depth } else { depth } * 0.5 * thread.taper;
-            0.5 * (thread.pitch_diameter() + table.oversize) + wider
-        };
-        let crest = if inside {
-            0.5 * (thread.diameter - thread.pitch_diameter())
-        } else {
-            0.5 * (thread.pitch_diameter() - thread.root_diameter())
-        };
-        let tool = 0.5 * plan.of.mill.diameter - crest;
-        let cut = Cut { inside, pitch: thread.pitch, half_angle: thread.form.half_angle(), tool };
-        // A register leaves stock: nearer to the axis of a hole, away from a boss.
-        let wear = plan.wear_value() * if inside { -1.0 } else { 1.0 };
-        let helix = |depth: f64| {
-            let plain = if inside { radius(depth) - tool } else { radius(depth) + tool };
-            let radius = match table.profile {
-                MillProfile::Standard => cut.helix_of(radius(depth)),
-                MillProfile::Corrected => plain,
-            };
-            radius + wear
-        };
-        Wanted {
-            plan,
-            radii: match thread.taper > 0.0 {
-                true => (0..=NODES).map(|i| helix(table.depth * (1.0 - i as f64 / NODES as f64))).collect(),
-                false => vec![helix(0.0)],
-            },
-            counter_clockwise: counter_clockwise(inside, table.direction, plan.of.is_left_hand()),
-        }
-    }
-
-    /// The thread at a place, in words.
-    fn name(&self, place: usize) -> String {
-        self.plan.of.at(self.plan.of.places.get(place).map_or([0.0; 2], |p| p.at))
-    }
-
-    /// Radius of the finished helix where the lowest row's middle has a height.
-    fn radius(&self, z: f64) -> f64 {
-        let t = &self.plan.of.table;
-        let [one] = self.radii[..] else {
-            let share = (z - t.top + t.depth) / t.depth * NODES as f64;
-            // Beyond both ends as in the last interval.
-            let i = (share.floor().max(0.0) as usize).min(NODES - 1);
-            let [low, high] = [self.radii[i], self.radii[i + 1]];
-            return low + (high - low) * (share - i as f64);
-        };
-        one
-    }
-
-    /// Compares the helices of a thread; its deviation of the pitch diameter [mm].
-    fn thread(&self, place: usize, pairs: &[(&ThreadRun, &PostedHelix)]) -> Result<f64, (Box<Finding>, u32)> {
-        let plan = self.plan;
-        let (t, thread) = (&plan.of.table, &plan.of.thread);
-        let axis = plan.spec.places[place];
-        let tolerance = plan.of.milling.tolerance;
-        let rises = if thread.hand == Hand::Right { 1.0 } else { -1.0 };
-        let [mut lowest, mut highest] = [f64::INFINITY, f64::NEG_INFINITY];
-        let (mut worst, mut phase) = (0.0, None);
-        for (_, helix) in pairs {
-            let wrong = |what: String, value: f64, bound: f64, unit: &str| {
-                let finding = Finding::error(Code::THREAD_FORM, format!("{}: {what}", self.name(place)));
-                let finding = finding.value((value * 1e6).round() / 1e6, unit);
-                (Box::new(finding.bound((bound * 1e6).round() / 1e6, unit)), helix.item)
-            };
-            let points = self.middles(&helix.about(axis));
-            let (Some(first), Some(last)) = (points.first(), points.last()) else { continue };
-            if (last.turned > 0.0) != self.counter_clockwise {
-                let sense = if self.counter_clockwise { "counter-clockwise" } else { "clockwise" };
-                let what = format!("the helix does not run {sense}");
-                return Err(wrong(what, last.turned / TAU, last.turned / -TAU, "turns"));
-            }
-            let per_turn = (last.z - first.z) / last.turned * TAU;
-            let off = |p: &About| (p.z - first.z - rises * thread.pitch * p.turned / TAU).abs();
-            if points.iter().map(off).fold(0.0, f64::max) > tolerance {
-                let what = "the helix does not have the pitch and hand of the thread".to_owned();
-                return Err(wrong(what, per_turn, rises * thread.pitch, "mm a turn"));
-            }
-            // Height of the groove at the angle of X, but for whole pitches.
-            let starts = first.z - rises * thread.pitch * helix.begins(axis) / TAU;
-            let shift = |a: f64, b: f64| ((a - b) / thread.pitch + 0.5).rem_euclid(1.0) - 0.5;
-            let before = *phase.get_or_insert(starts);
-            if (shift(starts, before) * thread.pitch).abs() > tolerance {
-                let what = "its passes do not run in one groove".to_owned();
-                return Err(wrong(what, shift(starts, before) * thread.pitch, tolerance, "mm"));
-            }
-            let beyond = |p: &About| match plan.spec.side {
-                ThreadSide::Inside => p.radius - self.radius(p.z),
-                ThreadSide::Outside => self.radius(p.z) - p.radius,
-            };
-            for p in &points {
-                let deviation = 2.0 * beyond(p);
-                // A pass before the last leaves material.
-                if deviation > tolerance || helix.finishing && deviation < -tolerance {
-                    let what = "the pitch diameter by the helix of the text is off".to_owned();
-                    return Err(wrong(what, deviation, tolerance, "mm"));
-                }
-                if helix.finishing {
-                    worst = f64::max(worst, deviation.abs());
-                }
-            }
-            if helix.finishing {
-                lowest = f64::min(lowest, f64::min(first.z, last.z));
-                let rows = f64::from(plan.of.mill.rows - 1);
-                highest = f64::max(highest, f64::max(first.z, last.z) + rows * thread.pitch);
-            }
-        }
-        if lowest > t.top - t.depth + HEIGHT || highest < t.top - HEIGHT {
-            let message = format!(
-                "{}: the helices reach from Z {} to Z {}, the thread from Z {} to Z {}",
-                self.name(place),
-                trimmed(lowest, 3),
-                trimmed(highest, 3),
-                trimmed(t.top - t.depth, 3),
-                trimmed(t.top, 3)
-            );
-            let item = pairs.first().map_or(plan.items.start, |(_, h)| h.item);
-            return Err((Box::new(Finding::error(Code::THREAD_FORM, message)), item));
-        }
-        Ok(worst)
-    }
-
-    /// Points of the tool's tip as those of the middle of its lowest row.
-    fn middles(&self, points: &[About]) -> Vec<About> {
-        let up = 0.5 * self.plan.of.thread.pitch;
-        points.iter().map(|p| About { z: p.z + up, ..*p }).collect()
-    }
+/// A finding where the text has more helices than the plan.
+fn surplus(thread: &str, found: usize, planned: usize) -> Option<Finding> {
+    (found > planned).then(|| {
+        let message = format!("{thread}: the text has {found} helices, the plan {planned}");
+        Finding::error(Code::THREAD_FORM, message).value(found as f64, "").bound(planned as f64, "")
+    })
 }
 
-/// The table of directions: whether the path runs counter-clockwise, seen from above.
-fn counter_clockwise(inside: bool, sense: Sense, left_hand_cutter: bool) -> bool {
-    match (inside, sense, left_hand_cutter) {
-        (true, Sense::Climb, false) | (true, Sense::Conventional, true) => true,
-        (true, Sense::Conventional, false) | (true, Sense::Climb, true) => false,
-        (false, Sense::Climb, false) | (false, Sense::Conventional, true) => false,
-        (false, Sense::Conventional, false) | (false, Sense::Climb, true) => true,
-    }
-}
-
-/// The claim about all milled threads of a job.
+/// The claim about all milled threads of a job, and what it leaves out.
 pub(super) fn sum_up(tallies: &[Tally]) -> (Option<Proof>, Option<String>) {
-    let good: usize = tallies.iter().map(|t| t.good).sum();
-    if good == 0 || tallies.iter().any(|t| t.bad > 0) {
-        return (None, None);
+    let sum = |of: fn(&Tally) -> usize| tallies.iter().map(of).sum::<usize>();
+    let (good, bad, unmeasured) = (sum(|t| t.good), sum(|t| t.bad), sum(|t| t.unmeasured));
+    let threads = |count: usize| {
+        if count == 1 { "1 milled thread".to_owned() } else { format!("{count} milled threads") }
+    };
+    let unchecked = (unmeasured > 0).then(|| {
+        format!(
+            "pitch diameter of {}: it depends on the profile that the maker corrected; gauge the first thread",
+            threads(unmeasured)
+        )
+    });
+    if good + unmeasured == 0 || bad > 0 {
+        return (None, unchecked);
     }
     let worst = tallies.iter().map(|t| t.worst).fold(0.0, f64::max);
-    let threads = if good == 1 { "1 milled thread".to_owned() } else { format!("{good} milled threads") };
+    let within = format!("within {} \u{b5}m", fixed((worst * 1e4).ceil() * 0.1, 1));
+    let diameter = match (good, unmeasured) {
+        (0, _) => String::new(),
+        (_, 0) => format!(", and by the envelope of straight flanks its pitch diameter {within}"),
+        _ => format!("; {good} of them by the envelope of straight flanks its pitch diameter {within}"),
+    };
     let proof = Proof {
         claim: format!(
-            "{threads}: the helix of the text has the pitch, hand, direction and depth of the thread, and by the envelope of straight flanks its pitch diameter within {} \u{b5}m",
-            fixed((worst * 1e4).ceil() * 0.1, 1)
+            "{}: the helix of the text has the pitch, hand, direction and depth of the thread{diameter}",
+            threads(good + unmeasured)
         ),
         bound:
-            "points of each helix, 64 a turn; for the profile and diameter of the tool that the job states"
+            "points of each helix, 64 a turn; for the profile and diameter of the tool that the job states, and, where a wear register is used, for its value there"
                 .to_owned(),
     };
-    (Some(proof), None)
+    (Some(proof), unchecked)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn helices_beyond_the_plan_are_counted() {
+        assert!(surplus("M8", 2, 2).is_none() && surplus("M8", 1, 2).is_none());
+        let finding = surplus("M8x1.25", 3, 2).unwrap();
+        assert_eq!(finding.code, Code::THREAD_FORM);
+        assert_eq!(finding.message, "M8x1.25: the text has 3 helices, the plan 2");
+    }
+
+    #[test]
+    fn a_pitch_diameter_is_claimed_only_where_it_follows() {
+        let tally = |good, bad, unmeasured| Tally { good, bad, unmeasured, worst: 0.0004 };
+        let claim = |tallies: &[Tally]| {
+            let (proof, unchecked) = sum_up(tallies);
+            (proof.map(|p| p.claim).unwrap_or_default(), unchecked.unwrap_or_default())
+        };
+        let (all, left) = claim(&[tally(2, 0, 0)]);
+        assert!(
+            all.starts_with("2 milled threads: ") && all.ends_with("its pitch diameter within 0.4 \u{b5}m")
+        );
+        assert_eq!(left, "");
+        let (none, left) = claim(&[tally(0, 0, 1)]);
+        assert!(none.ends_with("depth of the thread") && !none.contains("pitch diameter"), "{none}");
+        assert!(
+            left.starts_with("pitch diameter of 1 milled thread: ")
+                && left.ends_with("gauge the first thread")
+        );
+        let (some, left) = claim(&[tally(2, 0, 0), tally(0, 0, 3)]);
+        assert!(
+            some.starts_with("5 milled threads: ") && some.contains("; 2 of them by the envelope"),
+            "{some}"
+        );
+        assert!(left.starts_with("pitch diameter of 3 milled threads: "), "{left}");
+        let (bad, left) = claim(&[tally(2, 1, 0), tally(0, 0, 3)]);
+        assert!(bad.is_empty() && !left.is_empty());
+    }
 }

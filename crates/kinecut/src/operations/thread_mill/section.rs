@@ -18,16 +18,22 @@ fn mm(length: f64) -> String {
 
 fn facts(plan: &PlannedThreadMilling, of: &Shown<'_>) -> Vec<Fact> {
     let (spec, thread, mill, made) = (&plan.spec, &plan.of.thread, &plan.of.mill, &plan.plan);
+    let oversize =
+        if spec.oversize == 0.0 { String::new() } else { format!(", oversize {}", mm(spec.oversize)) };
     let mut facts = vec![Fact::new("Thread", plan.of.thread_name()).note(format!(
-        "{} full, pitch diameter {}",
+        "{} full, pitch diameter {}{oversize}",
         mm(spec.depth),
         mm(thread.pitch_diameter())
     ))];
     if let Some(deviation) = plan.deviation {
         let um = fixed((deviation * 1e4).ceil() * 0.1, 1);
+        let with_wear = match spec.wear {
+            Some(_) => format!(", with {} in the wear register", mm(plan.wear_value())),
+            None => String::new(),
+        };
         facts.push(
             Fact::new("Pitch diameter in the text", format!("up to {um} \u{b5}m off"))
-                .note("by the helix that was read back and the envelope of the flanks"),
+                .note(format!("by the helix that was read back and the envelope of the flanks{with_wear}")),
         );
     }
     if thread.taper > 0.0 {
@@ -37,13 +43,16 @@ fn facts(plan: &PlannedThreadMilling, of: &Shown<'_>) -> Vec<Fact> {
                 .note(format!("{angle}\u{b0}, {} on the radius in a turn", mm(thread.radius_per_turn()))),
         );
     }
-    let (hole, note) = match spec.side {
-        ThreadSide::Inside => ("Core hole", "the minor diameter of the thread"),
-        ThreadSide::Outside => ("Root", "the diameter that the crests of the tool leave"),
-    };
-    let diameter =
-        if spec.side == ThreadSide::Inside { thread.minor_diameter() } else { thread.root_diameter() };
-    facts.push(Fact::new(hole, mm(diameter)).note(note));
+    let at_bottom = if thread.taper > 0.0 { ", at the bottom" } else { "" };
+    facts.push(match spec.side {
+        ThreadSide::Inside => {
+            Fact::new("Core hole", mm(thread.minor_diameter())).note("the minor diameter of the thread")
+        }
+        ThreadSide::Outside => Fact::new("Root", mm(2.0 * plan.crest_radius())).note(format!(
+            "the diameter that the crests of the tool leave{at_bottom}; that of the standard is {}",
+            mm(thread.root_diameter())
+        )),
+    });
     let [nominal, radius] = made.radii;
     facts.push(Fact::new("Path", format!("radius {}", mm(radius))).note(match spec.cutter.profile {
         MillProfile::Standard => format!(
@@ -65,7 +74,7 @@ fn facts(plan: &PlannedThreadMilling, of: &Shown<'_>) -> Vec<Fact> {
     facts.push(Fact::new("Direction", format!("{way}, {climb}")).note(rows));
     let per_minute = |feed: f64| format!("{} mm/min", trimmed(feed * 60.0, 1));
     facts.push(Fact::new("Feed", per_minute(spec.feed)).note(format!(
-        "of the edge; {} of the centre, on a slope of {}\u{b0}",
+        "of the edge; {} of the centre at full depth, on a slope of {}\u{b0}",
         per_minute(made.feed),
         fixed(made.slope.to_degrees(), 1)
     )));
@@ -95,9 +104,10 @@ fn table(plan: &PlannedThreadMilling) -> Table {
             Column::number("From Z", "mm"),
             Column::number("To Z", "mm"),
             Column::number("Turns", ""),
+            Column::number("Feed", "mm/min"),
         ],
         notes: vec![
-            "Z of the middle of the lowest tooth, half a pitch above the tip of the tool.".to_owned(),
+            "Feed of the tool's centre. Z of the middle of the lowest tooth, half a pitch above the tip of the tool.".to_owned(),
             "The form of the flanks is not simulated: the helix is compared in the posted text.".to_owned(),
         ],
         ..Table::default()
@@ -112,6 +122,7 @@ fn table(plan: &PlannedThreadMilling) -> Table {
             Cell::new(fixed(run.heights[0], 3)),
             Cell::new(fixed(run.heights[1], 3)),
             Cell::new(trimmed(run.turns, 3)),
+            Cell::new(trimmed(run.feed * 60.0, 1)),
         ])
     };
     table.rows.extend(plan.plan.runs.iter().filter(|run| run.place == 0).map(row));

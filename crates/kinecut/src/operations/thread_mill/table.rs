@@ -91,13 +91,13 @@ pub struct ThreadMillTable {
     /// Cutting speed at the crests of the teeth, m/min.
     #[serde(default)]
     pub cutting_speed: Option<f64>,
-    /// Feed of the edge at the major diameter, mm/min; that of the centre follows. Or give `feed_per_tooth`.
+    /// Feed of the edge at the major diameter, mm/min; that of the centre follows in each radial pass. Or give `feed_per_tooth`.
     #[serde(default)]
     pub feed: Option<f64>,
     /// Feed per tooth at the major diameter.
     #[serde(default)]
     pub feed_per_tooth: Option<f64>,
-    /// Height of the moves between threads, in coordinates of the work offset; default: the setup's safe height.
+    /// Height of the moves between threads, above `top`, in coordinates of the work offset; default: the setup's safe height.
     #[serde(default)]
     pub clearance: Option<f64>,
     /// Coolant; default flood.

@@ -140,7 +140,20 @@ fn every_control_mills_both_threads_and_the_groove_of_the_text_has_the_pitch_dia
     for control in CONTROLS {
         let outcome = cut(control, &format!("{M8}depth = 12\n{M20}depth = 20\ninfeed = [0.7, 1.0]\n"));
         let verdict = &outcome.verdict;
-        assert!(verdict.is_safe() && verdict.found.is_empty(), "{control}: {:#?}", verdict.found);
+        assert!(verdict.is_safe(), "{control}: {:#?}", verdict.found);
+        // The major diameters, 0.048 and 0.110 below nominal.
+        let noted: Vec<&str> = verdict
+            .found
+            .iter()
+            .map(|f| {
+                assert_eq!((f.code, f.severity), (Code::THREAD_OVERCUT, Severity::Note), "{control}: {f}");
+                f.message.as_str()
+            })
+            .collect();
+        assert!(
+            noted.len() == 2 && noted[0].contains("0.048 mm below") && noted[1].contains("0.110 mm below"),
+            "{noted:?}"
+        );
         let claims: Vec<&str> = verdict.proven.iter().map(|p| p.claim.as_str()).collect();
         assert!(
             claims.iter().any(|c| c.starts_with("2 milled threads: the helix of the text")),
@@ -172,6 +185,9 @@ fn every_control_mills_both_threads_and_the_groove_of_the_text_has_the_pitch_dia
         let json: serde_json::Value = serde_json::from_str(&kinecut::job::plan_json(&outcome)).unwrap();
         let own = &json["setups"][0]["milled_threads"];
         assert_eq!(own[1]["helices"].as_array().unwrap().len(), 4, "{control}");
+        // The shallower pass is slower, so that its edge is not faster.
+        let feed = |i: usize| own[1]["helices"][i]["centre_feed"].as_f64().unwrap();
+        assert!(feed(0) < 0.95 * feed(2), "{control}: {} {}", feed(0), feed(2));
         let told = own[0]["deviation"].as_f64().unwrap();
         assert!(told < 2e-3, "{control}: {told}");
     }
@@ -237,6 +253,10 @@ fn a_thread_on_a_boss_is_milled_clockwise_and_its_root_is_measured() {
                 assert!(off.abs() < 2e-3, "{control}: {off}");
             }
         }
+        let sections = format!("{:?}", kinecut::job::report::of_job(&outcome).sections);
+        for part in ["16.954 mm", "that of the standard is 16.933 mm"] {
+            assert!(sections.contains(part), "no `{part}` in {sections}");
+        }
         let root = outcome.deviation.bores.last().unwrap();
         assert!(root.ends > 500 && root.worst() < 2e-3, "{control}: {root:?}");
     }
@@ -252,6 +272,16 @@ fn a_taper_thread_is_posted_on_every_control() {
         assert!(verdict.is_safe(), "{control}: {:#?}", verdict.found);
         assert!(verdict.proven.iter().any(|p| p.claim.starts_with("1 milled thread:")), "{control}");
         assert!(format!("{verdict:?}").contains("a cone of steps"), "{control}");
+        // Narrower at its bottom, which the cylinder of the hole is not.
+        let wide = verdict.found.iter().find(|f| f.code == Code::THREAD_CORE).unwrap();
+        assert!(
+            wide.severity == Severity::Warning
+                && wide.message.contains("taper 1 in 16")
+                && wide.message.contains("is 6.647: more than 6.36 leaves")
+                && wide.message.ends_with("at its bottom"),
+            "{}",
+            wide.message
+        );
         let json: serde_json::Value = serde_json::from_str(&kinecut::job::plan_json(&outcome)).unwrap();
         let own = &json["setups"][0]["milled_threads"][0];
         let told = own["deviation"].as_f64().unwrap();
@@ -276,6 +306,10 @@ fn the_wear_register_moves_the_thread_and_is_said() {
         assert!(verdict.is_safe(), "{control}: {:#?}", verdict.found);
         assert!(outcome.setups[0].posted.text.contains(word), "{control}");
         assert!(outcome.setups[0].posted.text.contains("POSITIVE LEAVES STOCK"), "{control}");
+        let proof = verdict.proven.iter().find(|p| p.claim.starts_with("1 milled thread:")).unwrap();
+        assert!(proof.bound.contains("wear register"), "{control}: {}", proof.bound);
+        let sections = format!("{:?}", kinecut::job::report::of_job(&outcome).sections);
+        assert!(sections.contains("with 0.03 mm in the wear register"), "{control}: {sections}");
         let found = helices(&outcome, 4, [20.0, 10.0], 1.25);
         for diameter in pitch_diameters(&found[0], 5.0, [1.25, crest(1.25, true)], true) {
             // The overcut changes a little with the radius.
@@ -379,6 +413,33 @@ fn errors_have_their_place_their_numbers_and_a_cure() {
             vec!["shank of 6 mm", "22 above its tip"],
         ),
         (of("feed = 500\n", ""), Code::JOB_SHAPE, "", vec!["feed"]),
+        (
+            of("depth = 12", "depth = 12\nclearance = 0"),
+            Code::JOB_VALUE,
+            "clearance",
+            vec!["below the start of the thread", "raise `clearance` above `top`"],
+        ),
+        (
+            of("depth = 12", "depth = 12\ntop = 3\nclearance = 2.5"),
+            Code::JOB_VALUE,
+            "clearance",
+            vec!["2.5", "3"],
+        ),
+        (
+            of(
+                "points = [[20, 10]]",
+                "spring_passes = 5\npattern = { grid = { at = [-39, -29], step = [0.1, 0.1], count = [200, 100] } }",
+            ),
+            Code::PLAN_VALUE,
+            "pattern",
+            vec!["too many moves and turns of milled threads"],
+        ),
+        (
+            of("size = \"M8\"", "size = \"M8\"\ninfeed = [0.03, 1.0]"),
+            Code::PLAN_VALUE,
+            "infeed[0]",
+            vec!["does not reach the wall of the hole", "write more than 0.036"],
+        ),
     ] {
         let (found_code, found_key, text) = found;
         let wanted = if key.is_empty() {
@@ -408,11 +469,73 @@ fn a_missing_or_wide_core_hole_is_a_warning_and_the_missing_one_is_met_in_the_st
 }
 
 #[test]
+fn a_core_hole_of_another_form_is_warned_of_where_it_leaves_less_than_three_quarters() {
+    // The minor diameter is 6.399, the thread 0.800 high.
+    let whitworth = |core: f64| {
+        let thread = M8.replace("size = \"M8\"", "diameter = 8\npitch = 1.25\nform = \"whitworth\"");
+        let text = job("fanuc", &format!("{thread}depth = 6\ncore = {{ diameter = {core} }}\n"));
+        let text = text.replacen("pitch = 1.25\nteeth", "pitch = 1.25\nhalf_angle = 27.5\nteeth", 1);
+        let outcome =
+            run("job.toml", &text, &MemoryLoader::default(), &Silent).unwrap_or_else(|e| panic!("{e}"));
+        let found = outcome.verdict.found.iter().find(|f| f.code == Code::THREAD_CORE);
+        found.map(|f| (f.severity, f.message.clone()))
+    };
+    assert_eq!(whitworth(6.75), None);
+    let (severity, told) = whitworth(6.9).unwrap();
+    assert_eq!(severity, Severity::Warning);
+    assert!(told.contains("is 6.9: more than 6.799 leaves less than three quarters"), "{told}");
+}
+
+#[test]
+fn the_pitch_diameter_of_a_profile_of_the_maker_is_not_claimed() {
+    let outcome = cut("fanuc", &format!("{M8}depth = 6\nprofile = \"corrected\"\n"));
+    let verdict = &outcome.verdict;
+    assert!(verdict.is_safe(), "{:#?}", verdict.found);
+    let claim = verdict.proven.iter().find(|p| p.claim.starts_with("1 milled thread:")).unwrap();
+    assert!(claim.claim.ends_with("depth of the thread"), "{}", claim.claim);
+    let left = format!("{:?}", verdict.not_checked);
+    assert!(left.contains("pitch diameter of 1 milled thread: it depends on the profile"), "{left}");
+    let json: serde_json::Value = serde_json::from_str(&kinecut::job::plan_json(&outcome)).unwrap();
+    let own = &json["setups"][0]["milled_threads"][0];
+    assert!(own["deviation"].is_null() && own["profile"] == "corrected", "{own}");
+}
+
+#[test]
+fn an_oversize_is_in_the_report_and_the_plan() {
+    let outcome = cut("fanuc", &format!("{M8}depth = 6\noversize = 0.08\n"));
+    assert!(outcome.verdict.is_safe(), "{:#?}", outcome.verdict.found);
+    let json: serde_json::Value = serde_json::from_str(&kinecut::job::plan_json(&outcome)).unwrap();
+    let own = &json["setups"][0]["milled_threads"][0];
+    let of = |key: &str| own[key].as_f64().unwrap();
+    assert_eq!(of("oversize"), 0.08);
+    assert!((of("pitch_diameter") - 7.188101183952089).abs() < 1e-9 && of("deviation") < 2e-3, "{own}");
+    let sections = format!("{:?}", kinecut::job::report::of_job(&outcome).sections);
+    assert!(sections.contains("pitch diameter 7.188 mm, oversize 0.08 mm"), "{sections}");
+    let found = helices(&outcome, 4, [20.0, 10.0], 1.25);
+    for diameter in pitch_diameters(&found[0], 5.0, [1.25, crest(1.25, true)], true) {
+        assert!((diameter - 7.268101183952089).abs() < 2e-3, "{diameter}");
+    }
+}
+
+#[test]
+fn a_thread_of_half_a_pitch_has_no_wall_that_is_measured_and_that_is_said() {
+    let said = |depth: f64| {
+        let outcome = cut("fanuc", &format!("{M8}depth = {depth}\n"));
+        let left = format!("{:?}", outcome.verdict.not_checked);
+        (left.contains("the wall of the crests"), left.contains("at most half a pitch deep"))
+    };
+    assert_eq!(said(0.6), (true, true));
+    assert_eq!(said(2.0), (false, false));
+}
+
+#[test]
 fn tools_that_are_no_thread_mills_have_none_of_their_keys() {
     let text = job("fanuc", &format!("{M8}depth = 6\n"));
     let wrong = |from: &str, to: &str| {
         let text = text.replacen(from, to, 1);
         let error = run("job.toml", &text, &MemoryLoader::default(), &Silent).unwrap_err();
+        // A value of the tool comes with what to write instead.
+        assert!(error.code() != Code::TOOL_VALUE || !error.0.help.is_empty(), "{error}");
         (error.code(), error.0.key.clone().unwrap_or_default(), error.to_string())
     };
     for (from, to, code, key) in [
