@@ -2,8 +2,8 @@
 
 use std::f64::consts::FRAC_PI_4;
 
-use super::pieces::loop_length;
 use super::spec::{ContourSide, ContourSpec};
+use super::stretches::loop_length;
 use crate::base::bounded::{MAX_LENGTH, length, positive};
 use crate::base::{Code, Error, Finding, Result};
 
@@ -116,7 +116,7 @@ fn pieces(spec: &ContourSpec) -> Result<()> {
         let (whole, [from, to]) = (loop_length(&spec.outline, piece.of_loop), piece.along);
         let is_piece = from.is_finite() && to > from && to - from <= whole + ROUNDING;
         if !is_piece {
-            let what = "a piece of the contour is longer than its loop, or none";
+            let what = "a piece of the contour has no length, or is longer than its loop";
             let finding = Finding::error(Code::PLAN_VALUE, what).value_mm(to - from).bound_mm(whole);
             return Err(finding.help("give places along a loop, the second beyond the first").into());
         }

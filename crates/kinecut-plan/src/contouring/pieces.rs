@@ -6,7 +6,8 @@ use glam::DVec2;
 
 use super::lead::Lead;
 use super::plan::{LEAST_LEAD, PlannedLoop, Planner};
-use super::room::reaching;
+use super::room::{nearer, reaching};
+use super::stretches::{LoopStretches, loop_length};
 use super::track::Track;
 use super::travel::Stretch;
 use crate::base::{Code, Finding, Result};
@@ -23,31 +24,30 @@ pub struct OutlinePiece {
     pub along: [f64; 2],
 }
 
-/// A piece of the outline as it is cut.
+/// A cut without a break along pieces of the outline.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CutPiece {
-    /// Its index in the pieces of the contour.
-    pub piece: usize,
     /// Index of the first of its moves: the way there.
     pub first_move: usize,
-    /// The stretches of the outline beside which the path runs, in its direction.
+    /// The stretches of the outline beside which the path runs, in its direction: those of one piece, or of several that meet. Where
+    /// a lead finds no room the path goes on beyond them.
     pub beside: Vec<OutlinePiece>,
+    /// Whether the path is all of its loop.
+    pub closed: bool,
 }
 
-/// A stretch of a track beside a piece.
+/// A stretch of a track beside pieces that meet.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Run {
-    /// Index of the piece.
-    pub(super) piece: usize,
     /// From and to along the track [mm].
     pub(super) along: [f64; 2],
-    /// The stretches of the outline beside it; fewer than the piece where the path does not come to it, before inside corners.
+    /// The stretches of the outline beside it; fewer than the pieces where the path does not come to them, before inside corners.
     pub(super) beside: Vec<OutlinePiece>,
 }
 
 /// Gap between stretches that is rounding [mm].
 const ROUNDING: f64 = 1e-7;
-/// Runs shorter than this are none [mm].
+/// Shorter runs are left out [mm].
 const LEAST_RUN: f64 = 1e-3;
 /// Steps by which an end is moved farther along where its lead finds no room, and their number.
 const FARTHER: (f64, u32) = (0.5, 24);
@@ -74,13 +74,13 @@ pub(super) fn runs(
         let place = |u: f64| stretch[0] + (u - u0) / (u1 - u0) * (stretch[1] - stretch[0]);
         let whole = loop_length(outline, of_loop);
         let [low, high] = if u0 < u1 { [u0, u1] } else { [u1, u0] };
-        for (piece, of) in pieces.iter().enumerate().filter(|(_, p)| p.of_loop == of_loop) {
+        for of in pieces.iter().filter(|p| p.of_loop == of_loop) {
             for turn in -2..=1 {
                 let [from, to] = of.along.map(|u| u + f64::from(turn) * whole);
                 if high - low <= ROUNDING {
                     // A piece that is all of the loop goes about the corner between its ends too.
                     if from < low && low < to || turn == 0 && to - from >= whole - ROUNDING {
-                        found.push(Run { piece, along: stretch, beside: Vec::new() });
+                        found.push(Run { along: stretch, beside: Vec::new() });
                     }
                     continue;
                 }
@@ -88,7 +88,7 @@ pub(super) fn runs(
                 if b - a > ROUNDING {
                     let [x, y] = [place(a), place(b)];
                     let along = if x < y { [x, y] } else { [y, x] };
-                    found.push(Run { piece, along, beside: vec![OutlinePiece { of_loop, along: [a, b] }] });
+                    found.push(Run { along, beside: vec![OutlinePiece { of_loop, along: [a, b] }] });
                 }
             }
         }
@@ -115,14 +115,9 @@ pub(super) fn runs(
         last.beside.append(&mut first.beside);
         joined.remove(0);
     }
-    joined.retain(|r| r.along[1] - r.along[0] > LEAST_RUN);
+    // A run that only goes about a corner whose edges it does not reach cuts nothing of them.
+    joined.retain(|r| r.along[1] - r.along[0] > LEAST_RUN && !r.beside.is_empty());
     joined
-}
-
-/// Length of a loop [mm].
-pub(super) fn loop_length(outline: &Outline, of_loop: usize) -> f64 {
-    let edges = outline.loops().get(of_loop).map(|l| &outline.edges()[l.edges.clone()]);
-    edges.map_or(0.0, |edges| edges.iter().map(OutlineEdge::length).sum())
 }
 
 /// The stretch of a loop beside which an edge of an offset of the outline runs.
@@ -166,6 +161,7 @@ impl Planner<'_> {
             left.extend(runs.into_iter().map(|run| (i, run)));
         }
         let any = !left.is_empty();
+        let mut farthest: Option<(f64, DVec2)> = None;
         let mut here = DVec2::ZERO;
         while !left.is_empty() {
             let start = |(i, run): &(usize, Run)| tracks[*i].0.at(run.along[0]).0.distance(here);
@@ -177,16 +173,73 @@ impl Planner<'_> {
                 true => Some(self.ends(track, run.along, wall)?),
                 false => None,
             };
-            here = match open.filter(|o| o.along[1] - o.along[0] < track.length()) {
+            // Along the outline as far beyond the run as the path or a lead comes to cut.
+            let mut beyond = 0.0;
+            if let Some(open) = &open {
+                for (end, cut) in run.along.into_iter().zip(open.along) {
+                    let farther = (cut - end).abs();
+                    if farther > farthest.map_or(ROUNDING, |(most, _)| most) {
+                        farthest = Some((farther, track.at(cut).0));
+                    }
+                    beyond = if farther > beyond { farther } else { beyond };
+                }
+                let lead = |l: &Lead| l.radius + l.line;
+                let (on, off) = (lead(&open.on), lead(&open.off));
+                beyond += if on > off { on } else { off };
+            }
+            let open = open.filter(|o| o.along[1] - o.along[0] < track.length());
+            let closed = open.is_none();
+            here = match open {
                 Some(open) => self.open(track, *outer, &open, heights)?,
                 None => self.rough(track, *outer, tracks, wall, heights)?,
             };
-            let piece = CutPiece { piece: run.piece, first_move, beside: run.beside };
+            self.spares_edges(pieces, &run, beyond);
             if let Some(last) = self.loops.last_mut() {
-                last.piece = Some(piece);
+                last.piece = Some(CutPiece { first_move, beside: run.beside, closed });
             }
         }
+        if let Some((farther, at)) = farthest {
+            let what = format!(
+                "edges beyond the ends of pieces are cut too: up to {:.1} mm, where no lead finds room nearer",
+                (10.0 * farther).ceil() / 10.0
+            );
+            self.sharp_edge(Code::LEAD_ROOM, &what, at);
+        }
         Ok(any)
+    }
+
+    /// A warning where the last loop of the path also cuts an edge that belongs to no piece, farther from the ends of its run than a
+    /// lead reaches, which is `beyond` along the outline [mm].
+    fn spares_edges(&mut self, pieces: &[OutlinePiece], run: &Run, beyond: f64) {
+        let (Some(room), Some(last)) = (self.spec.room, self.loops.last()) else { return };
+        let outline = &self.spec.outline;
+        let wider = |of: &OutlinePiece| {
+            let [from, to] = of.along;
+            OutlinePiece { along: [from - beyond - room, to + beyond + room], ..*of }
+        };
+        let own: Vec<OutlinePiece> = pieces.iter().copied().chain(run.beside.iter().map(wider)).collect();
+        let others = LoopStretches::new(outline, &own).edges_off(outline);
+        if others.is_empty() {
+            return;
+        }
+        let near = NearestEdge::new(&others);
+        let Some(at) = last.edges.iter().find_map(|e| nearer(e, &near, room)) else { return };
+        let what =
+            format!("the cutter also cuts an edge that is not chosen, beside ({:.3}, {:.3})", at.x, at.y);
+        self.sharp_edge(Code::CUTTER_TOO_LARGE, &what, at);
+    }
+
+    /// Warns of an edge that is cut though it was not chosen.
+    fn sharp_edge(&mut self, code: Code, what: &str, at: DVec2) {
+        // Only one that the job gives is not made smaller where it finds no room.
+        let (help, key) = match code == Code::LEAD_ROOM && self.spec.lead_radius.is_some() {
+            true => (
+                "if that edge must stay sharp, give a smaller lead_radius or take a smaller cutter",
+                "lead_radius",
+            ),
+            false => ("if that edge must stay sharp, take a smaller cutter", "tool"),
+        };
+        self.findings.push(Finding::warning(code, what).point([at.x, at.y, 0.0]).help(help).key(key));
     }
 
     /// The leads at the ends of a run: where there is no room for one, the run goes a little farther.

@@ -156,7 +156,7 @@ pub(super) struct Planner<'a> {
     pub(super) spec: &'a ContourSpec,
     pub(super) near: &'a NearestEdge,
     pub(super) travel: Travel<'a>,
-    findings: Vec<Finding>,
+    pub(super) findings: Vec<Finding>,
     pub(super) loops: Vec<PlannedLoop>,
 }
 

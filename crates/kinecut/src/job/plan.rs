@@ -115,7 +115,7 @@ fn plan_setup(
                 plan
             }
             Attempt::LeftOut(reason) => {
-                findings.push(*reason);
+                findings.push(reason.under(&key));
                 continue;
             }
         };

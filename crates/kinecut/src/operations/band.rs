@@ -2,7 +2,7 @@
 
 use glam::DVec2;
 
-use crate::geom::{NearestEdge, Outline};
+use crate::geom::{NearestEdge, Outline, OutlineEdge};
 
 /// A strip along an outline, in coordinates of the work offset [mm].
 #[derive(Clone, Debug)]
@@ -150,9 +150,47 @@ impl Band {
         Band { reach: self.reach + slope.width, slope: Some(slope), ..self }
     }
 
-    /// With stretches of its loops only, each from and to along its loop.
+    /// With stretches of its loops only, each from and to along its loop; about their middle.
     pub(crate) fn only(self, on: impl Iterator<Item = (usize, [f64; 2])>) -> Band {
-        Band { only: Some(on.collect()), ..self }
+        let mut band = Band { only: Some(on.collect()), ..self };
+        let edges = band.wanted_edges();
+        if edges.is_empty() {
+            return band;
+        }
+        let [[x0, x1], [y0, y1]] = [DVec2::X, DVec2::Y].map(|axis| {
+            let all = edges.iter().map(|e| e.extent(axis));
+            all.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], [l, h]| [low.min(l), high.max(h)])
+        });
+        let (min, max) = (DVec2::new(x0, y0), DVec2::new(x1, y1));
+        band.middle = 0.5 * (min + max);
+        band.reach = 0.5 * min.distance(max) + band.width + band.leave + band.slope.map_or(0.0, |s| s.width);
+        band
+    }
+
+    /// The edges along which it is wanted, or parts of them.
+    fn wanted_edges(&self) -> Vec<OutlineEdge> {
+        let Some(only) = &self.only else { return self.outline.edges().to_vec() };
+        let mut found = Vec::new();
+        for &(of_loop, [from, to]) in only {
+            let Some(one) = self.outline.loops().get(of_loop) else { continue };
+            let edges = &self.outline.edges()[one.edges.clone()];
+            let whole: f64 = edges.iter().map(OutlineEdge::length).sum();
+            let from_first = from.rem_euclid(whole);
+            let end = from_first + if to - from < whole { to - from } else { whole };
+            for turn in [0.0, whole] {
+                let mut begin = turn;
+                for edge in edges {
+                    let length = edge.length();
+                    let a = if from_first > begin { from_first } else { begin };
+                    let b = if end < begin + length { end } else { begin + length };
+                    if a < b {
+                        found.push(edge.part((a - begin) / length, (b - begin) / length));
+                    }
+                    begin += length;
+                }
+            }
+        }
+        found
     }
 
     /// Whether the wall at the place nearest to a point is wanted.
@@ -165,7 +203,7 @@ impl Band {
         let found = self.outline.loops().iter().position(|l| l.edges.contains(&nearest.edge));
         let Some(of_loop) = found else { return false };
         let range = self.outline.loops()[of_loop].edges.clone();
-        let length = |edges: &[crate::geom::OutlineEdge]| edges.iter().map(|e| e.length()).sum::<f64>();
+        let length = |edges: &[OutlineEdge]| edges.iter().map(|e| e.length()).sum::<f64>();
         let whole = length(&edges[range.clone()]);
         let at = length(&edges[range.start..nearest.edge]) + nearest.share * edges[nearest.edge].length();
         let on = |[from, to]: [f64; 2]| {
@@ -268,15 +306,15 @@ impl Band {
 
     /// The point of the wall at a share of its length.
     pub(crate) fn point(&self, share: f64) -> DVec2 {
-        let edges = self.outline.edges();
-        let mut left = share.rem_euclid(1.0) * self.outline.perimeter();
-        for edge in edges {
+        let edges = self.wanted_edges();
+        let mut left = share.rem_euclid(1.0) * edges.iter().map(OutlineEdge::length).sum::<f64>();
+        for edge in &edges {
             if left <= edge.length() {
                 return edge.at(left / edge.length());
             }
             left -= edge.length();
         }
-        edges[0].start
+        edges.first().map_or(self.middle, |e| e.start)
     }
 }
 
@@ -365,6 +403,18 @@ mod tests {
         // Round the corner, beyond the end of the loop.
         let corner = on([begin + 150.0, begin + 165.0]);
         assert!(corner(at(4.0)) && !corner(at(6.0)));
+        // It lies about its stretch, and so do the points of its wall.
+        let band = Band::new(&outline, true, 0.0, 10.0).only([(0, [begin + 10.0, begin + 15.0])].into_iter());
+        assert!(band.middle.distance(dvec2(at(12.5), 0.0)) < 1e-9 && (band.reach - 12.5).abs() < 1e-9);
+        for i in 0..16 {
+            let p = band.point(f64::from(i) / 16.0);
+            assert!(p.y.abs() < 1e-9 && (p.x - at(12.5)).abs() < 2.5 + 1e-9, "{p}");
+        }
+        // Beyond the end of the loop both sides of the corner are.
+        let around =
+            Band::new(&outline, true, 0.0, 10.0).only([(0, [begin + 150.0, begin + 165.0])].into_iter());
+        let sides = (0..16).map(|i| around.point(f64::from(i) / 16.0).y.abs() < 1e-9);
+        assert!(sides.clone().any(|lower| lower) && sides.clone().any(|lower| !lower));
     }
 
     #[test]

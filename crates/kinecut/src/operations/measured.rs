@@ -26,6 +26,8 @@ pub struct BoreMeasure {
     pub gouge: Worst,
     /// Whether other operations cut away all of what this one wanted: then there is nothing to measure.
     pub replaced: bool,
+    /// Whether it is the break of an edge, or a piece of it: pieces of an operation are counted as one.
+    pub of_edge: bool,
 }
 
 /// The worst of many deviations.

@@ -22,6 +22,8 @@ pub(crate) struct NamedOutline<'a> {
     pub(crate) stock_to_leave: f64,
     /// The plane in which it works, if it names one.
     pub(crate) plane: Option<&'a PlaneTable>,
+    /// Whether it cuts the wall along the outline, and compares it.
+    pub(crate) has_wall: bool,
 }
 
 impl<'a> NamedOutline<'a> {

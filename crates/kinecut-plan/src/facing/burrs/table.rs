@@ -46,14 +46,16 @@ impl BurrTable {
         let mut before = f64::NEG_INFINITY;
         for &[angle, height] in &points {
             if !(0.0..=PI).contains(&angle) {
-                return fail("exit angles lie between 0 and 180 degrees", angle.to_degrees(), "deg", 180.0);
+                let bound = if angle < 0.0 { 0.0 } else { 180.0 };
+                return fail("exit angles lie between 0 and 180 degrees", angle.to_degrees(), "deg", bound);
             }
             if angle <= before {
                 let (angle, before) = (angle.to_degrees(), before.to_degrees());
                 return fail("exit angles of a table of burrs must ascend", angle, "deg", before);
             }
             if !(0.0..=MAX_LENGTH).contains(&height) {
-                return fail("the height of a burr is out of range", height, "mm", 0.0);
+                let bound = if height > MAX_LENGTH { MAX_LENGTH } else { 0.0 };
+                return fail("the height of a burr is out of range", height, "mm", bound);
             }
             before = angle;
         }
@@ -108,6 +110,13 @@ mod tests {
             vec![[1.0, f64::NAN]],
         ] {
             assert_eq!(BurrTable::new(bad).unwrap_err().code(), Code::FACE_CASE);
+        }
+        // The bound that is broken is said.
+        for (bad, bound) in
+            [([1.0, -0.1], 0.0), ([1.0, 1e9], MAX_LENGTH), ([-0.1, 0.1], 0.0), ([3.2, 0.1], 180.0)]
+        {
+            let error = BurrTable::new(vec![bad]).unwrap_err();
+            assert_eq!(error.0.bound.map(|b| b.value), Some(bound), "{bad:?}");
         }
     }
 

@@ -53,7 +53,8 @@ pub(super) fn bores(wanted: &[Wanted<'_>], measures: &[BoreMeasure], answer: &mu
         let unmeasured = group.iter().filter(|(_, m)| m.ends == 0 && !m.replaced).count();
         if unmeasured > 0 {
             let of = if group.len() > 1 {
-                format!(" of {unmeasured} of its {} holes", group.len())
+                let noun = if group[0].0.wall.slope().is_some() { "pieces" } else { "holes" };
+                format!(" of {unmeasured} of its {} {noun}", group.len())
             } else {
                 String::new()
             };

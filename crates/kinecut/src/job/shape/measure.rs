@@ -20,6 +20,7 @@ impl BoreMeasure {
             left: Worst::default(),
             gouge: Worst::default(),
             replaced: false,
+            of_edge: bore.wall.slope().is_some(),
         }
     }
 

@@ -8,6 +8,7 @@ use super::super::simulate::Simulation;
 use super::Judgement;
 use crate::base::{Finding, Severity};
 use crate::operations::Operation;
+use crate::operations::measured::BoreMeasure;
 
 /// The outcome with its counts: "SAFE, 1 warning", "NOT SAFE, 5 errors".
 pub(in crate::job) fn banner(found: &[Finding]) -> String {
@@ -88,7 +89,13 @@ fn bodies(job: &Job, simulation: &Simulation) -> String {
 
 /// Reference that the shape was compared with.
 fn shape(job: &Job, deviation: &Deviation) -> String {
-    let walls = deviation.bores.iter().map(|b| (b.ends, b.operation));
+    // Pieces of a broken edge are one.
+    let bores = &deviation.bores;
+    let is_first = |i: usize| {
+        let same = |b: &BoreMeasure| b.ends > 0 && b.operation == bores[i].operation;
+        !bores[i].of_edge || !bores[..i].iter().any(same)
+    };
+    let walls = (0..bores.len()).filter(|i| is_first(*i)).map(|i| (bores[i].ends, bores[i].operation));
     let planes = deviation.faces.iter().map(|f| (f.ends, f.operation));
     let measured: Vec<&str> = walls
         .chain(planes)

@@ -26,7 +26,7 @@ pub struct ChamferTable {
     /// The tool, a tapered one: its number, or its name.
     pub tool: CalledTool,
     /// Name of a contour or chamfer before it in the setup, whose edge is chamfered: its outline with its place, `side`, `loops`,
-    /// `top` and `stock_to_leave`, unless they are said here; in place of an outline.
+    /// `top` and `stock_to_leave`; here `top` may be another, and `loops` fewer; in place of an outline.
     #[serde(default)]
     pub of: Option<String>,
     /// Edges of the face that was milled before it in the setup, in place of an outline: "bad", those where teeth have left at a bad

@@ -133,6 +133,7 @@ impl kind::Table for ContourTable {
             top,
             stock_to_leave,
             plane,
+            has_wall: side != ContourSide::On,
         })
     }
 

@@ -28,7 +28,7 @@ pub struct DeburrTable {
     /// The tool, a tapered one or a ball-nose end mill: its number, or its name.
     pub tool: CalledTool,
     /// Name of an operation along an outline before it in the setup, whose edge is deburred: its outline with its place, `side`, `loops`,
-    /// `top` and `stock_to_leave`, unless they are said here; in place of an outline.
+    /// `top` and `stock_to_leave`; here `top` may be another, and `loops` fewer; in place of an outline.
     #[serde(default)]
     pub of: Option<String>,
     /// Edges of the face that was milled before it in the setup, in place of an outline: "bad", those where teeth have left at a bad

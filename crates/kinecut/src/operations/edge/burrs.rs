@@ -7,9 +7,11 @@ use serde::{Deserialize, Serialize};
 
 use super::{EdgeKeys, FaceEdges};
 use crate::base::{Code, Finding, Result};
+use crate::contouring::{CutPiece, LoopStretches, OutlinePiece};
 use crate::facing::burrs::{
     BurrChoice, BurrPart, BurrPieces, BurrState, BurrTable, PieceLengths, burr_parts, burr_pieces,
 };
+use crate::geom::Outline;
 use crate::operations::face::{FaceOperation, PsiSide};
 use crate::operations::kind::Table as _;
 use crate::operations::{Around, OperationTable, Setting};
@@ -157,30 +159,48 @@ impl FoundBurrs {
         if !pieces.pieces.is_empty() {
             return Ok(Ok(FoundBurrs { face: face.clone(), parts, pieces }));
         }
-        let whose = format!("operation {} ({})", face.operation + 1, face.name);
-        let what = match wanted.above {
-            Some(limit) => {
-                format!("above = {}: {whose} left no burr higher than that by your table", trimmed(limit, 4))
-            }
-            None => format!("edges = \"bad\": {whose} left no bad edge"),
-        };
-        let left: f64 = of_state(&parts, BurrState::Chosen).map(BurrPart::length).sum();
-        let what = match left > 0.0 {
-            true => format!("{what} that is cut: {} mm are too short or on other loops", trimmed(left, 2)),
-            false => what,
-        };
-        Ok(Err(Finding::note(Code::BURRS, what)
-            .help("nothing is cut, and the operation is left out")
-            .key(wanted.key())))
+        let on_wanted = |p: &&BurrPart| of_loop(p.edge).is_some_and(&is_wanted);
+        let lowered = of_state(&parts, BurrState::Lowered).filter(on_wanted).map(BurrPart::length).sum();
+        let left = of_state(&parts, BurrState::Chosen).map(BurrPart::length).sum();
+        Ok(Err(nothing(wanted, &whose(face), left, lowered)))
     }
 
-    /// The chosen burrs that no piece of a list treats: too short, or on loops that are not cut.
-    pub(super) fn left(&self, treated: impl Fn(usize) -> bool) -> Vec<BurrPart> {
-        let on_piece = |part: &BurrPart| {
-            let pieces = self.pieces.pieces.iter().enumerate();
-            pieces.filter(|(i, _)| treated(*i)).any(|(_, piece)| piece.parts.contains(part))
-        };
-        of_state(&self.parts, BurrState::Chosen).filter(|p| !on_piece(p)).copied().collect()
+    /// The face in words.
+    pub(super) fn whose(&self) -> String {
+        whose(&self.face)
+    }
+
+    /// The burrs of a state, divided by what some cuts have the path beside.
+    fn divided<'a>(&self, state: BurrState, cuts: impl Iterator<Item = &'a CutPiece>) -> DividedBurrs {
+        let outline = &self.face.edges.case.outline;
+        let beside: Vec<OutlinePiece> = cuts.flat_map(|c| c.beside.iter().copied()).collect();
+        let stretches = LoopStretches::new(outline, &beside);
+        let mut all = DividedBurrs::default();
+        of_state(&self.parts, state).for_each(|part| all.add(part, outline, &stretches));
+        all
+    }
+
+    /// The chosen burrs that a cut takes off.
+    pub(super) fn treated(&self, cut: &CutPiece) -> Vec<BurrPart> {
+        self.divided(BurrState::Chosen, std::iter::once(cut)).on
+    }
+
+    /// The chosen burrs that none of some cuts takes off: too short, before inside corners, or on loops that are not cut.
+    pub(super) fn left<'a>(&self, cuts: impl Iterator<Item = &'a CutPiece>) -> Vec<BurrPart> {
+        self.divided(BurrState::Chosen, cuts).off
+    }
+
+    /// The other burrs of a state, each with whether one of some cuts runs over it.
+    pub(super) fn others<'a>(
+        &self,
+        state: BurrState,
+        cuts: impl Iterator<Item = &'a CutPiece>,
+    ) -> Vec<(BurrPart, bool)> {
+        let DividedBurrs { on, off } = self.divided(state, cuts);
+        let mut all: Vec<(BurrPart, bool)> =
+            on.into_iter().map(|p| (p, true)).chain(off.into_iter().map(|p| (p, false))).collect();
+        all.sort_by(|(a, _), (b, _)| a.edge.cmp(&b.edge).then(a.along[0].total_cmp(&b.along[0])));
+        all
     }
 
     /// Exit angles of a part as the job gives them, the lesser first [rad].
@@ -209,7 +229,122 @@ impl FoundBurrs {
     }
 }
 
+/// Burrs beside a path, and the others. Of a burr that is divided each part has the angles and the height of all of it.
+#[derive(Clone, Debug, Default, PartialEq)]
+struct DividedBurrs {
+    on: Vec<BurrPart>,
+    off: Vec<BurrPart>,
+}
+
+impl DividedBurrs {
+    /// Adds a burr, divided by stretches of the loops of its outline.
+    fn add(&mut self, part: &BurrPart, outline: &Outline, stretches: &LoopStretches) {
+        let of_loop = outline.loops().iter().position(|l| l.edges.contains(&part.edge));
+        let Some(of_loop) = of_loop else { return self.off.push(*part) };
+        let first = outline.loops()[of_loop].edges.start;
+        let begin: f64 = outline.edges()[first..part.edge].iter().map(|e| e.length()).sum();
+        let split = stretches.split(of_loop, part.along.map(|s| begin + s));
+        let one = |along: [f64; 2]| BurrPart { along: along.map(|s| s - begin), ..*part };
+        self.on.extend(split.on.into_iter().map(one));
+        self.off.extend(split.off.into_iter().map(one));
+    }
+}
+
+/// A face in words.
+fn whose(face: &FaceEdges) -> String {
+    format!("operation {} ({})", face.operation + 1, face.name)
+}
+
+/// The reason to leave out an operation for whose choice nothing is to be cut; `left`: length of chosen burrs that are too short or on
+/// other loops, `lowered`: of edges onto which the cutter was lowered [mm].
+fn nothing(wanted: &WantedEdges, whose: &str, left: f64, lowered: f64) -> Finding {
+    let what = match wanted.above {
+        Some(limit) => {
+            format!("above = {}: {whose} left no burr higher than that by your table", trimmed(limit, 4))
+        }
+        None => format!("edges = \"bad\": {whose} left no bad edge"),
+    };
+    let what = match left > 0.0 {
+        true => format!("{what} that is cut: {} mm are too short or on other loops", trimmed(left, 2)),
+        false => what,
+    };
+    let finding = match lowered > 0.0 {
+        true => Finding::warning(Code::BURRS, format!("{what}; {}", lowered_onto(lowered)))
+            .help("nothing is cut, and the operation is left out: look at these edges, or mill from beside the part"),
+        false => {
+            Finding::note(Code::BURRS, what).help("nothing is cut, and the operation is left out")
+        }
+    };
+    finding.key(wanted.key())
+}
+
+/// Edges without an exit angle in words.
+pub(super) fn lowered_onto(length: f64) -> String {
+    format!(
+        "onto {} mm of its edges the cutter was lowered, where no exit angle tells of a burr",
+        trimmed(length, 2)
+    )
+}
+
 /// The parts of a state.
 pub(super) fn of_state(parts: &[BurrPart], state: BurrState) -> impl Iterator<Item = &BurrPart> {
     parts.iter().filter(move |p| p.state == state)
+}
+
+#[cfg(test)]
+mod tests {
+    use glam::dvec2;
+
+    use super::*;
+    use crate::base::Severity;
+
+    #[test]
+    fn burrs_are_divided_where_the_path_ends() {
+        let corners = [dvec2(0.0, 0.0), dvec2(40.0, 0.0), dvec2(40.0, 30.0), dvec2(0.0, 30.0)];
+        let outline = Outline::polygon(&corners).unwrap();
+        let first = outline.edges()[0].length();
+        let part = BurrPart {
+            edge: 1,
+            along: [2.0, 20.0],
+            exit_angles: [0.3, 0.4],
+            height: Some(0.2),
+            state: BurrState::Chosen,
+        };
+        let beside = [[first + 5.0, first + 8.0], [first + 12.0, first + 50.0]];
+        let beside = beside.map(|along| OutlinePiece { of_loop: 0, along });
+        let mut all = DividedBurrs::default();
+        all.add(&part, &outline, &LoopStretches::new(&outline, &beside));
+        let on: Vec<[f64; 2]> = all.on.iter().map(|p| p.along).collect();
+        let off: Vec<[f64; 2]> = all.off.iter().map(|p| p.along).collect();
+        for (found, wanted) in [(on, [[5.0, 8.0], [12.0, 20.0]]), (off, [[2.0, 5.0], [8.0, 12.0]])] {
+            let found: Vec<f64> = found.into_iter().flatten().collect();
+            let wanted = wanted.concat();
+            assert!(
+                found.len() == 4 && found.iter().zip(&wanted).all(|(a, b)| (a - b).abs() < 1e-9),
+                "{found:?} {wanted:?}"
+            );
+        }
+    }
+
+    #[test]
+    fn edges_onto_which_the_cutter_was_lowered_are_no_silent_good_ones() {
+        let bad = WantedEdges { above: None, table: None };
+        let good = nothing(&bad, "operation 1 (face)", 0.0, 0.0);
+        assert_eq!((good.severity, good.key.as_deref()), (Severity::Note, Some("edges")));
+        let lowered = nothing(&bad, "operation 1 (face)", 0.0, 12.5);
+        assert_eq!((lowered.code, lowered.severity), (Code::BURRS, Severity::Warning));
+        assert!(
+            lowered.message.contains("left no bad edge; onto 12.5 mm of its edges"),
+            "{}",
+            lowered.message
+        );
+        let above = WantedEdges { above: Some(0.1), table: None };
+        let short = nothing(&above, "operation 1 (face)", 0.4, 3.0);
+        assert!(
+            short.message.contains("0.4 mm are too short or on other loops; onto 3 mm"),
+            "{}",
+            short.message
+        );
+        assert_eq!((short.severity, short.key.as_deref()), (Severity::Warning, Some("above")));
+    }
 }

@@ -95,6 +95,7 @@ pub(crate) fn named_outline<'a>(t: &EdgeKeys<'a>) -> Option<NamedOutline<'a>> {
         top: t.top.unwrap_or_default(),
         stock_to_leave: t.stock_to_leave.unwrap_or_default(),
         plane: t.plane,
+        has_wall: false,
     })
 }
 
@@ -106,17 +107,17 @@ pub(crate) fn operation(
 ) -> Result<EdgeOperation> {
     let tool = tool_of(t.tool, around.tools)?;
     let cut = cut(&tool)?;
-    let (place, read, edges) = match WantedEdges::of(t, around)? {
+    let (place, read, edges, of_other) = match WantedEdges::of(t, around)? {
         Some((edges, face)) => {
             let notes = face.notes.clone();
             let read = OutlineRead { outline: face.case.outline.clone(), weights: Vec::new(), notes };
-            (Place::of_face(t, face.table.top)?, read, Some(edges))
+            (Place::of_face(t, face.table.top)?, read, Some(edges), false)
         }
         None => {
             let edge = edge(t, around)?;
             let read =
                 edge.keys.read(around.loader).map_err(|e| if t.of.is_some() { at_of(e) } else { e })?;
-            (Place::of(&edge), read, None)
+            (Place::of(&edge), read, None, edge.has_wall)
         }
     };
     length("top", place.top, -MAX_LENGTH, MAX_LENGTH)?;
@@ -147,7 +148,7 @@ pub(crate) fn operation(
         lead_radius: t.lead_radius,
         start: t.start,
         overlap: t.overlap,
-        of_other: t.of.is_some(),
+        of_other,
         edges,
         milling: milling_of(tool, speed, t.coolant, tolerance)?,
     })
@@ -189,7 +190,11 @@ impl Place {
 fn edge<'a>(t: &EdgeKeys<'a>, around: &Around<'a>) -> Result<NamedOutline<'a>> {
     let name = t.name.unwrap_or_default();
     let of = match t.of {
-        Some(of) if t.own.is_empty() => NamedOutline { name, ..NamedOutline::find(of, around.before)? },
+        Some(of) if t.own.is_empty() => {
+            let found = NamedOutline::find(of, around.before)?;
+            agrees(t, &found)?;
+            NamedOutline { name, ..found }
+        }
         Some(_) => {
             let finding = Finding::error(Code::JOB_SHAPE, "`of` and an outline exclude each other");
             return Err(finding.help("give one of them").key("of").into());
@@ -202,6 +207,7 @@ fn edge<'a>(t: &EdgeKeys<'a>, around: &Around<'a>) -> Result<NamedOutline<'a>> {
             top: 0.0,
             stock_to_leave: 0.0,
             plane: t.plane,
+            has_wall: false,
         },
     };
     let edge = NamedOutline {
@@ -221,6 +227,32 @@ fn edge<'a>(t: &EdgeKeys<'a>, around: &Around<'a>) -> Result<NamedOutline<'a>> {
         return Err(finding.help("say it here: side = \"outside\" or \"inside\"").key("of").into());
     }
     Ok(edge)
+}
+
+/// A table says nothing else of the wall than the operation to which it refers; a contour on its line has none.
+fn agrees(t: &EdgeKeys<'_>, of: &NamedOutline<'_>) -> Result<()> {
+    /// Difference of stock that is rounding [mm].
+    const ROUNDING: f64 = 1e-9;
+    if of.side == ContourSide::On {
+        return Ok(());
+    }
+    let other = |key: &str, what: &str| {
+        let help = format!("leave out `{key}`, or give the outline itself in place of `of`");
+        Finding::error(Code::JOB_SHAPE, format!("`{key}` contradicts the operation that `of` names: {what}"))
+            .help(help)
+            .key(key)
+    };
+    if t.side.is_some_and(|side| ContourSide::from(side) != of.side) {
+        return Err(other("side", "its wall is that of the other side").into());
+    }
+    if of.loops != ContourLoops::All && t.loops.is_some_and(|loops| loops != of.loops) {
+        return Err(other("loops", "it does not cut all of these loops").into());
+    }
+    if let Some(leave) = t.stock_to_leave.filter(|leave| (leave - of.stock_to_leave).abs() > ROUNDING) {
+        let finding = other("stock_to_leave", "its wall lies elsewhere");
+        return Err(finding.value_mm(leave).bound_mm(of.stock_to_leave).into());
+    }
+    Ok(())
 }
 
 /// An error of the outline of the operation to which a table refers.

@@ -86,7 +86,7 @@ pub(crate) fn ball(diameter: f64, width: f64, wall_height: Option<f64>) -> Resul
         if ball.depth() > wall + ROUNDING {
             let what = "the ball would touch the floor below the edge";
             let finding = Finding::error(Code::PLAN_VALUE, what).value_mm(rounded(ball.depth()));
-            let help = "take a smaller ball, or a V cutter with a small tip_clearance";
+            let help = "take a smaller ball, or a V cutter";
             return Err(finding.bound_mm(wall).help(help).key("tool").into());
         }
     }

@@ -4,7 +4,7 @@ use serde::Serialize;
 
 use super::PlannedEdge;
 use super::burrs::FoundBurrs;
-use crate::contouring::{ContourSide, EdgeBreak, PlannedLoop};
+use crate::contouring::{ContourSide, CutPiece, EdgeBreak, LoopStretches, PlannedLoop};
 use crate::facing::burrs::{BurrPart, BurrState};
 
 /// A broken edge; lengths [mm], heights in the work offset.
@@ -46,16 +46,25 @@ struct BurrsJson {
     not_treated: Vec<BurrJson>,
 }
 
-/// A piece that is cut.
+/// A piece that is cut without a break.
 #[derive(Debug, Serialize)]
 struct PieceJson {
-    /// Index of the loop of the outline.
+    /// The stretches of the outline along which the break is cut.
+    beside: Vec<BesideJson>,
+    /// Whether the path is all of its loop.
+    closed: bool,
+    /// The chosen burrs on it.
+    burrs: Vec<BurrJson>,
+}
+
+/// A stretch of a loop of the outline.
+#[derive(Debug, Serialize)]
+struct BesideJson {
+    /// Index of the loop.
     #[serde(rename = "loop")]
     of_loop: usize,
     /// From and to along the loop, from its first point.
     along: [f64; 2],
-    closed: bool,
-    burrs: Vec<BurrJson>,
 }
 
 /// A burr on a stretch of an edge.
@@ -66,7 +75,8 @@ struct BurrJson {
     label: Option<String>,
     from: f64,
     to: f64,
-    /// Least and greatest, degrees, as the face gives them; none where the cutter was lowered.
+    /// Least and greatest, degrees, as the face gives them; none where the cutter was lowered. Of a burr that is cut in part those of
+    /// all of it, as its height.
     exit_angles: Option<[f64; 2]>,
     /// Greatest height, by the table of the job, interpolated.
     height: Option<f64>,
@@ -133,19 +143,23 @@ fn burrs(plan: &PlannedEdge, found: &FoundBurrs) -> BurrsJson {
         height: p.height,
         chosen: p.state == BurrState::Chosen,
     };
-    let piece = |cut: usize| {
-        let p = &found.pieces.pieces[cut];
+    let outline = &found.face.edges.case.outline;
+    let piece = |cut: &CutPiece| {
+        let stretches = LoopStretches::new(outline, &cut.beside);
+        let of = |of_loop: usize| {
+            let own = stretches.of_loop(of_loop).iter();
+            own.map(move |along| BesideJson { of_loop, along: *along }).collect::<Vec<_>>()
+        };
         PieceJson {
-            of_loop: p.of_loop,
-            along: p.along,
-            closed: p.closed,
-            burrs: p.parts.iter().map(one).collect(),
+            beside: (0..outline.loops().len()).flat_map(of).collect(),
+            closed: cut.closed,
+            burrs: found.treated(cut).iter().map(one).collect(),
         }
     };
     let others = found.parts.iter().filter(|p| p.state != BurrState::Chosen);
     BurrsJson {
         face: found.face.operation,
-        pieces: plan.cut_pieces().map(|c| piece(c.piece)).collect(),
+        pieces: plan.cut_pieces().map(piece).collect(),
         not_treated: plan.left().iter().chain(others).map(one).collect(),
     }
 }

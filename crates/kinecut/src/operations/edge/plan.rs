@@ -6,13 +6,13 @@ use std::sync::Arc;
 use glam::DVec2;
 
 use super::EdgeOperation;
-use super::burrs::FoundBurrs;
+use super::burrs::{FoundBurrs, lowered_onto};
 use super::webs::{Webs, warning};
 use crate::base::{Code, Error, Finding, Result};
 use crate::contouring::{
     ContourPlan, ContourSide, ContourSpec, CutPiece, EdgeBreak, OutlinePiece, plan_contour,
 };
-use crate::facing::burrs::{BurrPart, BurrPiece};
+use crate::facing::burrs::{BurrPart, BurrPiece, BurrState};
 use crate::geom::Outline;
 use crate::holes::CutterData;
 use crate::operations::band::{Band, Slope};
@@ -64,13 +64,17 @@ pub(crate) fn planned<P>(
         found.pieces.pieces.iter().map(piece).collect()
     });
     let spec = spec(setting, of, pieces);
-    let plan = plan_contour(&spec).map_err(|e| in_its_words(e, &spec))?;
+    let plan = plan_contour(&spec).map_err(|e| in_its_words(e, &spec, &of.cut))?;
     // The planner tells of fillets: a break leaves webs.
     let mut findings = plan.findings.clone();
     findings.retain(|f| f.code != Code::CORNERS_STAY);
-    findings.extend(warning(&plan.uncut));
+    findings.extend(warning(&plan.uncut, &of.cut));
     let planned = PlannedEdge { of: of.clone(), spec, plan, burrs };
+    if let Some(reason) = planned.cuts_nothing() {
+        return Ok(Attempt::LeftOut(Box::new(reason)));
+    }
     findings.extend(planned.left_warning());
+    findings.extend(planned.lowered_warning());
     Ok(Attempt::SetupPlan(make(planned), findings))
 }
 
@@ -103,23 +107,35 @@ fn spec(setting: &Setting<'_>, of: &EdgeOperation, pieces: Option<Vec<OutlinePie
 }
 
 /// An error of the planner with the cures of a break.
-fn in_its_words(error: Error, spec: &ContourSpec) -> Error {
+fn in_its_words(error: Error, spec: &ContourSpec, cut: &EdgeBreak) -> Error {
     let key = error.0.key.clone().unwrap_or_default();
     match error.code() {
         Code::CUTTER_TOO_LARGE if key == "tool" => {
             let Error(finding) = error;
-            let help = "write a smaller tip_clearance, or leave the loop out: loops = \"outer\", or by layer";
-            finding.help(help).key("tip_clearance").into()
+            let (smaller, key) = match cut {
+                EdgeBreak::Chamfer(_) => ("write a smaller tip_clearance", "tip_clearance"),
+                EdgeBreak::Ball(_) => ("take a smaller ball", "tool"),
+            };
+            let help = format!("{smaller}, or leave the loop out: loops = \"outer\", or by layer");
+            finding.help(help).key(key).into()
         }
         Code::LEAD_ROOM => {
             let wide = trimmed(2.0 * spec.room.unwrap_or(0.0), 2);
             let Error(finding) = error;
-            let other =
-                if spec.pieces.is_some() { "leave the loop out by `loops`" } else { "give another start" };
+            let smaller = match cut {
+                EdgeBreak::Chamfer(_) => "write a smaller tip_clearance or width",
+                EdgeBreak::Ball(_) => "take a smaller ball",
+            };
+            // Pieces have no start.
+            let (other, key) = match spec.pieces.is_some() {
+                true if key == "start" => ("leave the loop out by `loops`", "tool"),
+                true => ("leave the loop out by `loops`", key.as_str()),
+                false => ("give another start", key.as_str()),
+            };
             let help = format!(
-                "the cutter is {wide} mm wide at the edge and comes down beside it: {other}, or a smaller tip_clearance or width"
+                "the cutter is {wide} mm wide at the edge and comes down beside it: {other}, or {smaller}"
             );
-            finding.help(help).into()
+            finding.help(help).key(key).into()
         }
         _ => error,
     }
@@ -131,7 +147,7 @@ impl PlannedEdge {
         let mut told: BTreeMap<usize, Vec<String>> = BTreeMap::new();
         if let Some(burrs) = &self.burrs {
             for cut in self.cut_pieces() {
-                let parts = &burrs.pieces.pieces[cut.piece].parts;
+                let parts = burrs.treated(cut);
                 let texts = told.entry(cut.first_move).or_default();
                 texts.extend(parts.iter().take(NAMED).map(|p| burrs.told(p).to_uppercase()));
                 if parts.len() > NAMED {
@@ -148,14 +164,45 @@ impl PlannedEdge {
         self.plan.loops.iter().filter_map(|l| l.piece.as_ref())
     }
 
-    /// Whether a piece is cut.
-    fn is_cut(&self, piece: usize) -> bool {
-        self.cut_pieces().any(|c| c.piece == piece)
-    }
-
     /// Chosen burrs that are left.
     pub(super) fn left(&self) -> Vec<BurrPart> {
-        self.burrs.as_ref().map_or_else(Vec::new, |found| found.left(|piece| self.is_cut(piece)))
+        self.burrs.as_ref().map_or_else(Vec::new, |found| found.left(self.cut_pieces()))
+    }
+
+    /// The reason to leave it out, where its path comes to no edge that it is to break.
+    fn cuts_nothing(&self) -> Option<Finding> {
+        let help = "nothing is cut, and the operation is left out";
+        let (Some(found), Some(wanted)) = (&self.burrs, &self.of.edges) else {
+            let what = "the outline has no edge on the loops that `loops` names";
+            let none = Finding::warning(Code::JOB_SHAPE, what);
+            return self.plan.moves.is_empty().then(|| none.help(help).key("loops"));
+        };
+        if self.cut_pieces().any(|cut| !found.treated(cut).is_empty()) {
+            return None;
+        }
+        let length: f64 = self.left().iter().map(BurrPart::length).sum();
+        let (whose, length) = (found.whose(), trimmed(length, 2));
+        let what =
+            format!("the cutter comes to none of the edges on which {whose} left burrs: {length} mm stay");
+        let help = format!("{help}: take a smaller cutter, or take them off by hand");
+        Some(Finding::warning(Code::BURRS, what).help(help).key(wanted.key()))
+    }
+
+    /// A warning about edges of the face onto which its cutter was lowered, and which the path does not break.
+    fn lowered_warning(&self) -> Option<Finding> {
+        let found = self.burrs.as_ref()?;
+        let outline = &self.of.outline;
+        let is_wanted = |p: &BurrPart| {
+            outline.loops().iter().any(|l| l.edges.contains(&p.edge) && self.of.is_wanted(l.outer))
+        };
+        let others = found.others(BurrState::Lowered, self.cut_pieces());
+        let left = others.iter().filter(|(p, run_over)| !run_over && is_wanted(p));
+        let length: f64 = left.map(|(p, _)| p.length()).sum();
+        (length > 0.0).then(|| {
+            let what = format!("{}: {}", found.whose(), lowered_onto(length));
+            let help = "they are not treated: look at them, or mill the face from beside the part";
+            Finding::warning(Code::BURRS, what).help(help)
+        })
     }
 
     /// A note about chosen burrs that are left.
@@ -175,7 +222,7 @@ impl PlannedEdge {
         Some(Finding::note(Code::BURRS, message).point([at.x, at.y, self.of.top]).help(help))
     }
 
-    /// The wall that it wants.
+    /// The walls that it wants: one for each piece, so that none of them is measured by another.
     pub(crate) fn walls(&self) -> Vec<WantedWall> {
         let (spec, cut) = (&self.spec, &self.of.cut);
         let keeps_face = spec.side == ContourSide::Outside;
@@ -195,24 +242,25 @@ impl PlannedEdge {
         };
         let mut band = band.leaning(slope);
         band.corners = uncut::fillets(&self.plan.uncut, spec.radius());
-        if self.spec.pieces.is_some() {
-            // Pieces are those of the whole outline: `cut_outline` has its loops in their order.
-            let wanted =
-                self.of.outline.loops().iter().enumerate().filter(|(_, l)| self.of.is_wanted(l.outer));
-            let number: BTreeMap<usize, usize> =
-                wanted.enumerate().map(|(new, (old, _))| (old, new)).collect();
-            let beside = self.cut_pieces().flat_map(|c| &c.beside);
-            let on = beside.filter_map(|b| Some((*number.get(&b.of_loop)?, b.along)));
-            band = band.only(on);
-        }
-        vec![WantedWall {
+        let wall = |band: Band| WantedWall {
             centre: band.middle,
             top: spec.top,
             floor: None,
             bottom: spec.top - cut.leg(),
             slug: 0.0,
             wall: Wall::Band(Arc::new(band)),
-        }]
+        };
+        if self.spec.pieces.is_none() {
+            return vec![wall(band)];
+        }
+        // Pieces are those of the whole outline: `cut_outline` has its loops in their order.
+        let wanted = self.of.outline.loops().iter().enumerate().filter(|(_, l)| self.of.is_wanted(l.outer));
+        let number: BTreeMap<usize, usize> = wanted.enumerate().map(|(new, (old, _))| (old, new)).collect();
+        let piece = |cut: &CutPiece| {
+            let on = cut.beside.iter().filter_map(|b| Some((*number.get(&b.of_loop)?, b.along)));
+            wall(band.clone().only(on))
+        };
+        self.cut_pieces().map(piece).collect()
     }
 
     /// The parts of it that are not compared.
@@ -228,6 +276,10 @@ impl PlannedEdge {
         if self.burrs.is_some() {
             left.push(
                 "edges of the face beside its pieces; heights of burrs, which are not simulated".to_owned(),
+            );
+            left.push(
+                "whether operations before or after it cut these edges away, or leave burrs of their own"
+                    .to_owned(),
             );
         }
         let unchecked = (!left.is_empty()).then(|| format!("{name}: {}", left.join("; ")));

@@ -18,27 +18,31 @@ const CHORD: f64 = 0.05;
 /// The section of an operation.
 pub(crate) fn section(plan: &PlannedEdge, of: &Shown<'_>) -> Section {
     let mut section = Section::new(of.title());
-    section.blocks.push(Block::Facts(facts(plan, of.walls.first().copied())));
+    section.blocks.push(Block::Facts(facts(plan, &of.walls)));
     section.blocks.extend(show::blocks(plan));
     section.with(view(plan))
 }
 
-fn facts(plan: &PlannedEdge, wall: Option<&BoreMeasure>) -> Vec<Fact> {
+fn facts(plan: &PlannedEdge, walls: &[&BoreMeasure]) -> Vec<Fact> {
     let (spec, of) = (&plan.spec, &plan.of);
     let cut = &of.cut;
     let mm = |length: f64| format!("{} mm", trimmed(length, 3));
     let webs = plan.webs().in_words();
     let mut facts = Vec::new();
-    let measured = wall.filter(|m| m.wall[0] <= m.wall[1]);
-    facts.push(match measured {
-        Some(m) => {
-            let worst = m.worst();
+    let measured: Vec<&BoreMeasure> = walls.iter().copied().filter(|m| m.wall[0] <= m.wall[1]).collect();
+    let worst = measured.iter().map(|m| m.worst()).max_by(f64::total_cmp);
+    facts.push(match worst {
+        Some(worst) => {
             let off = if worst < SMALL {
                 "under 0.1 \u{b5}m off".to_owned()
             } else {
                 format!("up to {} off", micrometres(worst))
             };
-            let ends = format!("at {} line ends of the simulated part", m.ends);
+            let ends: usize = measured.iter().map(|m| m.ends).sum();
+            let ends = match walls.len() - measured.len() {
+                0 => format!("at {ends} line ends of the simulated part"),
+                not => format!("at {ends} line ends; {not} of {} pieces not measured", walls.len()),
+            };
             let note = if webs.is_empty() { ends } else { format!("{ends}; not compared: {webs}") };
             Fact::new("Width", format!("{}, {off}", mm(cut.width()))).note(note)
         }

@@ -14,11 +14,10 @@ pub(super) fn blocks(plan: &PlannedEdge) -> Vec<Block> {
     let columns = "Edge; From [mm]; To [mm]; Exit angle [deg]; Height [mm]; Piece";
     let mut treated = Vec::new();
     for (i, cut) in plan.cut_pieces().enumerate() {
-        let piece = &found.pieces.pieces[cut.piece];
-        let name = if piece.closed { format!("{}, all round", i + 1) } else { (i + 1).to_string() };
-        treated.extend(piece.parts.iter().map(|p| row(found, p, name.clone())));
+        let name = if cut.closed { format!("{}, all round", i + 1) } else { (i + 1).to_string() };
+        treated.extend(found.treated(cut).iter().map(|p| row(found, p, name.clone())));
     }
-    let whose = format!("operation {} ({})", found.face.operation + 1, found.face.name);
+    let whose = found.whose();
     let mut first = Table::new(format!("Burrs of {whose} that are taken off"), columns)
         .rows(treated)
         .note("Edges by label, or by number from 0 as in the outline of the face, loop after loop; places along them.");
@@ -29,14 +28,25 @@ pub(super) fn blocks(plan: &PlannedEdge) -> Vec<Block> {
         false => "No height is said: `burr` gives none.".to_owned(),
     });
     first.notes.push(format!("Exit angles as the face has them: {}.", found.face.rule));
+    first.notes.push("Of a burr that is cut in part, angles and height are those of all of it.".to_owned());
     let left = plan.left();
-    let chosen = left.iter().map(|p| (p, "chosen, but too short, in a corner, or on a loop that is not cut"));
-    let others = found.parts.iter().filter_map(|p| match p.state {
-        BurrState::Chosen => None,
-        BurrState::Other => Some((p, "not chosen")),
-        BurrState::Lowered => Some((p, "no exit angle: the cutter was lowered onto it")),
+    let chosen =
+        left.iter().map(|p| (*p, "chosen, but too short, in a corner, or on a loop that is not cut"));
+    let others = [
+        (BurrState::Other, ["not chosen", "not chosen, but a piece runs over it"]),
+        (
+            BurrState::Lowered,
+            [
+                "no exit angle: the cutter was lowered onto it",
+                "no exit angle: the cutter was lowered onto it; a piece runs over it",
+            ],
+        ),
+    ];
+    let others = others.into_iter().flat_map(|(state, why)| {
+        let all = found.others(state, plan.cut_pieces());
+        all.into_iter().map(move |(p, run_over)| (p, why[usize::from(run_over)]))
     });
-    let all: Vec<(&BurrPart, &str)> = chosen.chain(others).collect();
+    let all: Vec<(BurrPart, &str)> = chosen.chain(others).collect();
     let mut blocks = vec![first.into()];
     if !all.is_empty() {
         let rows = all.iter().take(MOST).map(|(p, why)| row(found, p, (*why).to_owned()));

@@ -1,7 +1,7 @@
 //! Webs: lengths of an edge before inside corners, along which a chamfer is not cut whole.
 
 use crate::base::{Code, Finding};
-use crate::contouring::UncutCorner;
+use crate::contouring::{EdgeBreak, UncutCorner};
 use crate::page::trimmed;
 
 /// Webs that a chamfer leaves.
@@ -42,12 +42,16 @@ impl Webs {
 }
 
 /// A warning about webs, at the first of them.
-pub(super) fn warning(uncut: &[UncutCorner]) -> Option<Finding> {
+pub(super) fn warning(uncut: &[UncutCorner], cut: &EdgeBreak) -> Option<Finding> {
     let first = uncut.first()?;
+    let smaller = match cut {
+        EdgeBreak::Chamfer(_) => "a smaller tip_clearance",
+        EdgeBreak::Ball(_) => "a smaller ball",
+    };
     let message = format!("a web stays before the chamfer ends: {}", Webs::of(uncut).in_words());
     Some(
         Finding::warning(Code::CORNERS_STAY, message)
             .point([first.at.x, first.at.y, 0.0])
-            .help("a smaller tip_clearance makes it shorter; file the corners, or round them in the drawing"),
+            .help(format!("{smaller} makes it shorter; file the corners, or round them in the drawing")),
     )
 }

@@ -161,6 +161,7 @@ impl kind::Table for PocketTable {
             top,
             stock_to_leave,
             plane,
+            has_wall: true,
         })
     }
 

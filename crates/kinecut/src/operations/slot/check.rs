@@ -87,6 +87,7 @@ impl kind::Table for SlotTable {
             top: self.top,
             stock_to_leave: self.stock_to_leave,
             plane: self.plane(),
+            has_wall: true,
         })
     }
 }

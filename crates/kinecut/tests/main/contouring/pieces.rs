@@ -1,7 +1,7 @@
 //! Open pieces of contours: beside all of each piece and nothing else, with leads that do not gouge; edges broken by a ball.
 
 use glam::{DVec2, dvec2};
-use kinecut::base::Code;
+use kinecut::base::{Code, Finding, Severity};
 use kinecut::contouring::{
     BallBreak, ContourPlan, ContourSide, ContourSpec, EdgeBreak, OutlinePiece, plan_contour,
 };
@@ -57,6 +57,20 @@ fn place(outline: &Outline, p: DVec2) -> (usize, f64) {
     (of_loop, begin + edge.nearest(p).0 * edge.length())
 }
 
+/// The point of a loop at a length along it, and the outward direction there.
+fn place_at(outline: &Outline, of_loop: usize, at: f64) -> (DVec2, DVec2) {
+    let mut left = at.rem_euclid(loop_length(outline, of_loop));
+    let edges = &outline.edges()[outline.loops()[of_loop].edges.clone()];
+    for edge in edges {
+        if left <= edge.length() {
+            let share = left / edge.length();
+            return (edge.at(share), DVec2::from_angle(edge.outward(share)));
+        }
+        left -= edge.length();
+    }
+    (edges[0].start, DVec2::from_angle(edges[0].outward(0.0)))
+}
+
 /// Points along the cut, not its leads.
 fn cut(plan: &ContourPlan) -> impl Iterator<Item = DVec2> + '_ {
     let own = plan.moves.iter().filter(|m| m.role == ToolpathRole::Circle);
@@ -71,7 +85,7 @@ const FARTHER: f64 = 12.0;
 #[test]
 fn random_pieces_are_cut_whole_and_nothing_else() {
     let mut random = Random(31);
-    let (mut planned, mut exact) = (0, 0);
+    let (mut planned, mut exact, mut seen) = (0, 0, [0, 0]);
     for round in 0..160 {
         let Some(outline) = star(&mut random, [15.0, 30.0], (dvec2(1.0, -1.0), [3.0, 5.0])) else { continue };
         let mut pieces = Vec::new();
@@ -154,15 +168,32 @@ fn random_pieces_are_cut_whole_and_nothing_else() {
                 assert!(far < 1e-6, "{round}: {far} from {q} of {piece:?}");
             }
         }
-        // What is said of the places beside a run is so.
-        for cut in plan.loops.iter().filter_map(|l| l.piece.as_ref()) {
-            for b in &cut.beside {
-                assert_eq!(b.of_loop, pieces[cut.piece].of_loop);
+        // The stretches beside the path are those of the pieces, but for places to which it does not come before inside corners.
+        let cuts: Vec<_> = plan.loops.iter().filter_map(|l| l.piece.as_ref()).collect();
+        assert!(cuts.len() == plan.loops.len() && cuts.iter().all(|c| c.first_move < plan.moves.len()));
+        for of_loop in 0..outline.loops().len() {
+            let whole = loop_length(&outline, of_loop);
+            let on = |[from, to]: [f64; 2], at: f64| (at - from).rem_euclid(whole) < to - from;
+            let expected = |at: f64| {
+                let is_piece = pieces.iter().any(|p| p.of_loop == of_loop && on(p.along, at));
+                let (p, out) = place_at(&outline, of_loop, at);
+                is_piece && side * signed(&outline, p + side * spec.radius() * out) > spec.radius() - 1e-6
+            };
+            for i in 0..500 {
+                let at = whole * (f64::from(i) + 0.5) / 500.0;
+                let want = expected(at);
+                // Ends of stretches, and runs that are too short, are not looked at.
+                if [-2e-3, 2e-3].iter().any(|d| expected(at + d) != want) {
+                    continue;
+                }
+                let beside = cuts.iter().flat_map(|c| &c.beside);
+                let found = beside.filter(|b| b.of_loop == of_loop).any(|b| on(b.along, at));
+                assert_eq!(found, want, "{round}: {at} of loop {of_loop}");
+                *if want { &mut seen[0] } else { &mut seen[1] } += 1;
             }
-            assert!(cut.first_move < plan.moves.len());
         }
     }
-    assert!(planned > 60 && exact > 30, "{planned} {exact}");
+    assert!(planned > 60 && exact > 30 && seen.iter().all(|n| *n > 1000), "{planned} {exact} {seen:?}");
 }
 
 #[test]
@@ -240,4 +271,68 @@ fn outline_point(outline: &Outline, at: f64) -> DVec2 {
         left -= edge.length();
     }
     outline.edges()[0].start
+}
+
+/// A plate of 40 x 40 with a cavity under its upper edge that a neck of a width opens, cut from the edge into the neck or beyond it, down
+/// to a place: the length of the piece, and the plan.
+fn keyhole(neck: f64, to: DVec2) -> (f64, ContourPlan) {
+    let (low, high) = (20.0 - 0.5 * neck, 20.0 + 0.5 * neck);
+    let corners = [
+        dvec2(0.0, 0.0),
+        dvec2(40.0, 0.0),
+        dvec2(40.0, 40.0),
+        dvec2(high, 40.0),
+        dvec2(high, 34.0),
+        dvec2(30.0, 34.0),
+        dvec2(30.0, 10.0),
+        dvec2(10.0, 10.0),
+        dvec2(10.0, 34.0),
+        dvec2(low, 34.0),
+        dvec2(low, 40.0),
+        dvec2(0.0, 40.0),
+    ];
+    let outline = Outline::polygon(&corners).unwrap();
+    let whole = loop_length(&outline, 0);
+    let ends = [place(&outline, dvec2(10.0, 40.0)).1, place(&outline, to).1];
+    // The shorter way: the material lies on the right of the loop, on which side of the piece its begin is does not matter.
+    let length = (ends[1] - ends[0]).rem_euclid(whole);
+    let (from, length) = if length < 0.5 * whole { (ends[0], length) } else { (ends[1], whole - length) };
+    let piece = OutlinePiece { of_loop: 0, along: [from, from + length] };
+    let spec = ContourSpec { pieces: Some(vec![piece]), ..spec(outline, chamfer(0.3)) };
+    let plan = plan_contour(&spec).unwrap();
+    sound(&spec, &plan);
+    (length, plan)
+}
+
+fn warnings(plan: &ContourPlan, code: Code) -> Vec<&Finding> {
+    plan.findings.iter().filter(|f| f.code == code && f.severity == Severity::Warning).collect()
+}
+
+#[test]
+fn edges_that_are_cut_though_not_chosen_are_told() {
+    // Through the neck into the cavity: the cutter reaches 0.8 mm, and the other side of the neck lies 0.7 or 1 mm from its axis.
+    for (neck, told) in [(1.2, 1), (1.5, 0)] {
+        let (_, plan) = keyhole(neck, dvec2(13.0, 34.0));
+        let found = warnings(&plan, Code::CUTTER_TOO_LARGE);
+        assert_eq!(found.len(), told, "{neck}: {:?}", plan.findings);
+        assert!(warnings(&plan, Code::LEAD_ROOM).is_empty(), "{neck}: {:?}", plan.findings);
+        let is_in_neck = |f: &&Finding| f.point.is_some_and(|[x, y, _]| (x - 20.0).abs() < 1.5 && y > 33.0);
+        assert!(found.iter().all(is_in_neck) && found.iter().all(|f| f.message.contains("not chosen")));
+    }
+}
+
+#[test]
+fn pieces_that_go_on_for_a_lead_say_by_how_much() {
+    // In the neck is no room for a lead: the path goes on into the cavity, 3 mm away.
+    let (length, plan) = keyhole(1.5, dvec2(19.25, 37.0));
+    let found = warnings(&plan, Code::LEAD_ROOM);
+    assert_eq!(found.len(), 1, "{:?}", plan.findings);
+    let words = &found[0].message;
+    let farther = words.split("up to ").nth(1).and_then(|w| w.split(' ').next()).unwrap();
+    let farther: f64 = farther.parse().unwrap();
+    assert!((2.0..=12.0).contains(&farther), "{words}");
+    // Beside the path lies the piece that was asked for, and no more.
+    let beside = plan.loops.iter().filter_map(|l| l.piece.as_ref()).flat_map(|c| &c.beside);
+    let sum: f64 = beside.map(|b| b.along[1] - b.along[0]).sum();
+    assert!((sum - length).abs() < 1e-6 && plan.loops[0].length() > length + 2.0, "{sum} {length}");
 }

@@ -234,6 +234,38 @@ fn a_chamfer_has_the_outline_of_the_contour_that_it_names() {
 }
 
 #[test]
+fn a_chamfer_does_not_contradict_the_contour_that_it_names() {
+    let contour = |keys: &str| format!("{CONTOUR}name = \"edge\"\n{PLATE}\ndepth = 6\n{keys}");
+    let chamfer = |keys: &str| format!("{CHAMFER}of = \"edge\"\nwidth = 1\n{keys}\n");
+    for (of, keys, key) in [
+        ("", "side = \"inside\"", "side"),
+        ("loops = \"outer\"\n", "loops = \"all\"", "loops"),
+        ("stock_to_leave = 0.2\n", "stock_to_leave = 0", "stock_to_leave"),
+    ] {
+        let operations = format!("{}{}", contour(of), chamfer(keys));
+        let job = job("fanuc", &operations);
+        let error = run("job.toml", &job, &MemoryLoader::default(), &Silent).unwrap_err();
+        assert_eq!(error.code(), Code::JOB_SHAPE, "{error}");
+        assert_eq!(error.0.key, Some(format!("setup[0].operation[1].{key}")), "{error}");
+        assert!(error.0.message.contains(&format!("`{key}` contradicts the operation that `of` names")));
+    }
+    // The same again is no contradiction, nor are fewer of its loops.
+    let wall_below =
+        |o: &Outcome| o.verdict.unchecked().any(|item| format!("{item:?}").contains("the wall below it"));
+    for (of, keys) in
+        [("stock_to_leave = 0.2\n", "stock_to_leave = 0.2\nside = \"outside\""), ("", "loops = \"outer\"")]
+    {
+        let outcome = cut("fanuc", &format!("{}{}", contour(of), chamfer(keys)));
+        assert!(outcome.verdict.is_safe() && !wall_below(&outcome), "{:?}", outcome.verdict.found);
+    }
+    // Who refers to a chamfer refers to no wall that is compared.
+    let named = format!("{CHAMFER}name = \"edge\"\n{PLATE}\nwidth = 0.5\n{}", chamfer(""));
+    let outcome = cut("fanuc", &named);
+    let told = outcome.verdict.unchecked().filter(|i| format!("{i:?}").contains("the wall below it"));
+    assert_eq!(told.count(), 2);
+}
+
+#[test]
 fn holes_of_a_face_are_chamfered_by_their_loops() {
     let outline = "outline = \"plate.dxf\"\nat = [-45, -25]\n";
     let run_with = |beside: f64, chamfer: &str| {

@@ -1,6 +1,8 @@
 //! Deburring through the whole: the edges that face milling has left bad, posted for each control, read back, cut, and measured.
 
+use glam::DVec2;
 use kinecut::base::{Code, Error, MemoryLoader, Severity, Silent};
+use kinecut::facing::passes::Met;
 use kinecut::job::{Outcome, plan_json, run};
 use serde_json::Value;
 
@@ -91,8 +93,17 @@ fn bad_edges_are_broken_on_every_control() {
             let errors: Vec<_> = verdict.found.iter().filter(|f| f.severity != Severity::Note).collect();
             assert!(verdict.is_safe() && errors.is_empty(), "{control}: {errors:?}");
             assert_eq!(verdict.proven.iter().filter(|p| p.claim.contains(what)).count(), 1, "{control}");
-            let edge = &outcome.deviation.bores[0];
-            assert!(edge.ends > 100 && edge.worst() < 2e-3, "{control}: {edge:?}");
+            // Each piece is measured for itself, and all of them are one shape.
+            let pieces = &outcome.deviation.bores;
+            let ends: usize = pieces.iter().map(|b| b.ends).sum();
+            assert!(
+                ends > 100 && pieces.iter().all(|b| b.ends > 0 && b.worst() < 2e-3),
+                "{control}: {pieces:?}"
+            );
+            let count = json(&outcome, "deburrings")["burrs"]["pieces"].as_array().unwrap().len();
+            assert!(pieces.len() == count && count > 1, "{control}: {pieces:?}");
+            let scope = verdict.scope.join(" ");
+            assert!(scope.contains("1 deburring") && !scope.contains("deburrings"), "{control}: {scope}");
             // Treated is what is bad, all of it.
             let own = json(&outcome, "deburrings");
             let treated = burrs(&own);
@@ -110,6 +121,8 @@ fn bad_edges_are_broken_on_every_control() {
             // What is not treated is not claimed, and said.
             let told = verdict.unchecked().any(|u| format!("{u:?}").contains("heights of burrs"));
             assert!(told, "{control}");
+            let others = verdict.unchecked().any(|u| format!("{u:?}").contains("cut these edges away"));
+            assert!(others, "{control}");
             let text = &outcome.setups[0].posted.text;
             let comments = text.lines().filter(|l| l.contains("BURR TO 0.")).count();
             assert!(comments >= own["burrs"]["pieces"].as_array().unwrap().len(), "{control}: {text}");
@@ -135,7 +148,7 @@ fn only_its_pieces_lose_material() {
         let a = p["along"].as_array().unwrap();
         a[1].as_f64().unwrap() - a[0].as_f64().unwrap()
     };
-    let length: f64 = pieces.iter().map(along).sum();
+    let length: f64 = pieces.iter().flat_map(|p| p["beside"].as_array().unwrap()).map(along).sum();
     let section = 0.5 * 0.5 * 0.5;
     // Leads take away a little beyond both ends.
     assert!(
@@ -186,7 +199,7 @@ fn a_chamfer_takes_the_edges_too() {
         lines.filter(|l| !l.contains("DEBURR") && !l.contains("CHAMFER")).collect::<Vec<_>>()
     };
     assert_eq!(moves(&chamfer), moves(&deburr));
-    assert!(chamfer.verdict.is_safe() && chamfer.deviation.bores[0].worst() < 2e-3);
+    assert!(chamfer.verdict.is_safe() && chamfer.deviation.bores.iter().all(|b| b.worst() < 2e-3));
 }
 
 #[test]
@@ -201,8 +214,122 @@ fn a_face_without_bad_edges_leaves_nothing_to_do() {
         let outcome = cut("fanuc", round, &format!("{DEBURR}{keys}"));
         let note = outcome.verdict.found.iter().find(|f| f.code == Code::BURRS).unwrap();
         assert!(note.message.contains(words) && note.severity == Severity::Note, "{}", note.message);
+        let key = if keys.starts_with("edges") { "edges" } else { "above" };
+        assert_eq!(note.key, Some(format!("setup[0].operation[1].{key}")), "{note:?}");
         assert_eq!(outcome.setups[0].posted.text, without.setups[0].posted.text);
     }
+}
+
+/// The job's face is this outline, of which all exits are bad but the last degree.
+fn outlined(points: &str) -> String {
+    format!(
+        "outline = {{ loops = [[{points}]] }}\nplacement = \"as-drawn\"\npasses = \"one\"\nexit_angle_min = 179\n"
+    )
+}
+
+#[test]
+fn before_inside_corners_burrs_stay_and_are_told() {
+    let plate = outlined("[-30, -20], [10, -20], [10, -8], [30, -8], [30, 20], [-30, 20]");
+    let outcome = cut("fanuc", &plate, &format!("{DEBURR}edges = \"bad\"\nwidth = 0.3\n"));
+    assert!(outcome.verdict.is_safe(), "{:?}", outcome.verdict.found);
+    let bores = &outcome.deviation.bores;
+    assert!(bores.iter().all(|b| b.ends > 0 && b.worst() < 2e-3), "{bores:?}");
+    let own = json(&outcome, "deburrings");
+    let offset = own["offset"].as_f64().unwrap();
+    let face = faces(&outcome.setups[0].planned)[0];
+    let outline = &face.of.case.outline;
+    let treated = burrs(&own);
+    let not = own["burrs"]["not_treated"].as_array().unwrap();
+    let left: Vec<Value> = not.iter().filter(|b| b["chosen"] == true).cloned().collect();
+    let is_on = |list: &[Value], edge: usize, at: f64| {
+        list.iter().any(|b| {
+            let own = b["edge"].as_u64() == Some(edge as u64);
+            own && b["from"].as_f64().unwrap() <= at && at <= b["to"].as_f64().unwrap()
+        })
+    };
+    // A place is treated where the tip comes beside it at its distance from all edges.
+    let (mut cut, mut uncut) = (0, 0);
+    for s in &face.chosen().burr.stretches {
+        if !matches!(s.met, Met::First { weight, .. } if weight > 0.0) {
+            continue;
+        }
+        let edge = &outline.edges()[s.edge];
+        for i in 0..200 {
+            let share = s.from + (s.to - s.from) * (f64::from(i) + 0.5) / 200.0;
+            let tip = edge.at(share) + offset * DVec2::from_angle(edge.outward(share));
+            let is_reached = outline.edges().iter().all(|e| e.nearest(tip).1 > offset - 1e-6);
+            let at = share * edge.length();
+            let found = (is_on(&treated, s.edge, at), is_on(&left, s.edge, at));
+            assert_eq!(found, (is_reached, !is_reached), "{at} of {}: {own}", s.edge);
+            *if is_reached { &mut cut } else { &mut uncut } += 1;
+        }
+    }
+    assert!(cut > 300 && uncut > 0, "{cut} {uncut}");
+    let told = outcome.verdict.found.iter().find(|f| f.code == Code::BURRS).unwrap();
+    assert!(told.message.contains("burrs stay on"), "{}", told.message);
+}
+
+#[test]
+fn burrs_to_which_the_cutter_does_not_come_leave_the_operation_out() {
+    // The upper side of a slit of 0.8 mm alone has its exit angle.
+    let plate =
+        outlined("[-30, -20], [30, -20], [30, 15], [22, 15], [22, 15.8], [30, 15.8], [30, 20], [-30, 20]");
+    let without = cut("fanuc", &plate, "");
+    let face = faces(&without.setups[0].planned)[0];
+    let flank = face.chosen().burr.stretches.iter().find_map(|s| {
+        let edge = &face.of.case.outline.edges()[s.edge];
+        let is_flank = (edge.start.y - 15.8).abs() < 1e-9 && (edge.end.y - 15.8).abs() < 1e-9;
+        match s.met {
+            Met::First { angles, .. } if is_flank => Some(angles[0].to_degrees()),
+            _ => None,
+        }
+    });
+    let psi = flank.unwrap();
+    let keys = format!("above = 0.5\nburr = [[{}, 0], [{psi}, 1], [{}, 0]]\n", psi - 0.5, psi + 0.5);
+    let outcome = cut("fanuc", &plate, &format!("{DEBURR}{keys}"));
+    let found = outcome.verdict.found.iter().find(|f| f.code == Code::BURRS).unwrap();
+    assert!(
+        found.message.contains("comes to none of the edges") && found.message.contains("8 mm stay"),
+        "{found}"
+    );
+    assert_eq!(found.severity, Severity::Warning);
+    assert_eq!(found.key.as_deref(), Some("setup[0].operation[1].above"));
+    assert_eq!(outcome.setups[0].posted.text, without.setups[0].posted.text);
+    // Loops of which the outline has none.
+    let square = "rectangle = { size = [60, 40] }\nloops = \"inner\"\n";
+    let outcome = cut("fanuc", &plate, &format!("{DEBURR}{square}"));
+    let found = outcome.verdict.found.iter().find(|f| f.code == Code::JOB_SHAPE).unwrap();
+    assert_eq!(
+        (found.severity, found.key.as_deref()),
+        (Severity::Warning, Some("setup[0].operation[1].loops"))
+    );
+    assert_eq!(outcome.setups[0].posted.text, without.setups[0].posted.text);
+}
+
+#[test]
+fn cures_of_a_ball_name_no_tip_clearance() {
+    let hole = |diameter: f64| {
+        let error =
+            refused(DRAWN, &format!("{BALL}side = \"inside\"\ncircle = {{ diameter = {diameter} }}\n"));
+        assert!(!error.0.help.contains("tip_clearance") && error.0.help.contains("smaller ball"), "{error}");
+        error
+    };
+    let small = hole(1.6);
+    assert_eq!(
+        (small.code(), small.0.key.as_deref()),
+        (Code::CUTTER_TOO_LARGE, Some("setup[0].operation[1].tool"))
+    );
+    assert_eq!(hole(3.0).code(), Code::LEAD_ROOM);
+    // Nor where it leaves webs.
+    let pocket =
+        cut("fanuc", DRAWN, &format!("{BALL}side = \"inside\"\nrectangle = {{ size = [44, 34] }}\n"));
+    let web = pocket.verdict.found.iter().find(|f| f.code == Code::CORNERS_STAY).unwrap();
+    assert!(
+        web.help.contains("a smaller ball makes it shorter") && !web.help.contains("tip_clearance"),
+        "{web}"
+    );
+    let floor = refused(DRAWN, &format!("{BALL}circle = {{ diameter = 30 }}\nwall_height = 0.5\n"));
+    assert!(!floor.0.help.contains("tip_clearance"), "{floor}");
 }
 
 #[test]
@@ -212,7 +339,7 @@ fn the_face_may_be_mirrored_and_its_angles_given_from_the_other_side() {
     let plain = json(&cut("fanuc", DRAWN, &keys), "deburrings");
     let left = cut("fanuc", &format!("{DRAWN}left_hand = true\n"), &keys);
     assert!(left.verdict.is_safe(), "{:?}", left.verdict.found);
-    assert!(left.deviation.bores[0].worst() < 2e-3);
+    assert!(left.deviation.bores.iter().all(|b| b.worst() < 2e-3));
     // The bore lies beside the middle: only the straight edges are as long.
     let straight = |v: &Value| {
         let all = burrs(v).into_iter().filter(|b| b["edge"].as_u64().unwrap() < 4).collect();
