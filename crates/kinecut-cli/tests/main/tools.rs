@@ -35,6 +35,8 @@ fn tools_are_shown_and_written_in_other_formats() {
     // A table of LinuxCNC holds little: the rest is named.
     let table = kinecut(&["tools", &shop, "--to", "tbl"], "");
     assert!(text(&table.stdout).contains("\nT7 P7 D10 ;end mill 10\n"), "{}", text(&table.stdout));
+    // D is the largest diameter of a cone.
+    assert!(text(&table.stdout).contains("\nT12 P12 D12 ;chamfer mill 90\n"), "{}", text(&table.stdout));
     let told = text(&table.stderr);
     assert!(
         told.contains("T7 `end mill 10`") && told.contains("flute_length") && told.contains("holder `ER32`"),
@@ -58,6 +60,8 @@ fn tools_that_a_job_could_not_use_are_told_and_wrong_files_exit_2() {
     let toml = kinecut(&["tools", &table, "--to", "toml"], "");
     assert!(text(&toml.stdout).contains("# flute_length = ?"), "{}", text(&toml.stdout));
     assert!(text(&toml.stderr).contains("To be filled in"), "{}", text(&toml.stderr));
+    assert!(text(&toml.stdout).contains("# assumed: the type, from the remark"), "{}", text(&toml.stdout));
+    assert!(text(&toml.stderr).contains("Assumed"), "{}", text(&toml.stderr));
     // The bits of a library lie beside its folder.
     let (library, bits) = (folder.join("Library"), folder.join("Bit"));
     std::fs::create_dir_all(&library).unwrap();

@@ -237,13 +237,13 @@ codes! {
     MACHINE_BODY = "KC0705", "a body of a machine is not valid",
         "A body of a machine file names the link that carries it (bed, work, spindle, or an axis of the code) and has one form: a box, a cylinder or a closed mesh, in the frame of the machine with all axes at zero.";
     TOOL_FILE = "KC0706", "a tool file cannot be read, or not used",
-        "The file is none of those that hold tools (TOML with [[tool]], the tool table of LinuxCNC, Fusion .json and .tools, FreeCAD .fctb and .fctl), is broken, or does not tell all that the tool of an operation needs. `kinecut tools FILE` shows what it holds; `kinecut tools FILE --to toml` writes it as TOML, where the rest can be filled in.";
+        "Tools are read from TOML with [[tool]], the tool table of LinuxCNC, Fusion .json and .tools, FreeCAD .fctb and .fctl. This file is another, is broken, or lacks something that the tool of an operation needs. `kinecut tools FILE` shows what it holds; `kinecut tools FILE --to toml` writes it as TOML, where the rest can be filled in.";
     TOOL_FIELDS = "KC0707", "fields of a tool file are not taken",
         "The file tells more of a tool than kinecut uses: each of these fields is named. Look at what shapes the tool: a neck, a relief, a taper that is named here is not simulated.";
     TOOL_ASSUMED = "KC0708", "what a tool file means was assumed",
-        "A value without a unit, or a kind of tool that only a remark tells. The message says what was taken. Write the tool as [[tool]] to be sure.";
+        "A value without a unit, the tip of a cone that no field gives, or a kind or length that only a tool table tells. The message says what was taken. Write the tool as [[tool]] to be sure.";
     TOOL_CHOSEN = "KC0709", "a tool or its cutting data were chosen",
-        "A tool of the job was taken before one of the same number in a tool file; or an operation without a speed took that of the tool's preset for the material of the job. The message says which.";
+        "A tool of the job was taken before one of the same number in a tool file; none was taken for a program that calls a number of several tools; or an operation without a speed took that of the tool's preset for the material of the job. The message says which.";
 
     GEOMETRY = "KC0801", "a curve or body is not valid",
         "Numbers that are not finite, radii of opposite sign, a profile that crosses itself: see the message.";

@@ -115,7 +115,9 @@ fn goes_down(segment: &Segment) -> bool {
 
 /// The angle of a descent that the tool may not follow in material.
 fn too_steep(tool: &Tool, segment: &Segment) -> Option<f64> {
-    if tool.cutter.is_axial() || (tool.centre_cutting && tool.max_ramp_angle.is_none()) {
+    // A ramp is no matter of a tool that works along its axis.
+    let most = tool.max_ramp_angle.filter(|_| !tool.cutter.is_axial());
+    if tool.centre_cutting && most.is_none() {
         return None;
     }
     let length = segment.curve.length();
@@ -127,8 +129,7 @@ fn too_steep(tool: &Tool, segment: &Segment) -> Option<f64> {
         })
         .fold(0.0, f64::max);
     let plunges = !tool.centre_cutting && steepest > PLUNGE;
-    let ramps =
-        tool.max_ramp_angle.is_some_and(|most| steepest > most + RAMP_SLACK) && steepest < STRAIGHT_DOWN;
+    let ramps = most.is_some_and(|most| steepest > most + RAMP_SLACK) && steepest < STRAIGHT_DOWN;
     (plunges || ramps).then_some(steepest)
 }
 

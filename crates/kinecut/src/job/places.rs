@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 use std::ops::Range;
+use std::sync::Arc;
 
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
@@ -17,7 +18,7 @@ pub(crate) struct Places {
     file: FileId,
     ranges: BTreeMap<String, Range<usize>>,
     /// Places of files that the job names, by the key that names them, with the key within the file.
-    included: BTreeMap<String, (Places, String)>,
+    included: BTreeMap<String, (Arc<Places>, String)>,
 }
 
 impl Places {
@@ -37,12 +38,12 @@ impl Places {
 
     /// Adds the places of a file that a key names.
     pub(super) fn include(&mut self, key: &str, file: FileId, root: &Spanned<DeTable<'_>>) {
-        self.included.insert(key.to_owned(), (Places::of(file, root), String::new()));
+        self.included.insert(key.to_owned(), (Arc::new(Places::of(file, root)), String::new()));
     }
 
     /// Adds the places of a part of a file under a key: `own` within the file.
-    pub(super) fn include_part(&mut self, key: &str, places: &Places, own: &str) {
-        self.included.insert(key.to_owned(), (places.clone(), own.to_owned()));
+    pub(super) fn include_part(&mut self, key: &str, places: &Arc<Places>, own: &str) {
+        self.included.insert(key.to_owned(), (Arc::clone(places), own.to_owned()));
     }
 
     /// A note for each key that has a new name, in the order of the keys.

@@ -79,13 +79,21 @@ pub(crate) fn tool_of(called: &CalledTool, tools: &[Tool]) -> Result<Tool> {
         CalledTool::Number(number) => tool.number.0 == *number,
         CalledTool::Name(_) => called.is_name(&tool.name),
     };
-    let found = tools.iter().find(is_it).cloned();
-    found.ok_or_else(|| {
-        Finding::error(Code::JOB_REFERENCE, format!("{called} is not defined"))
+    let found: Vec<&Tool> = tools.iter().filter(is_it).collect();
+    match &found[..] {
+        [one] => Ok((*one).clone()),
+        [] => Err(Finding::error(Code::JOB_REFERENCE, format!("{called} is not defined"))
             .help("define it with [[tool]]")
             .key("tool")
-            .into()
-    })
+            .into()),
+        several => {
+            // Numbers differ; a name may be there twice.
+            let all: Vec<String> = several.iter().map(|tool| tool.number.to_string()).collect();
+            let message = format!("{called} is the name of several tools: {}", all.join(", "));
+            let finding = Finding::error(Code::JOB_REFERENCE, message).key("tool");
+            Err(finding.help("call it by its number, or give each a name of its own").into())
+        }
+    }
 }
 
 /// With a tool and a spindle speed [rad/s] that are known.
@@ -132,4 +140,40 @@ pub(crate) fn whole_revolutions(rate: f64) -> f64 {
     const SLOW: f64 = 20.0;
     let rpm = rate / TAU * 60.0;
     if rpm > SLOW { rpm.round() * TAU / 60.0 } else { rate }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::tool::{Cutter, ToolLimits, ToolNumber, ToothSpacing};
+
+    fn tool(number: u32, name: &str) -> Tool {
+        Tool {
+            number: ToolNumber(number),
+            name: name.to_owned(),
+            cutter: Cutter::EndMill { diameter: 10.0 },
+            teeth: 3,
+            spacing: ToothSpacing::default(),
+            flute_length: 22.0,
+            stickout: 22.0,
+            shank_diameter: 10.0,
+            holder: None,
+            centre_cutting: true,
+            max_ramp_angle: None,
+            gauge_length: None,
+            limits: ToolLimits::default(),
+        }
+    }
+
+    #[test]
+    fn a_name_of_two_tools_is_refused() {
+        let tools = [tool(3, "rough"), tool(5, "Rough"), tool(7, "finish")];
+        let found = |called: &CalledTool| tool_of(called, &tools).map(|tool| tool.number.0);
+        assert_eq!(found(&CalledTool::Name("FINISH".to_owned())).unwrap(), 7);
+        assert_eq!(found(&CalledTool::Number(5)).unwrap(), 5);
+        let error = found(&CalledTool::Name("rough".to_owned())).unwrap_err();
+        assert_eq!((error.code(), error.0.key.as_deref()), (Code::JOB_REFERENCE, Some("tool")));
+        assert!(error.to_string().contains("`rough` is the name of several tools: T3, T5"), "{error}");
+        assert!(found(&CalledTool::Number(4)).unwrap_err().to_string().contains("T4 is not defined"));
+    }
 }

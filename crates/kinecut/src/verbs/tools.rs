@@ -7,7 +7,9 @@ use serde::Serialize;
 use super::Answer;
 use crate::base::{Finding, Loader, Result, Sources};
 use crate::job::file::{ToolFileTable, ToolTable, ToolType};
-use crate::job::library::{Library, LibraryTool, library_json, library_table, library_toml, read_library};
+use crate::job::library::{
+    Library, LibraryTool, largest, library_json, library_table, library_toml, read_library,
+};
 use crate::page::{Block, Cell, Fact, Row, Section, Table};
 
 /// A tool of a file.
@@ -77,6 +79,8 @@ pub struct ConvertedTools {
     pub lost: Vec<String>,
     /// Keys that the text lacks, in words.
     pub missing: Vec<String>,
+    /// Meanings that the file leaves open and the text has as values, in words.
+    pub assumed: Vec<String>,
 }
 
 /// Reads a tool file.
@@ -103,16 +107,18 @@ pub fn read_tools(wants: &ToolFileTable, loader: &dyn Loader) -> Result<Library>
 pub fn tools_sheet(library: &Library) -> ToolFileSheet {
     let rows = library.tools.iter().zip(library.checked()).map(|(tool, checked)| {
         let table = &tool.table;
-        let largest = checked.map(|c| c.cutter.diameter(c.flute_length));
+        let of_body = checked.map(|c| c.cutter.diameter(c.flute_length));
+        // Lengths of which nobody knows the unit are not shown.
+        let length = |length: Option<f64>| length.filter(|_| tool.has("unit"));
         ToolRow {
             number: tool.has("number").then_some(table.number),
             name: table.name.clone(),
             kind: tool.has("type").then_some(table.kind),
-            diameter: largest.or_else(|| tool.has("diameter").then_some(table.diameter)),
-            corner_radius: table.corner_radius,
-            flute_length: tool.has("flute_length").then_some(table.flute_length),
+            diameter: of_body.or_else(|| largest(tool)),
+            corner_radius: length(table.corner_radius),
+            flute_length: length(tool.has("flute_length").then_some(table.flute_length)),
             teeth: table.teeth,
-            stickout: table.stickout,
+            stickout: length(table.stickout),
             holder: table.holder.clone(),
             presets: table.presets.iter().map(|preset| preset.material.clone()).collect(),
             missing: lacks(tool),
@@ -140,12 +146,15 @@ fn lacks(tool: &LibraryTool) -> Vec<String> {
 /// Those of [`library_toml`].
 pub fn convert_tools(library: &Library, to: ToolsTo) -> Result<ConvertedTools> {
     let mut lost = library.dropped.clone();
-    let mut missing = Vec::new();
+    let (mut missing, mut assumed) = (Vec::new(), Vec::new());
     for tool in &library.tools {
         let named = |what: &[String]| format!("{}: {}", tool.title(), what.join(", "));
         let mut fields = tool.dropped.clone();
         match to {
             ToolsTo::Table if !tool.has("number") => fields.push("all, as it has no number".to_owned()),
+            ToolsTo::Table if !tool.has("unit") => {
+                fields.push("all, as the unit of its lengths is not known".to_owned());
+            }
             ToolsTo::Table => fields.extend(beyond_table(tool)),
             ToolsTo::Json if !tool.missing.is_empty() => {
                 fields.push("all, as JSON has no place for what is missing".to_owned());
@@ -158,6 +167,14 @@ pub fn convert_tools(library: &Library, to: ToolsTo) -> Result<ConvertedTools> {
         if to == ToolsTo::Toml && !tool.missing.is_empty() {
             missing.push(named(&lacks(tool)));
         }
+        let is_written = match to {
+            ToolsTo::Toml => true,
+            ToolsTo::Json => tool.missing.is_empty(),
+            ToolsTo::Table => tool.has("number") && tool.has("unit"),
+        };
+        if is_written && !tool.assumed.is_empty() {
+            assumed.push(named(&tool.assumed));
+        }
     }
     if to == ToolsTo::Table {
         lost.extend(library.holders.iter().map(|holder| format!("holder `{}`", holder.name.escape_debug())));
@@ -167,7 +184,7 @@ pub fn convert_tools(library: &Library, to: ToolsTo) -> Result<ConvertedTools> {
         ToolsTo::Json => library_json(library),
         ToolsTo::Table => library_table(library),
     };
-    Ok(ConvertedTools { text, lost, missing })
+    Ok(ConvertedTools { text, lost, missing, assumed })
 }
 
 /// Keys of a tool that a tool table does not hold.
@@ -176,9 +193,12 @@ fn beyond_table(tool: &LibraryTool) -> Vec<String> {
     let usual = serde_json::to_value(ToolTable::bare(0));
     let Ok(serde_json::Value::Object(table)) = serde_json::to_value(&tool.table) else { return Vec::new() };
     let usual = usual.unwrap_or_default();
+    let is_cone = tool.has("type") && tool.table.kind == ToolType::Tapered;
     let says = |key: &str, value: &serde_json::Value| {
-        let told = matches!(key, "type" | "flute_length") || usual.get(key) != Some(value);
-        told && tool.has(key) && !HELD.contains(&key)
+        let told = matches!(key, "type" | "flute_length" | "diameter") || usual.get(key) != Some(value);
+        // D is the largest diameter: that of the tip of a cone has no place.
+        let held = HELD.contains(&key) && !(key == "diameter" && is_cone);
+        told && tool.has(key) && !held
     };
     table.iter().filter(|(key, value)| says(key, value)).map(|(key, _)| key.clone()).collect()
 }
@@ -246,7 +266,9 @@ impl Answer for ToolFileSheet {
 impl Answer for ConvertedTools {
     fn sections(&self) -> Vec<Section> {
         let mut sections = Vec::new();
-        for (title, list) in [("Not written", &self.lost), ("To be filled in", &self.missing)] {
+        for (title, list) in
+            [("Not written", &self.lost), ("To be filled in", &self.missing), ("Assumed", &self.assumed)]
+        {
             if !list.is_empty() {
                 let rows = list.iter().map(|what| Row::new(vec![what.as_str().into()]));
                 sections.push(Section::new(title).with(Table::new("", "Tool").rows(rows)));

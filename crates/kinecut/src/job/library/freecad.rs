@@ -5,14 +5,22 @@
 
 use serde_json::Value;
 
+use super::cone::{ConeKeys, cone};
 use super::fields::{Fields, fit_name};
-use super::fusion::cone;
 use super::own::too_many;
 use super::quantity::{Quantity, quantity};
 use super::{Library, LibraryFormat, LibraryTool, MOST_TOOLS};
 use crate::base::{Code, FileKind, Finding, Loader, Location, Result};
 use crate::job::file::{ToolTable, ToolType};
 use crate::tool::Hand;
+
+/// The fields of V-bits and chamfer mills.
+const CONE: ConeKeys = ConeKeys {
+    tip: "TipDiameter",
+    largest: "Diameter",
+    angle: "CuttingEdgeAngle",
+    height: "CuttingEdgeHeight",
+};
 
 /// Reads a bit in a file of its own: it has no number.
 pub(super) fn bit_file(file: &str, value: &Value) -> Result<Library> {
@@ -86,7 +94,9 @@ fn found(file: &str, path: &str, loader: &dyn Loader) -> std::result::Result<(St
 /// Numbers of a bit, each taken from `parameter`, or else from `attribute`.
 struct Bit<'a> {
     fields: Fields<'a>,
+    /// Lengths and angles without a unit, in words.
     bare: Vec<String>,
+    bare_angles: Vec<String>,
     wrong: Vec<String>,
 }
 
@@ -106,9 +116,14 @@ impl Bit<'_> {
         None
     }
 
-    /// A length above 0 [mm]; a number alone is one in mm, and said.
+    /// A length other than 0 [mm]; a number alone is one in mm, and said.
     fn length(&mut self, key: &str) -> Option<f64> {
-        let length = match self.take(key)? {
+        self.stated(key).filter(|length| *length != 0.0)
+    }
+
+    /// A length, 0 as a text too [mm].
+    fn stated(&mut self, key: &str) -> Option<f64> {
+        Some(match self.take(key)? {
             Quantity::Length(length) => length,
             Quantity::Bare(length) => {
                 self.bare.push(format!("{key} as {length} mm"));
@@ -118,8 +133,14 @@ impl Bit<'_> {
                 self.wrong.push(format!("{key} (an angle)"));
                 return None;
             }
-        };
-        (length != 0.0).then_some(length)
+        })
+    }
+
+    /// Whether a key is a number of 0, which says nothing of most keys.
+    fn is_nought(&self, key: &str) -> bool {
+        [format!("parameter.{key}"), format!("attribute.{key}")]
+            .iter()
+            .any(|path| self.fields.there(path).and_then(Value::as_f64) == Some(0.0))
     }
 
     /// An angle (degrees).
@@ -127,7 +148,7 @@ impl Bit<'_> {
         match self.take(key)? {
             Quantity::Angle(angle) => Some(angle),
             Quantity::Bare(angle) => {
-                self.bare.push(format!("{key} as {angle} degrees"));
+                self.bare_angles.push(format!("{key} as {angle} degrees"));
                 Some(angle)
             }
             Quantity::Length(_) => {
@@ -140,7 +161,8 @@ impl Bit<'_> {
 
 /// The tool of a bit.
 fn bit(value: &Value, number: u32) -> LibraryTool {
-    let mut bit = Bit { fields: Fields::new(value), bare: Vec::new(), wrong: Vec::new() };
+    let mut bit =
+        Bit { fields: Fields::new(value), bare: Vec::new(), bare_angles: Vec::new(), wrong: Vec::new() };
     let mut tool = LibraryTool::of(ToolTable::bare(number));
     let name = bit.fields.text("name").or_else(|| bit.fields.text("label")).unwrap_or_default();
     let (name, changed) = fit_name(name);
@@ -181,9 +203,9 @@ fn bit(value: &Value, number: u32) -> LibraryTool {
     match kind {
         Some(ToolType::BullNose) => corner(&mut tool, &mut bit),
         Some(ToolType::Tapered) => {
-            let tip = bit.length("TipDiameter").unwrap_or(0.0);
+            let tip = bit.stated("TipDiameter").or(bit.is_nought("TipDiameter").then_some(0.0));
             let half = bit.angle("CuttingEdgeAngle").map(|a| a / 2.0).filter(|a| *a > 0.0 && *a < 90.0);
-            cone(&mut tool, tip, half, ("CuttingEdgeAngle", "CuttingEdgeHeight"));
+            cone(&mut tool, tip, half, &CONE);
         }
         Some(ToolType::Drill) => match bit.angle("TipAngle") {
             Some(angle) => tool.table.point_angle = Some(angle.to_radians()),
@@ -198,16 +220,25 @@ fn bit(value: &Value, number: u32) -> LibraryTool {
         _ => {}
     }
     hand(&mut tool, &mut bit.fields);
-    for path in ["version", "id", "parameter.Units"] {
+    let is_imperial = |path: &str| {
+        let units = bit.fields.look(path).and_then(Value::as_str);
+        units.is_some_and(|units| units.eq_ignore_ascii_case("imperial"))
+    };
+    if !bit.bare.is_empty() && ["parameter.Units", "attribute.Units"].into_iter().any(is_imperial) {
+        tool.lacks("unit", "its Units are Imperial, and its numbers have none");
+        bit.bare.clear();
+    }
+    for path in ["version", "id", "parameter.Units", "attribute.Units"] {
         // They say of the file, not of the tool.
         bit.fields.take(path);
     }
-    tool.dropped = bit.fields.left();
+    tool.dropped.extend(bit.fields.left().shown(""));
     tool.dropped.extend(bit.wrong);
     if changed {
         tool.dropped.push("the end of name".to_owned());
     }
-    tool.assumed = bit.bare;
+    tool.assumed.extend(bit.bare);
+    tool.assumed.extend(bit.bare_angles);
     tool
 }
 

@@ -5,14 +5,23 @@
 
 use serde_json::Value;
 
-use super::fields::{Fields, fit_name, says};
+use super::cone::{ConeKeys, cone};
+use super::fields::{Fields, Left, fit_name, says};
 use super::own::too_many;
 use super::quantity::{Quantity, quantity};
+use super::shelf::Shelf;
 use super::{Library, LibraryFormat, LibraryTool, MOST_TOOLS};
 use crate::base::{Location, Result};
 use crate::job::file::{PresetTable, ToolTable, ToolType};
-use crate::tool::{Hand, Holder, HolderSegment};
+use crate::tool::{Hand, HolderSegment};
 
+/// The fields of a chamfer mill.
+const CONE: ConeKeys = ConeKeys {
+    tip: "geometry.tip-diameter",
+    largest: "geometry.DC",
+    angle: "geometry.TA",
+    height: "geometry.LCF",
+};
 /// Share by which a cutting speed may be off from that of speed and diameter, by rounding.
 const ROUNDED: f64 = 0.02;
 /// Most segments of a holder, and most presets of a tool.
@@ -25,19 +34,20 @@ pub(super) fn read(file: &str, value: &Value) -> Result<Library> {
     if data.len() > MOST_TOOLS {
         return Err(too_many(data.len()).at(Location::whole_file(file)).into());
     }
+    let mut shelf = Shelf::default();
     for entry in data {
         if entry.get("type").and_then(Value::as_str) == Some("holder") {
             let name = entry.get("description").and_then(Value::as_str).unwrap_or_default();
             library.dropped.push(format!("holder `{}` without a tool", name.escape_debug()));
         } else {
-            let tool = tool(entry, &mut library.holders);
-            library.tools.push(tool);
+            library.tools.push(tool(entry, &mut shelf));
         }
     }
+    library.holders = shelf.holders();
     Ok(library)
 }
 
-fn tool(entry: &Value, holders: &mut Vec<Holder>) -> LibraryTool {
+fn tool(entry: &Value, shelf: &mut Shelf) -> LibraryTool {
     let mut fields = Fields::new(entry);
     let number = fields.number("post-process.number").filter(|n| *n >= 1.0 && *n <= 1e9 && n.fract() == 0.0);
     let mut tool = LibraryTool::of(ToolTable::bare(number.unwrap_or(0.0) as u32));
@@ -54,9 +64,9 @@ fn tool(entry: &Value, holders: &mut Vec<Holder>) -> LibraryTool {
     let unit = unit.unwrap_or(1.0);
     kind(&mut tool, &mut fields, unit);
     sizes(&mut tool, &mut fields, unit);
-    holder(&mut tool, &mut fields, unit, holders);
+    holder(&mut tool, &mut fields, unit, shelf);
     presets(&mut tool, &mut fields, unit);
-    tool.dropped.extend(fields.left());
+    tool.dropped.extend(fields.left().shown(""));
     if changed {
         tool.dropped.push("the end of description".to_owned());
     }
@@ -148,7 +158,10 @@ fn sizes(tool: &mut LibraryTool, fields: &mut Fields<'_>, unit: f64) {
     }
     if tool.table.kind == ToolType::Tapered && tool.has("type") {
         let half = fields.number("geometry.TA").filter(|a| *a > 0.0 && *a < 90.0);
-        cone(tool, tip.unwrap_or(0.0), half, ("geometry.TA", "geometry.LCF"));
+        // A number of 0 is a sharp tip that the file states.
+        let sharp = fields.there("geometry.tip-diameter").and_then(Value::as_f64) == Some(0.0);
+        let tip = tip.or(sharp.then_some(0.0));
+        cone(tool, tip, half, &CONE);
     } else if let Some(tip) = tip {
         tool.dropped.push(format!("geometry.tip-diameter ({tip} mm)"));
     }
@@ -166,32 +179,7 @@ fn sizes(tool: &mut LibraryTool, fields: &mut Fields<'_>, unit: f64) {
 
 /// Whether `geometry.HAND` is there and false.
 fn entry_says_left(fields: &Fields<'_>) -> bool {
-    fields.whole().pointer("/geometry/HAND").and_then(Value::as_bool) == Some(false)
-}
-
-/// A conical cutter by its tip, its largest diameter and half its angle (degrees): the cone ends at that diameter.
-pub(super) fn cone(
-    tool: &mut LibraryTool,
-    tip: f64,
-    half: Option<f64>,
-    (angle, height): (&'static str, &str),
-) {
-    let Some(half) = half else { return tool.lacks("half_angle", format!("no {angle}")) };
-    if !tool.has("diameter") {
-        return;
-    }
-    let high = (tool.table.diameter - tip) / 2.0 / half.to_radians().tan();
-    if high.is_nan() || high <= 0.0 {
-        return tool.lacks("flute_length", "the tip is not narrower than the tool");
-    }
-    let said = tool.table.flute_length;
-    if said > 0.0 && (said - high).abs() > 1e-3 * high {
-        tool.dropped.push(format!("{height} ({said} mm: the cone ends at the diameter)"));
-    }
-    tool.missing.retain(|missing| missing.key != "flute_length");
-    tool.table.half_angle = Some(half);
-    tool.table.flute_length = high;
-    tool.table.diameter = tip;
+    fields.there("geometry.HAND").and_then(Value::as_bool) == Some(false)
 }
 
 /// The diameter [mm]: an expression counts before the number that it was once worth.
@@ -206,7 +194,7 @@ fn expressed(tool: &mut LibraryTool, fields: &mut Fields<'_>, stated: Option<f64
 }
 
 /// The holder of the tool: segments from the tool upwards, in a unit of their own.
-fn holder(tool: &mut LibraryTool, fields: &mut Fields<'_>, unit: f64, holders: &mut Vec<Holder>) {
+fn holder(tool: &mut LibraryTool, fields: &mut Fields<'_>, unit: f64, shelf: &mut Shelf) {
     let assembly = fields.look("geometry.assemblyGaugeLength").and_then(Value::as_f64);
     let Some(segments) = fields.look("holder.segments").and_then(Value::as_array) else { return };
     let Some(own) = unit_of(fields, "holder.unit", "holder.expressions.tool_unit") else {
@@ -228,7 +216,7 @@ fn holder(tool: &mut LibraryTool, fields: &mut Fields<'_>, unit: f64, holders: &
     fields.take("holder.type");
     let said = fields.text("holder.description").or_else(|| fields.text("holder.product-id"));
     let name = fit_name(said.unwrap_or("holder")).0.unwrap_or_else(|| "holder".to_owned());
-    tool.table.holder = Some(shelved(holders, &name, segments));
+    tool.table.holder = Some(shelf.name(&name, segments));
     let gauge = fields.number("holder.gaugeLength").map(|v| v * own);
     if let Some(assembly) = assembly {
         fields.take("geometry.assemblyGaugeLength");
@@ -238,38 +226,26 @@ fn holder(tool: &mut LibraryTool, fields: &mut Fields<'_>, unit: f64, holders: &
     }
 }
 
-/// The name of a holder of these segments: that of one that is there, or a new one.
-fn shelved(holders: &mut Vec<Holder>, name: &str, segments: Vec<HolderSegment>) -> String {
-    let mut own = name.to_owned();
-    for number in 2.. {
-        match holders.iter().find(|holder| holder.name == own) {
-            None => break,
-            Some(same) if same.segments == segments => return own,
-            Some(_) => own = format!("{name} ({number})"),
-        }
-    }
-    holders.push(Holder { name: own.clone(), segments });
-    own
-}
-
-/// Cutting data by material. A cutting speed is taken where it is that of speed and diameter in m/min, so that its unit is known.
+/// Cutting data by material. A cutting speed is taken where it is that of speed and diameter in m/min, so that its unit is known;
+/// never that of a cone, which belongs to its largest diameter: an operation reckons with that at the top of its chamfer.
 fn presets(tool: &mut LibraryTool, fields: &mut Fields<'_>, unit: f64) {
     let Some(list) = fields.take("start-values.presets").and_then(Value::as_array) else { return };
     let diameter = fields.look("geometry.DC").and_then(Value::as_f64).map(|d| d * unit);
-    let mut left = Vec::new();
+    let is_cone = tool.table.kind == ToolType::Tapered;
+    let (mut left, mut unnamed) = (Left::default(), false);
     for preset in list.iter().take(MOST_PARTS) {
         let mut own = Fields::new(preset);
         let name = own.text("name").and_then(|name| fit_name(name).0);
         let material = own.text("material.query").and_then(|name| fit_name(name).0).or_else(|| name.clone());
         let Some(material) = material else {
-            left.push("start-values.presets without a material".to_owned());
+            unnamed = true;
             continue;
         };
         let positive = |v: &f64| *v > 0.0;
         let turns = own.number("n").filter(positive);
         let cutting = own.look("v_c").and_then(Value::as_f64).filter(positive);
         let by_turns = turns.zip(diameter).map(|(n, d)| std::f64::consts::PI * d * n / 1000.0);
-        let same = cutting.zip(by_turns).is_some_and(|(v, by)| (v - by).abs() <= ROUNDED * by);
+        let same = cutting.zip(by_turns).is_some_and(|(v, by)| (v - by).abs() <= ROUNDED * by) && !is_cone;
         if same {
             own.take("v_c");
         }
@@ -284,12 +260,13 @@ fn presets(tool: &mut LibraryTool, fields: &mut Fields<'_>, unit: f64) {
             feed_per_rev: per_rev.then(|| own.number("f_n")).flatten().filter(positive).map(|v| v * unit),
             feed: own.number("v_f").filter(positive).map(|v| v * unit),
         });
-        left.extend(own.left().into_iter().map(|path| format!("start-values.presets.{path}")));
+        left.add(&own);
+    }
+    tool.dropped.extend(left.shown("start-values.presets."));
+    if unnamed {
+        tool.dropped.push("start-values.presets without a material".to_owned());
     }
     if list.len() > MOST_PARTS && list[MOST_PARTS..].iter().any(says) {
-        left.push(format!("start-values.presets beyond {MOST_PARTS}"));
+        tool.dropped.push(format!("start-values.presets beyond {MOST_PARTS}"));
     }
-    left.sort();
-    left.dedup();
-    tool.dropped.extend(left);
 }

@@ -7,21 +7,27 @@
 //! Sources of the field names: tool tables as `nc::tool_table` reads them; FreeCAD's own `Tools/Bit`, `Tools/Library` and its
 //! migration of older bits; Fusion libraries as public readers and writers of them have them (nothing is published of the format).
 
+mod cone;
 mod fields;
 mod freecad;
 mod fusion;
 mod own;
 mod package;
+mod preset;
 mod program;
 mod quantity;
 mod read;
+mod shelf;
 mod shop;
 mod table;
 mod write;
 
 pub use read::read_library;
 pub(in crate::job) use shop::Shop;
+pub(crate) use write::largest;
 pub use write::{library_json, library_table, library_toml};
+
+use std::sync::Arc;
 
 use super::file::{ToolTable, holders, kind_name, tool};
 use super::places::Places;
@@ -75,7 +81,7 @@ pub struct Library {
     /// Parts of the file that are no tools, and were not taken.
     pub dropped: Vec<String>,
     /// Places of its values, where it is TOML.
-    places: Option<Places>,
+    places: Option<Arc<Places>>,
 }
 
 /// A tool of a file.

@@ -1,8 +1,12 @@
 //! Tools as kinecut writes them: `[[tool]]` and `[[holder]]` in TOML, or the same tables in JSON.
 
 use std::collections::BTreeMap;
+use std::sync::Arc;
+
+use toml::de::{DeTable, DeValue};
 
 use super::read::json_error;
+use super::write::{NOT_NEEDED, OPEN};
 use super::{Library, LibraryFormat, LibraryTool, MOST_TOOLS};
 use crate::base::{Code, FileId, Finding, Location, Result, Sources};
 use crate::job::file::ToolLibraryTable;
@@ -13,10 +17,36 @@ use crate::job::read::decode;
 pub(super) fn toml(sources: &Sources, id: FileId, file: &str) -> Result<Library> {
     let root = parse(sources, id, sources.text(id))?;
     let places = Places::of(id, &root);
+    if let Some(finding) = open_key(root.get_ref()) {
+        return Err(places.locate(sources, finding.into()));
+    }
     let table: ToolLibraryTable = decode(sources, id, root)?;
     let mut library = library(file, table).map_err(|finding| places.locate(sources, finding.into()))?;
-    library.places = Some(places);
+    library.places = Some(Arc::new(places));
     Ok(library)
+}
+
+/// The error of a tool with a key that is still to be filled in.
+fn open_key(root: &DeTable<'_>) -> Option<Finding> {
+    let tools = root.get("tool")?.get_ref().as_array()?;
+    tools.iter().enumerate().find_map(|(i, tool)| {
+        let tool = tool.get_ref().as_table()?;
+        let value = |key: &str| tool.get(key).map(|value| value.get_ref());
+        let is_open = |key: &&&str| value(key).and_then(DeValue::as_str) == Some(OPEN);
+        let (key, what, help) = match value("unit") {
+            Some(_) => (
+                "unit",
+                "a tool has no `unit`: its lengths are in mm",
+                "write them in mm, and take `unit` out",
+            ),
+            None => {
+                let key = NOT_NEEDED.iter().find(is_open)?;
+                (*key, "a key of a tool is still to be filled in", "write its value in place of \"?\"")
+            }
+        };
+        let finding = Finding::error(Code::JOB_SHAPE, what).help(help);
+        Some(finding.key(format!("tool[{i}].{key}")))
+    })
 }
 
 /// Reads JSON.

@@ -2,10 +2,11 @@
 
 use std::collections::BTreeSet;
 
-use super::program::called_numbers;
+use super::preset::take_data;
+use super::program::{called_numbers, without_comments};
 use super::{Library, LibraryTool, read_library};
 use crate::base::{Code, Error, FileKind, Finding, Loader, Location, Result, Sources};
-use crate::job::file::{JobFile, PresetTable, ToolTable};
+use crate::job::file::{JobFile, ToolTable};
 use crate::job::places::Places;
 use crate::nc::Control;
 use crate::operations::{CalledTool, OperationTable, plain_name};
@@ -19,6 +20,8 @@ const PROPOSED: usize = 3;
 #[derive(Clone, Debug, Default)]
 pub(in crate::job) struct Shop {
     libraries: Vec<Library>,
+    /// Whether each tool of each file can be used.
+    valid: Vec<Vec<bool>>,
     /// Tools of the job itself.
     own: usize,
     /// Tools of the files that were taken: file, tool, number.
@@ -27,6 +30,8 @@ pub(in crate::job) struct Shop {
     holders: Vec<(usize, usize, String)>,
     /// Numbers of tools of the job that were taken before those of a file.
     replaced: BTreeSet<u32>,
+    /// Numbers that a program calls and several tools of files have: none of them was taken.
+    open: BTreeSet<u32>,
     /// Cutting data that were taken, in words.
     data: Vec<Finding>,
 }
@@ -50,6 +55,7 @@ impl Shop {
                     file.tool_files.push(name.clone());
                 }
             }
+            shop.valid.push(library.checked().iter().map(Option::is_some).collect());
             shop.libraries.push(library);
         }
         Ok(shop)
@@ -69,7 +75,7 @@ impl Shop {
                 let called = operation.called().clone();
                 if let Some(number) = self.call(file, places, &called).map_err(|e| e.under(&key))? {
                     *operation.called() = CalledTool::Number(number);
-                    self.choose_data(file, operation, number, (s, o));
+                    self.choose_data(file, operation, number, &key).map_err(|e| e.under(&key))?;
                 }
             }
             let Some(program) = setup.program.as_ref().filter(|_| !self.libraries.is_empty()) else {
@@ -93,14 +99,15 @@ impl Shop {
         Ok(())
     }
 
-    /// Takes the tools that the text of a program may call, as far as they can be used.
+    /// Takes the tools that the text of a program may call, as far as they can be used. One that is wrong is an error only where
+    /// the program certainly calls it: a number may be in a comment.
     pub(in crate::job) fn call_program(
         &mut self,
         file: &mut JobFile,
         places: &mut Places,
         text: &str,
     ) -> Result<()> {
-        let numbers = called_numbers(text);
+        let (numbers, certain) = (called_numbers(text), called_numbers(&without_comments(text)));
         let is_called = |tool: &LibraryTool| {
             let number = tool.table.number;
             tool.has("number") && numbers.as_ref().is_none_or(|numbers| numbers.contains(&number))
@@ -108,13 +115,25 @@ impl Shop {
         let all = self.libraries.iter().flat_map(|library| &library.tools);
         let called: BTreeSet<u32> = all.filter(|t| is_called(t)).map(|t| t.table.number).collect();
         for number in called {
-            let found = self.of_number(number);
-            let usable = |&&(k, i): &&(usize, usize)| self.libraries[k].tools[i].missing.is_empty();
-            // A number may be in a comment: a tool that cannot be used is missed by the program, if that calls it.
-            if self.is_own(file, number) || found.iter().filter(usable).count() != 1 {
+            if self.is_own(file, number) || self.taken.iter().any(|(.., taken)| *taken == number) {
                 continue;
             }
-            self.call(file, places, &CalledTool::Number(number))?;
+            let certain = certain.as_ref().is_some_and(|numbers| numbers.contains(&number));
+            let found = self.of_number(number);
+            let valid: Vec<(usize, usize)> =
+                found.iter().copied().filter(|&(k, i)| self.valid[k][i]).collect();
+            // A tool that lacks something is missed by the program, if that calls it.
+            let complete = |&(k, i): &(usize, usize)| self.libraries[k].tools[i].missing.is_empty();
+            let fit = match valid.is_empty() && certain {
+                true => found.into_iter().filter(complete).collect(),
+                false => valid,
+            };
+            match fit[..] {
+                [one] => _ = self.take(file, places, one)?,
+                [] => {}
+                _ if certain => _ = self.open.insert(number),
+                _ => {}
+            }
         }
         Ok(())
     }
@@ -286,25 +305,20 @@ impl Shop {
         file: &JobFile,
         operation: &mut OperationTable,
         number: u32,
-        at: (usize, usize),
-    ) {
-        let Some(material) = &file.material else { return };
+        key: &str,
+    ) -> Result<()> {
+        let Some(material) = &file.material else { return Ok(()) };
         let Some((index, tool)) = file.tools.iter().enumerate().find(|(_, t)| t.number == number) else {
-            return;
+            return Ok(());
         };
-        let plain = plain_name(material);
-        let Some(preset) = tool.presets.iter().find(|p| plain_name(&p.material) == plain) else { return };
-        let taken = taken_data(operation, preset);
-        if taken.is_empty() {
-            return;
-        }
+        let Some((taken, preset)) = take_data(operation, tool, material)? else { return Ok(()) };
         let of = match index.checked_sub(self.own).and_then(|i| self.taken.get(i)) {
             Some(&(k, ..)) => format!(" of `{}`", self.libraries[k].file),
             None => String::new(),
         };
         let message = format!("{} from the preset {} of T{number}{of}", taken.join(", "), preset.material);
-        let key = format!("setup[{}].operation[{}]", at.0, at.1);
         self.data.push(Finding::note(Code::TOOL_CHOSEN, message).key(key));
+        Ok(())
     }
 
     /// Findings about what was taken, without their places.
@@ -316,6 +330,13 @@ impl Shop {
             let files: Vec<String> = files.iter().map(|file| format!("`{file}`")).collect();
             let message = format!("T{number} is that of the job, not that of {}", files.join(" or "));
             notes.push(Finding::note(Code::TOOL_CHOSEN, message));
+        }
+        for number in &self.open {
+            let all: Vec<String> = self.of_number(*number).iter().map(|&at| self.title(at)).collect();
+            let message =
+                format!("a program calls T{number}, and several tools have this number: {}", all.join(", "));
+            let help = "it gets none of them: keep one in the tool files, or write it as [[tool]] in the job";
+            notes.push(Finding::note(Code::TOOL_CHOSEN, message).help(help));
         }
         for &(k, i, _) in &self.taken {
             let (library, tool) = (&self.libraries[k], &self.libraries[k].tools[i]);
@@ -333,35 +354,6 @@ impl Shop {
         notes.extend(self.data.iter().cloned());
         notes
     }
-}
-
-/// Gives an operation speed and feed of a preset where it has none; what it was given, in words.
-fn taken_data(operation: &mut OperationTable, preset: &PresetTable) -> Vec<String> {
-    let mut taken = Vec::new();
-    let Some(keys) = operation.data() else { return taken };
-    if keys.speed.is_some() || keys.cutting_speed.is_some() {
-        return taken;
-    }
-    if let Some(speed) = preset.cutting_speed {
-        *keys.cutting_speed = Some(speed);
-        taken.push(format!("cutting_speed {speed} m/min"));
-    } else if let Some(speed) = preset.speed {
-        *keys.speed = Some(speed);
-        taken.push(format!("speed {speed} rev/min"));
-    } else {
-        return taken;
-    }
-    let Some(feed) = keys.feed.filter(|keys| keys.feed.is_none() && keys.per_tooth.is_none()) else {
-        return taken;
-    };
-    if let Some(per_tooth) = preset.feed_per_tooth {
-        *feed.per_tooth = Some(per_tooth);
-        taken.push(format!("feed_per_tooth {per_tooth} mm"));
-    } else if let Some(value) = preset.feed {
-        *feed.feed = Some(value);
-        taken.push(format!("feed {value} mm/min"));
-    }
-    taken
 }
 
 /// The error of a name or number that several tools have.

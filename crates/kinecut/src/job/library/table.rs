@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use super::fields::fit_name;
+use super::fields::{fit_name, rounded};
 use super::own::too_many;
 use super::{Library, LibraryFormat, LibraryTool, MOST_TOOLS};
 use crate::base::{Code, FileId, Finding, Location, Result, Sources, Span};
@@ -12,6 +12,8 @@ use crate::nc::{TableTool, tool_table};
 
 /// Letters whose numbers are taken.
 const TAKEN: &str = "TZD";
+/// Beginnings of words for drills whose points are not those of twist drills.
+const OTHER_POINTS: [&str; 3] = ["SPOT", "CENT", "REAM"];
 
 /// Reads a tool table; `unit` is that of its lengths in mm.
 pub(super) fn read(sources: &Sources, id: FileId, file: &str, unit: f64) -> Result<Library> {
@@ -55,7 +57,6 @@ fn tool(own: &TableTool, words: &[String]) -> LibraryTool {
     let mut tool = LibraryTool::of(ToolTable {
         name,
         diameter: own.diameter.unwrap_or(0.0),
-        gauge_length: Some(own.offset[2]).filter(|z| *z != 0.0),
         ..ToolTable::bare(own.number)
     });
     if own.number == 0 {
@@ -72,11 +73,26 @@ fn tool(own: &TableTool, words: &[String]) -> LibraryTool {
         }
         None => tool.lacks("type", "a tool table has none, nor has the remark"),
     }
-    let remark_only = |word: &str| remark.contains(word);
+    let (length, mut dropped) = (own.offset[2], Vec::new());
+    if length > 0.0 {
+        tool.table.gauge_length = Some(length);
+        tool.assumed.push(format!("gauge_length {} mm, as Z counts from the spindle", rounded(length)));
+    } else if length < 0.0 {
+        dropped.push(format!("Z ({} mm: below 0 it is no length of a tool)", rounded(length)));
+    }
+    let words_of_remark = || remark.split(|c: char| !c.is_alphabetic());
     match tool.table.kind {
-        ToolType::Tapered => tool.lacks("half_angle", "not in a tool table"),
+        ToolType::Tapered => {
+            tool.lacks("half_angle", "not in a tool table");
+            // The diameter of the table of a tapered tool is that of its tip.
+            if let Some(largest) = own.diameter {
+                tool.table.diameter = 0.0;
+                tool.lacks("diameter", "that of the tip is not in a tool table");
+                dropped.push(format!("D ({} mm, the largest diameter)", rounded(largest)));
+            }
+        }
         ToolType::BullNose => tool.lacks("corner_radius", "not in a tool table"),
-        ToolType::Drill if ["SPOT", "CENT", "REAM"].iter().any(|word| remark_only(word)) => {
+        ToolType::Drill if words_of_remark().any(|word| OTHER_POINTS.iter().any(|w| word.starts_with(w))) => {
             tool.lacks("point", "not in a tool table");
         }
         _ => {}
@@ -84,7 +100,8 @@ fn tool(own: &TableTool, words: &[String]) -> LibraryTool {
     tool.lacks("flute_length", "not in a tool table");
     let said = |word: &&String| word.get(1..).and_then(|n| n.parse::<f64>().ok()).is_some_and(|n| n != 0.0);
     let left = words.iter().filter(said).filter(|word| !word.starts_with(|c| TAKEN.contains(c)));
-    tool.dropped = left.map(|word| word[..1].to_owned()).collect();
+    dropped.extend(left.map(|word| word[..1].to_owned()));
+    tool.dropped = dropped;
     if changed {
         tool.dropped.push("the end of the remark".to_owned());
     }

@@ -21,8 +21,8 @@ pub struct CarriedTool {
     pub line: u32,
 }
 
-/// Words by which a kind is known; the first that is found counts.
-const KINDS: [(&str, &str); 13] = [
+/// Words by which a kind is known, what says more of it before what says less; the first that is found counts.
+const KINDS: [(&str, &str); 15] = [
     ("SPOT", "drill"),
     ("CENTER DRILL", "drill"),
     ("CENTRE DRILL", "drill"),
@@ -33,10 +33,16 @@ const KINDS: [(&str, &str); 13] = [
     ("V-BIT", "tapered"),
     ("BULL", "bull-nose"),
     ("BALL", "ball-nose"),
-    ("FACE", "face-mill"),
+    ("FACE MILL", "face-mill"),
+    ("FACEMILL", "face-mill"),
     ("END MILL", "end-mill"),
     ("ENDMILL", "end-mill"),
+    ("FACE", "face-mill"),
 ];
+/// Words of which another one may end: `TAPDRILL`, `MMENDMILL`.
+const ENDINGS: [&str; 2] = ["DRILL", "ENDMILL"];
+/// Words behind which no other letters may follow: a `FACET` is no face.
+const WHOLE: [&str; 1] = ["FACE"];
 /// Largest diameter that is believed [mm].
 const LARGEST: f64 = 500.0;
 
@@ -82,7 +88,20 @@ pub(super) fn solid(kind: &'static str, corner: Option<f64>, diameter: f64) -> (
 
 /// The kind that a comment in capitals names.
 pub(in crate::job) fn kind_in(comment: &str) -> Option<&'static str> {
-    KINDS.iter().find(|(word, _)| comment.contains(word)).map(|(_, kind)| *kind)
+    KINDS.iter().find(|(word, _)| has_word(comment, word)).map(|(_, kind)| *kind)
+}
+
+/// Whether a text has a word, or one that begins with it.
+fn has_word(text: &str, word: &str) -> bool {
+    text.match_indices(word).any(|(at, _)| {
+        let begins = !text[..at].ends_with(char::is_alphabetic);
+        let ends = !text[at + word.len()..].starts_with(char::is_alphabetic);
+        match (begins, ends) {
+            (true, true) => true,
+            (true, false) => !WHOLE.contains(&word),
+            (false, ends) => ends && ENDINGS.contains(&word),
+        }
+    })
 }
 
 /// The tool of a comment in capitals.
@@ -186,6 +205,27 @@ mod tests {
         let drill = &tools("(T2 D=5. CR=0. TAPER=118DEG - DRILL)", 1.0)[0];
         assert_eq!((drill.point_angle, drill.corner_radius), (Some(118.0), None));
         assert_eq!(tools("(T4 D=10. CR=1. - BULL NOSE END MILL)", 1.0)[0].corner_radius, Some(1.0));
+    }
+
+    #[test]
+    fn a_kind_is_known_by_whole_words() {
+        for (text, kind) in [
+            ("FINISH SURFACE ENDMILL", Some("end-mill")),
+            ("END MILL FOR FACE", Some("end-mill")),
+            ("FACE MILL 50", Some("face-mill")),
+            ("50MM FACE", Some("face-mill")),
+            ("FACEMILL, NO END MILL", Some("face-mill")),
+            ("BALL END MILL", Some("ball-nose")),
+            ("REAMER 8H7", Some("drill")),
+            ("#7 TAPDRILL", Some("drill")),
+            ("6MMENDMILL", Some("end-mill")),
+            ("ENDMILLS", Some("end-mill")),
+            ("SURFACE", None),
+            ("STREAM PROBE", None),
+            ("FACET CUTTER", None),
+        ] {
+            assert_eq!(kind_in(text), kind, "{text}");
+        }
     }
 
     #[test]

@@ -77,3 +77,19 @@ fn a_drill_does_not_mill_and_a_spot_drill_may_chamfer() {
     right(&outcome(&pointed, &chamfer));
     told(&fanuc(&chamfer), Code::DRILL_SIDEWAYS, Severity::Error, "X65. F160.");
 }
+
+#[test]
+fn a_reamer_goes_only_into_a_hole_that_is_there() {
+    let cycle = "G81 X15.25 Y20.25 Z-10. R2. F150.";
+    let reamed = |keys: &str, more: &str| {
+        let text = job("fanuc", "", more, PLAIN)
+            .replace("gauge_length = 130", &format!("gauge_length = 130\n{keys}"));
+        outcome(&text, &drill(&format!("{cycle}\nG80")))
+    };
+    told(&reamed("centre_cutting = false", ""), Code::PLUNGE, Severity::Error, cycle);
+    right(&reamed("", ""));
+    // A steepest ramp is no matter of a drill.
+    right(&reamed("max_ramp_angle = 3", ""));
+    let hole = "[[drilled]]\nat = [15.25, 20.25]\ndiameter = 5\ntop = 0\nbottom = -12";
+    assert!(blocks(&reamed("centre_cutting = false", hole), Code::PLUNGE).is_empty());
+}

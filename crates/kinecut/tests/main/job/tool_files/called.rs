@@ -285,3 +285,75 @@ fn a_program_of_others_gets_the_tools_that_it_calls() {
     assert_eq!(tools("%\nO1\nT6 M6\nT5 M6\nM30\n%\n"), [5, 6]);
     assert_eq!(tools("%\nO1\nM30\n%\n"), [0u32; 0]);
 }
+
+#[test]
+fn of_several_presets_for_a_material_none_is_taken() {
+    let second = "[[tool.preset]]\nmaterial = \"c45\"\nname = \"slotting\"\ncutting_speed = 90\nfeed_per_tooth = 0.04\n\n[[tool]]\nnumber = 6";
+    let shop = SHOP.replace("[[tool]]\nnumber = 6", second);
+    let with = |shop: &str, data: &str| {
+        let loader = MemoryLoader::default().with("shop.toml", shop);
+        read_with(&job("tools = \"shop.toml\"\nmaterial = \"C45\"", "5", data), &loader)
+    };
+    let error = with(&shop, "").map(|_| ()).unwrap_err();
+    let told = "T5 has several presets for C45, and none is taken: one without a name, `slotting`";
+    assert!(error.to_string().contains(told), "{error}");
+    assert_eq!(
+        (error.code().to_string().as_str(), error.0.key.as_deref(), place(&error).0.as_str()),
+        ("KC0102", Some("setup[0].operation[0]"), "job.toml")
+    );
+    // An operation with a speed of its own does not ask.
+    assert!(with(&shop, DATA).unwrap().notes.is_empty());
+    // Two of the same numbers are one.
+    let same = shop
+        .replace("cutting_speed = 90\nfeed_per_tooth = 0.04", "cutting_speed = 150\nfeed_per_tooth = 0.06");
+    assert!(with(&same, "").unwrap().notes[0].message.starts_with("cutting_speed 150 m/min"));
+}
+
+/// A job about a program that others wrote, with tool files.
+fn given(files: &str) -> String {
+    format!(
+        "format = 1\ntools = {files}\nstock = {{ box = {{ min = [-30, -30, -10], max = [30, 30, 0] }} }}\n\
+         post = {{ control = \"fanuc\" }}\n[[setup]]\noffset = \"G54\"\nprogram = {{ file = \"O1.nc\" }}\n"
+    )
+}
+
+#[test]
+fn a_number_in_a_comment_is_no_call_of_a_tool_that_is_wrong() {
+    let tools = |program: &str| -> Result<Vec<u32>, Error> {
+        let read = read_with(&given("\"shop.toml\""), &loader().with("O1.nc", program))?;
+        Ok(read.job.tools.iter().map(|t| t.number.0).collect())
+    };
+    // The diameter of T7 is wrong.
+    for comment in ["(T7 ODD MILL)", "(NOT T7", "; T7", "(SEE T#7)"] {
+        let found = tools(&format!("%\nO1\n{comment}\nN10T5M6\nM30\n%\n")).unwrap();
+        assert!(found.contains(&5) && !found.contains(&7), "{comment}: {found:?}");
+    }
+    assert_eq!(tools("%\nO1\n(T6 MILL)\nM6T5\nM30\n%\n").unwrap(), [5, 6]);
+    let error = tools("%\nO1\n(ODD) M6T7\nM30\n%\n").unwrap_err();
+    assert_eq!(place(&error).2, "diameter = -8");
+}
+
+#[test]
+fn a_program_gets_none_of_two_tools_that_both_fit() {
+    let read = |second: &str, program: &str| {
+        let loader = loader().with("O1.nc", program).with("b.toml", second);
+        let read = read_with(&given("[\"shop.toml\", \"b.toml\"]"), &loader).unwrap();
+        let numbers: Vec<u32> = read.job.tools.iter().map(|t| t.number.0).collect();
+        let notes: Vec<String> = read.notes.iter().map(|n| format!("{} {}", n.code, n.message)).collect();
+        (numbers, notes)
+    };
+    let second =
+        "[[tool]]\nnumber = 5\nname = \"other\"\ntype = \"end-mill\"\ndiameter = 9\nflute_length = 22\n";
+    let program = "%\nO1\nT5 M6\nT6 M6\nM30\n%\n";
+    let (numbers, notes) = read(second, program);
+    assert_eq!(numbers, [6]);
+    assert_eq!(
+        notes,
+        [
+            "KC0709 a program calls T5, and several tools have this number: T5 `End Mill  10` of `shop.toml`, T5 `other` of `b.toml`"
+        ]
+    );
+    // In a comment it is no call. One that is wrong does not fit.
+    assert_eq!(read(second, &program.replace("T5 M6", "(T5)")), (vec![6], vec![]));
+    assert_eq!(read(&second.replace("= 9", "= -9"), program), (vec![5, 6], vec![]));
+}

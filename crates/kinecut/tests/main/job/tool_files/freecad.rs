@@ -36,6 +36,16 @@ fn values_have_units_commas_and_fractions() {
     let tool = bit("endmill", json!({ "Diameter": 6, "CuttingEdgeHeight": "20" }));
     assert_eq!((tool.table.diameter, tool.table.flute_length), (6.0, 20.0));
     assert_eq!(tool.assumed, ["Diameter as 6 mm", "CuttingEdgeHeight as 20 mm"]);
+    // In a file of imperial units it could be inches; lengths with their units are certain.
+    for units in ["Imperial", "imperial"] {
+        let tool = bit("endmill", json!({ "Diameter": 0.25, "CuttingEdgeHeight": "20 mm", "Units": units }));
+        assert_eq!((lacks(&tool), tool.assumed.len()), (vec!["unit"], 0));
+        let tool =
+            bit("endmill", json!({ "Diameter": "0.25 in", "CuttingEdgeHeight": "1 in", "Units": units }));
+        assert!(tool.missing.is_empty() && tool.dropped.is_empty(), "{tool:?}");
+    }
+    let tool = bit("endmill", json!({ "Diameter": 6, "CuttingEdgeHeight": "20 mm", "Units": "Metric" }));
+    assert_eq!((tool.missing.len(), tool.assumed.len()), (0, 1));
     let tool = bit("endmill", json!({ "Diameter": "six", "CuttingEdgeHeight": "20 deg" }));
     assert_eq!(lacks(&tool), ["diameter", "flute_length"]);
     assert_eq!(tool.dropped, ["parameter.Diameter (no number with a unit)", "CuttingEdgeHeight (an angle)"]);
@@ -62,6 +72,18 @@ fn each_shape_has_its_own() {
         (ToolType::Tapered, 1.0, Some(30.0))
     );
     assert!(near(vee.table.flute_length, 2.5 * 3f64.sqrt()), "{}", vee.table.flute_length);
+    assert!(vee.assumed.is_empty(), "{:?}", vee.assumed);
+    let cone = |more: Value| bit("chamfer", sizes(more));
+    let sharp = cone(json!({ "CuttingEdgeAngle": "60 °" }));
+    assert_eq!(sharp.assumed, ["a sharp tip, as there is no TipDiameter"]);
+    for nought in [json!("0 mm"), json!(0)] {
+        let stated = cone(json!({ "CuttingEdgeAngle": "60 °", "TipDiameter": nought.clone() }));
+        assert!(stated.missing.is_empty() && stated.assumed.is_empty(), "{stated:?}");
+        assert_eq!(stated.table, sharp.table, "{nought}");
+    }
+    // From 1 to 6 mm at 30 degrees it is 4.33 mm high.
+    let keys = json!({ "CuttingEdgeAngle": "60 °", "TipDiameter": "1 mm", "CuttingEdgeHeight": "4 mm" });
+    assert_eq!(lacks(&cone(keys)), ["half_angle"]);
     let drill = bit("drill", json!({ "Diameter": "5.0 mm", "TipAngle": "119.0 °" }));
     assert_eq!((drill.table.kind, lacks(&drill)), (ToolType::Drill, vec!["flute_length"]));
     assert!(near(drill.table.point_angle.unwrap().to_degrees(), 119.0));

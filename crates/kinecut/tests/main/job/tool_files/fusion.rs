@@ -200,3 +200,45 @@ fn values_of_another_type_are_named_and_nothing_panics() {
     let many = format!("{{\"data\": [{}]}}", vec!["{}"; 10_001].join(","));
     assert!(wrong("a.json", many).to_string().contains("too many tools"));
 }
+
+#[test]
+fn contradictions_of_a_cone_are_found() {
+    let of = |geometry: Value| {
+        let tool = json!({ "type": "chamfer mill", "unit": "millimeters", "geometry": geometry, "post-process": { "number": 1 } });
+        read("a.json", library(vec![tool])).unwrap().tools.remove(0)
+    };
+    // From 2 to 10 mm at 45 degrees it is 4 mm high: edges of 3 mm do not reach the largest diameter.
+    let short = of(json!({ "DC": 10, "LCF": 3, "TA": 45, "tip-diameter": 2 }));
+    assert_eq!((lacks(&short), short.table.half_angle), (vec!["half_angle"], None));
+    let why = &short.missing[0].why;
+    assert!(why.contains("geometry.LCF is 3 mm") && why.contains("needs 4 mm from 2 mm to 10 mm"), "{why}");
+    assert_eq!(short.dropped, ["geometry.DC (10 mm, the largest diameter)"]);
+    let exact = of(json!({ "DC": 10, "LCF": 3.9999, "TA": 45, "tip-diameter": 2 }));
+    assert!(exact.missing.is_empty() && exact.dropped.is_empty(), "{exact:?}");
+    assert_eq!(lacks(&of(json!({ "DC": 10, "LCF": 3, "TA": 45, "tip-diameter": 10 }))), ["flute_length"]);
+    // Without an angle the diameter that stays is that of the tip.
+    let open = of(json!({ "DC": 10, "LCF": 3, "tip-diameter": 2 }));
+    assert_eq!((lacks(&open), open.table.diameter), (vec!["half_angle"], 2.0));
+    assert_eq!(lacks(&of(json!({ "DC": 10, "LCF": 3 }))), ["half_angle", "diameter"]);
+    // Tip, angle and height are a whole cone.
+    let whole = of(json!({ "LCF": 3, "TA": 45, "tip-diameter": 2 }));
+    assert_eq!((lacks(&whole).len(), whole.table.diameter, whole.table.flute_length), (0, 2.0, 3.0));
+    assert_eq!(lacks(&of(json!({ "LCF": 3, "TA": 45 }))), ["diameter"]);
+    // A tip that no field gives is assumed to be sharp; one of 0 is stated.
+    let sharp = of(json!({ "DC": 10, "LCF": 5, "TA": 45 }));
+    assert_eq!(sharp.assumed, ["a sharp tip, as there is no geometry.tip-diameter"]);
+    let stated = of(json!({ "DC": 10, "LCF": 5, "TA": 45, "tip-diameter": 0 }));
+    assert!(stated.assumed.is_empty() && stated.table == sharp.table, "{stated:?}");
+}
+
+#[test]
+fn a_cone_takes_the_spindle_speed_of_its_presets() {
+    let mut tool = mill();
+    tool["type"] = "chamfer mill".into();
+    tool["geometry"]["TA"] = json!(45);
+    let library = read("a.json", library(vec![tool])).unwrap();
+    let (tool, preset) = (&library.tools[0], &library.tools[0].table.presets[0]);
+    // 150 m/min is that of 10 mm: an operation would take it at the width of its chamfer.
+    assert_eq!((preset.speed, preset.cutting_speed), (Some(4774.648), None));
+    assert!(tool.dropped.iter().any(|field| field == "start-values.presets.v_c"), "{:?}", tool.dropped);
+}

@@ -2,6 +2,7 @@
 
 use std::collections::BTreeSet;
 
+use kinecut::job::file::ToolType;
 use kinecut::job::library::library_toml;
 use kinecut::tool::Cutter;
 
@@ -25,6 +26,22 @@ fn forty_tools_are_valid_and_found_by_their_names() {
             |c: &Cutter| matches!(c, Cutter::Drill { diameter, .. } if (diameter - wanted).abs() <= 0.051);
         tools.iter().any(|tool| tool.name.starts_with("drill") && is_it(&tool.cutter))
     };
+    // Whatever goes only into a hole that is there does not cut at its centre; thin mills have a shank that a collet holds.
+    for tool in &tools {
+        let opens = tool.name.starts_with("reamer") || tool.name.starts_with("boring tool");
+        let cuts = !opens && !tool.name.starts_with("face mill");
+        assert_eq!(tool.centre_cutting, cuts, "{}", tool.name);
+        if let Cutter::EndMill { diameter } = tool.cutter {
+            assert_eq!(tool.shank_diameter, diameter.max(6.0), "{}", tool.name);
+        }
+        // A cutting speed at the width of a chamfer would be more than a spindle has.
+        if matches!(tool.cutter, Cutter::Tapered { .. }) {
+            let most = tool.limits.max_speed.unwrap() * 60.0 / std::f64::consts::TAU;
+            assert!((most - 12_000.0).abs() < 1e-6, "{most}");
+        }
+    }
+    let cones = library.tools.iter().filter(|tool| tool.table.kind == ToolType::Tapered);
+    assert!(cones.flat_map(|tool| &tool.table.presets).all(|p| p.cutting_speed.is_none()));
     let mut checked = 0;
     for tool in &tools {
         let wanted = match &tool.cutter {
