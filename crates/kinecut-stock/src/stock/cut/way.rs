@@ -20,6 +20,8 @@ const LEAST_TRAVEL: f64 = 0.05;
 const SPEEDS: u32 = 16;
 /// Most by which a point may lie outside of a tool that holds it: rounding of ends [mm].
 const ROUNDING: f64 = 3e-5;
+/// Room about what a stretch sweeps in which a point that is cut may lie: rounding of what was cut [mm].
+const SLACK: f64 = 0.01;
 /// Looks for the time at which a tool is nearest to a point.
 const LOOKS: u32 = 12;
 /// Looks for the time at which it comes there.
@@ -107,7 +109,11 @@ impl<'a> ToolWay<'a> {
         let (spans, _) = spans(&self.motion, self.reach, self.travel, is_far);
         let one = |span: PoseSpan| {
             let (stray, middle) = (span.stray(self.reach), span.at(0.0));
-            let swept = swept((middle.tip, middle.axis)).grown(stray + ROUNDING);
+            // Each point of the tool goes nearly straight from its place at the start to that at the end: no farther from the line
+            // between them than twice its bend, and the sagitta of the turn about the axis.
+            let off = 2.0 * span.bend(self.reach) + 0.125 * span.turn().powi(2) * self.body.radius;
+            let [start, end] = [-0.5, 0.5].map(|t| span.at(t)).map(|pose| swept((pose.tip, pose.axis)));
+            let swept = start.union(end).grown(off + SLACK);
             WaySpan { span, middle, swept, stray, far: (self.body.radius + stray + ROUNDING).powi(2) }
         };
         spans.into_iter().map(one).filter(|own| own.meets(region)).collect()
@@ -122,7 +128,10 @@ impl<'a> ToolWay<'a> {
         short: f64,
     ) -> Option<Coming> {
         let mut nearest: Option<(f64, Coming)> = None;
-        for WaySpan { span, middle, stray, far, .. } in near {
+        for own @ WaySpan { span, middle, stray, far, .. } in near {
+            if !own.may_hold(point) {
+                continue;
+            }
             let from_tip = point - middle.tip;
             if from_tip.length_squared() - from_tip.dot(middle.axis).powi(2) > *far {
                 continue;

@@ -117,7 +117,7 @@ impl PoseSpan {
     }
 
     /// The part of the way of any point within `reach` of the tip that no constant velocity explains [mm].
-    pub(super) fn bend(&self, reach: f64) -> f64 {
+    pub(in super::super) fn bend(&self, reach: f64) -> f64 {
         let of = |c: &[DVec3; 4]| 0.25 * c[2].length() + 0.125 * c[3].length();
         of(&self.tip) + reach * of(&self.axis)
     }
@@ -146,7 +146,8 @@ impl PoseSpan {
         self.tip[1].length() + 2.0 * self.tip[2].length() + self.tip[3].length()
     }
 
-    fn turn(&self) -> f64 {
+    /// Turn of the axis, at most [rad].
+    pub(in super::super) fn turn(&self) -> f64 {
         self.axis[1].length() + 2.0 * self.axis[2].length() + self.axis[3].length()
     }
 
