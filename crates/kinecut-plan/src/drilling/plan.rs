@@ -5,8 +5,8 @@ use std::f64::consts::TAU;
 use super::advice::{Advice, GIVEN, INDEXABLE_PRE_HOLE, OUR_DEFAULT, advice};
 use super::lengths::Frames;
 use super::{
-    BoundarySurface, Coordinates, Cover, DrillSpec, DrillWay, End, Feeds, Lengths, LipBalance, Passage,
-    PreHole, Side, SpindleSpeed, Transient, Travel, Zone, ZoneStage, lip_balance, transient, zones,
+    BoundarySurface, Coordinates, Cover, DrillSpec, DrillWay, End, Feeds, Lengths, LipBalance, Mouth,
+    Passage, PreHole, Side, SpindleSpeed, Transient, Travel, Zone, ZoneStage, lip_balance, transient, zones,
 };
 use crate::base::{Code, Finding, Result};
 use crate::geom::EdgeProfile;
@@ -118,7 +118,7 @@ impl PassedBody {
             && spec.pre_hole.as_ref().is_none_or(PreHole::leaves_annulus);
         if !simple {
             in_body(spec)?;
-            let passages = match &spec.passages {
+            let mut passages = match &spec.passages {
                 Some(found) => found.clone(),
                 None => DrillWay {
                     entry: spec.entry,
@@ -129,12 +129,21 @@ impl PassedBody {
                 }
                 .passages(&edge)?,
             };
+            if let Some((mouth, face)) = spec.level_mouth() {
+                let inner =
+                    spec.pre_hole.as_ref().filter(|h| h.is_concentric()).map_or(0.0, |h| 0.5 * h.diameter);
+                mouth.lower(&mut passages, &edge, inner, face).map_err(|e| e.under("entry"))?;
+            }
             let beside = || Finding::error(Code::DRILL_MISSES, "the drill meets nothing");
             let entry = whole(&passages, Side::Entry).ok_or_else(beside)?;
             let exit = if spec.end.exit().is_some() { whole(&passages, Side::Exit) } else { None };
             return Ok(PassedBody { edge, passages, entry, exit, banded: false });
         }
-        let entry = transient(&edge, &spec.entry, Cover::Whole).map_err(|e| e.under("entry"))?;
+        let entry = match spec.level_mouth() {
+            Some((mouth, face)) => mouth.transient(&edge, face),
+            None => transient(&edge, &spec.entry, Cover::Whole),
+        };
+        let entry = entry.map_err(|e| e.under("entry"))?;
         let exit = match spec.end.exit() {
             Some(exit) => Some(transient(&edge, exit, Cover::Whole).map_err(|e| e.under("exit"))?),
             None => None,
@@ -193,6 +202,14 @@ fn whole(passages: &[Passage], side: Side) -> Option<Transient> {
 }
 
 impl DrillSpec {
+    /// The recess in the face that it enters, and the height of that, where it is level [mm].
+    fn level_mouth(&self) -> Option<(&Mouth, f64)> {
+        match self.entry {
+            BoundarySurface::Plane { height, slope: 0.0 } => Some((self.mouth.as_ref()?, height)),
+            _ => None,
+        }
+    }
+
     /// The part of the tool's edge that cuts: without what runs in a through hole about the same axis, and up to the
     /// diameter that is reached. Passages found in a body must be those of this edge.
     ///

@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{BoundarySurface, CrossBore, DrillMethod, Passage, PreHole};
+use super::{BoundarySurface, CrossBore, DrillMethod, Mouth, Passage, PreHole};
 use crate::tool::DrillPoint;
 
 /// A hole to drill; Z in the frame of the entry (W_h), mm, rad, s.
@@ -23,6 +23,8 @@ pub struct DrillSpec {
     pub end: End,
     /// A hole that is there.
     pub pre_hole: Option<PreHole>,
+    /// A recess about the axis in the face that it enters; only where that is level.
+    pub mouth: Option<Mouth>,
     /// Bores that cross the way.
     pub bores: Vec<CrossBore>,
     /// Angle of the exit's u from the entry's; see [`DrillWay`](super::DrillWay).
@@ -94,6 +96,7 @@ impl DrillSpec {
             length: 0.0,
             end: End::Through { exit, overrun: 2.0 },
             pre_hole: None,
+            mouth: None,
             bores: Vec::new(),
             exit_turn: 0.0,
             passages: None,

@@ -7,7 +7,8 @@ use super::tilt::{all_zero, tilt, tilted};
 use crate::base::{Code, Error, Finding, Progress, Result};
 use crate::machine::Machine;
 use crate::operations::{
-    Attempt, Clamping, MadeHole, Milling, Operation, OperationPlan, Pen, PlacedPlane, Setting, WearRegister,
+    Attempt, Clamping, MadeHole, Milling, Operation, OperationPlan, Pen, PlacedMouth, PlacedPlane, Setting,
+    WearRegister,
 };
 use crate::program::{
     Coolant, Frame, FrameId, Move, Origin, Path, Program, Role, SetupId, Speed, Spindle, State, StopKind,
@@ -79,11 +80,12 @@ pub fn plan(job: &Job, progress: &dyn Progress) -> Result<Vec<SetupPlan>> {
     Ok(planned)
 }
 
-/// Holes and planes that operations leave, over all setups.
+/// Holes, planes and recesses that operations leave, over all setups.
 #[derive(Default)]
 struct Made {
     holes: Vec<MadeHole>,
     planes: Vec<PlacedPlane>,
+    mouths: Vec<PlacedMouth>,
 }
 
 /// Plans the operations of a setup, the first of which has the number `first`; `made` gathers what they leave.
@@ -106,6 +108,7 @@ fn plan_setup(
         let setting = Setting {
             made: &made.holes,
             faced: &made.planes,
+            mouths: &made.mouths,
             milled: milled_before,
             ..setting(job, setup, &clamping, number, progress)
         };
@@ -124,6 +127,7 @@ fn plan_setup(
         let to_part = clamping.to_work().inverse();
         made.holes.extend(plan.holes().into_iter().map(|hole| MadeHole { hole, to_part }));
         made.planes.extend(plan.made_plane().map(|plane| PlacedPlane { plane, to_part }));
+        made.mouths.extend(plan.mouths().into_iter().map(|mouth| PlacedMouth { mouth, to_part }));
         milled = plan.milled().or(milled);
         operations.push(PlannedOperation { number, plan });
     }
@@ -147,6 +151,7 @@ pub(crate) fn setting<'a>(
         drilled: &job.drilled,
         made: &[],
         faced: &[],
+        mouths: &[],
         milled: None,
         machine: job.machine.as_ref(),
         orientation: job.orientation,

@@ -9,8 +9,11 @@ use super::face::FacingTable;
 use super::measured::{BoreMeasure, FaceMeasure, Loose, Probe, Proof, TakenOut, WallProbe};
 use super::named::NamedOutline;
 use super::wanted::{PlannedOutline, WantedPlane, WantedWall};
-use super::{Around, CalledTool, MadePlane, Milling, Pen, PlaneTable, PostedPlan, RoundHole, Setting};
+use super::{
+    Around, CalledTool, MadeMouth, MadePlane, Milling, Pen, PlaneTable, PostedPlan, RoundHole, Setting,
+};
 use crate::base::{Finding, Result};
+use crate::drilling::FeedChoice;
 use crate::page::Section;
 use crate::program::Setup;
 use crate::stock::{PointEngagement, WallEnd};
@@ -63,6 +66,8 @@ pub(crate) struct CuttingKeys<'a> {
     pub(crate) cutting_speed: &'a mut Option<f64>,
     /// Keys of its feed, where that may be left out.
     pub(crate) feed: Option<FeedKeys<'a>>,
+    /// `feed_per_rev` of a drill.
+    pub(crate) per_rev: Option<&'a mut Option<FeedChoice>>,
 }
 
 /// Keys of the feed of an operation.
@@ -194,6 +199,11 @@ pub(crate) trait Plan: Sized {
     /// The plane that it leaves, for operations after it.
     fn made_plane(&self) -> Option<MadePlane> {
         None
+    }
+
+    /// The recesses at the mouths of holes that it leaves, for drills after it.
+    fn mouths(&self) -> Vec<MadeMouth> {
+        Vec::new()
     }
 
     /// The face that it has milled, for operations after it that go by its edges.

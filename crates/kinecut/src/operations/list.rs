@@ -217,6 +217,11 @@ macro_rules! kinds {
                 match self { $(OperationPlan::$kind(p) => p.made_plane(),)* }
             }
 
+            /// The recesses at the mouths of holes that it leaves.
+            pub(crate) fn mouths(&self) -> Vec<MadeMouth> {
+                match self { $(OperationPlan::$kind(p) => p.mouths(),)* }
+            }
+
             /// The plane that it wants.
             pub(crate) fn plane(&self) -> Option<WantedPlane<'_>> {
                 match self { $(OperationPlan::$kind(p) => p.plane(),)* }

@@ -5,7 +5,7 @@ use std::borrow::Cow;
 use glam::DVec3;
 
 use super::edge::FaceEdges;
-use super::{MadeHole, Milling, OperationTable, OrientationName, PlacedPlane};
+use super::{MadeHole, Milling, OperationTable, OrientationName, PlacedMouth, PlacedPlane};
 use crate::base::{Loader, Progress};
 use crate::geom::{Aabb, Rigid, Solid};
 use crate::machine::Machine;
@@ -101,6 +101,8 @@ pub(crate) struct Setting<'a> {
     pub(crate) made: &'a [MadeHole],
     /// Planes that operations before it leave.
     pub(crate) faced: &'a [PlacedPlane],
+    /// Recesses at the mouths of holes that operations before it leave.
+    pub(crate) mouths: &'a [PlacedMouth],
     /// The face that was milled last before it in its setup.
     pub(crate) milled: Option<&'a FaceEdges>,
     /// The machine, if there is one.

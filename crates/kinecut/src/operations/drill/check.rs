@@ -7,7 +7,7 @@ use super::plan::{PlannedDrilling, planned};
 use super::{DrillTable, ExitTable, FaceTable, SurfaceName};
 use crate::base::bounded::{MAX_LENGTH, bounded, length, positive};
 use crate::base::{Code, Error, Finding, Loader, Result};
-use crate::drilling::DrillMethod;
+use crate::drilling::{DrillMethod, FeedChoice};
 use crate::geom::{Mesh, load_mesh};
 use crate::operations::kind::{self, Attempt};
 use crate::operations::places::{HolePlace, places};
@@ -28,6 +28,8 @@ pub struct DrillOperation {
     pub method: DrillMethod,
     /// Speed of the spindle as the cutting speed has it [rad/s]; a program has whole revolutions per minute.
     pub exact_spindle: f64,
+    /// Feeds.
+    pub feed: FeedChoice,
     /// The holes in the order of drilling.
     pub holes: Vec<HolePlace>,
     /// The mesh whose surfaces are met, if one is named.
@@ -91,7 +93,12 @@ impl kind::Table for DrillTable {
     }
 
     fn data(&mut self) -> Option<CuttingKeys<'_>> {
-        Some(CuttingKeys { speed: &mut self.speed, cutting_speed: &mut self.cutting_speed, feed: None })
+        Some(CuttingKeys {
+            speed: &mut self.speed,
+            cutting_speed: &mut self.cutting_speed,
+            feed: None,
+            per_rev: Some(&mut self.feed_per_rev),
+        })
     }
 
     fn plane(&self) -> Option<&PlaneTable> {
@@ -114,12 +121,17 @@ fn operation(t: &DrillTable, tools: &[Tool], loader: &dyn Loader) -> Result<Dril
     excluded(t)?;
     let about = ("reach_diameter", t.reach_diameter.unwrap_or(diameter));
     let exact_spindle = spindle(t.speed, t.cutting_speed, about)?;
-    for (key, value) in [("entry", t.feed_per_rev.entry), ("exit", t.feed_per_rev.exit)] {
-        if let Some(feed) = value {
-            positive(&format!("feed_per_rev.{key}"), feed, 100.0, "mm/rev")?;
+    let feed = t.feed_per_rev.ok_or_else(|| {
+        Finding::error(Code::JOB_SHAPE, "the operation needs a feed")
+            .help("give feed_per_rev = { steady = 0.1 } (mm per revolution)")
+            .key("feed_per_rev")
+    })?;
+    for (key, value) in [("entry", feed.entry), ("exit", feed.exit)] {
+        if let Some(value) = value {
+            positive(&format!("feed_per_rev.{key}"), value, 100.0, "mm/rev")?;
         }
     }
-    positive("feed_per_rev.steady", t.feed_per_rev.steady, 100.0, "mm/rev")?;
+    positive("feed_per_rev.steady", feed.steady, 100.0, "mm/rev")?;
     if let Some(peck) = t.peck {
         positive("peck.step", peck.step, MAX_LENGTH, "mm")?;
     }
@@ -164,6 +176,7 @@ fn operation(t: &DrillTable, tools: &[Tool], loader: &dyn Loader) -> Result<Dril
     Ok(DrillOperation {
         milling: milling_of(tool, spindle, t.coolant, t.tolerance)?,
         method: t.method,
+        feed,
         exact_spindle,
         holes,
         body,

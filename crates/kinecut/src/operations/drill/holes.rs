@@ -109,7 +109,7 @@ pub(crate) fn plan_each(setting: &Setting<'_>, drill: &DrillOperation) -> Result
         None => Some(DrilledBody::new(setting, drill).map_err(|e| e.under("body"))?),
     };
     let one = |(number, place): (usize, &HolePlace)| {
-        let hole = plan_hole(drill, body.as_ref(), number, place.at)?;
+        let hole = plan_hole(setting, drill, body.as_ref(), number, place.at)?;
         below(hole.plan.travel.start + hole.zero, clearance)?;
         Ok(hole)
     };
@@ -127,6 +127,7 @@ fn below(start: f64, clearance: f64) -> Result<()> {
 }
 
 fn plan_hole(
+    setting: &Setting<'_>,
     drill: &DrillOperation,
     body: Option<&DrilledBody<'_>>,
     number: usize,
@@ -163,12 +164,21 @@ fn plan_hole(
             return Err(finding.help("give `exit`, `depth`, `tip` or `reach_diameter`").into());
         }
     };
+    let mouth = match surfaces.entry {
+        BoundarySurface::Plane { height, slope: 0.0 } => {
+            let point = glam::DVec3::new(at[0], at[1], t.top);
+            let to_part = setting.clamping.to_work().inverse();
+            setting.mouths.iter().rev().find_map(|mouth| mouth.seen(&to_part, point, height))
+        }
+        _ => None,
+    };
     let there = hole_there(surfaces.across)?.or(surfaces.pre_hole);
     let spec = DrillSpec {
         entry: surfaces.entry,
         bores: t.cross_bores.iter().map(|b| bore(b, at, t.top, surfaces.across)).collect(),
         exit_turn: surfaces.exit_turn,
         passages: surfaces.passages,
+        mouth,
         ..spec(drill, end, there)
     };
     let plan = plan_drill(&spec)?;
@@ -187,13 +197,14 @@ fn spec(drill: &DrillOperation, end: End, pre_hole: Option<PreHole>) -> DrillSpe
         length: t.length.unwrap_or(0.0),
         end,
         pre_hole,
+        mouth: None,
         bores: Vec::new(),
         exit_turn: 0.0,
         passages: None,
         approach: t.approach,
         tolerance: t.surface_tolerance,
         turning: SpindleSpeed::Spindle(drill.milling.spindle),
-        feed: t.feed_per_rev,
+        feed: drill.feed,
         guided: t.guided,
     }
 }

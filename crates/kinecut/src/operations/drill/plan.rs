@@ -9,10 +9,11 @@ use super::prove::claim;
 use super::section::sections;
 use super::{DrillOperation, HoleJson, PlannedHole, hole_json};
 use crate::base::{Finding, Result};
+use crate::drilling::{BoundarySurface, End};
 use crate::nc::Control;
 use crate::operations::measured::{Loose, Proof};
 use crate::operations::wanted::{Wall, WantedWall};
-use crate::operations::{Found, Judged, Pen, PostedPlan, Probes, RoundHole, Shown, Tally, kind};
+use crate::operations::{Found, Judged, MadeMouth, Pen, PostedPlan, Probes, RoundHole, Shown, Tally, kind};
 use crate::page::Section;
 use crate::tool::DrillPoint;
 
@@ -77,6 +78,10 @@ impl kind::Plan for PlannedDrilling {
         self.holes.iter().filter_map(PlannedHole::as_hole).collect()
     }
 
+    fn mouths(&self) -> Vec<MadeMouth> {
+        self.holes.iter().filter_map(PlannedHole::as_mouth).collect()
+    }
+
     fn probes(&self, posted: &PostedPlan<'_>, most: usize) -> Probes {
         Probes { points: self.probes_of(posted, most), walls: None }
     }
@@ -117,7 +122,13 @@ impl PlannedHole {
         // Height of the corner, where the edge meets the wall, above the tip.
         let corner = self.plan.edge.segments().last()?.height(radius);
         let above = self.zero + corner;
-        let top = self.plan.entry.last + above;
+        // In a recess at its mouth the wall begins where that has its radius.
+        let mouth =
+            self.spec.mouth.as_ref().and_then(|m| Some(m.height + m.edge.height(radius)? + self.zero));
+        let top = mouth.unwrap_or_else(|| match self.spec.entry {
+            BoundarySurface::Plane { height, slope: 0.0 } if self.spec.mouth.is_some() => height + self.zero,
+            _ => self.plan.entry.last + above,
+        });
         // In a blind hole a nub may be higher than the corner.
         let floor = self.zero + self.plan.edge.extent()[1];
         let bottom = self.plan.exit.map_or(self.plan.travel.end + floor, |e| e.first + above);
@@ -143,6 +154,19 @@ impl PlannedHole {
         let hole = RoundHole::of_wall(&self.wall()?)?;
         let lowest = self.plan.travel.end + self.zero + self.plan.edge.extent()[1];
         Some(RoundHole { bottom: lowest, through: self.plan.exit.is_some(), ..hole })
+    }
+}
+
+impl PlannedHole {
+    /// The recess that it leaves at the mouth of a hole that follows, cut to a diameter in a level face.
+    fn as_mouth(&self) -> Option<MadeMouth> {
+        let level = matches!(self.spec.entry, BoundarySurface::Plane { slope: 0.0, .. });
+        let whole = level && matches!(self.spec.end, End::Reached(_)) && self.spec.mouth.is_none();
+        let edge = self.plan.edge;
+        (whole && edge.inner_radius() == 0.0).then(|| {
+            let tip = self.plan.travel.end + self.zero;
+            MadeMouth { tip: glam::DVec3::new(self.at[0], self.at[1], tip), edge }
+        })
     }
 }
 

@@ -79,8 +79,9 @@ pub struct DrillTable {
     /// Spindle speed, rev/min.
     #[serde(default)]
     pub speed: Option<f64>,
-    /// Feeds, mm per revolution.
-    pub feed_per_rev: FeedChoice,
+    /// Feeds, mm per revolution; default: that of the tool's preset for the material.
+    #[serde(default)]
+    pub feed_per_rev: Option<FeedChoice>,
     /// Steps of the steady stretch.
     #[serde(default)]
     pub peck: Option<PeckTable>,
@@ -102,6 +103,13 @@ pub struct DrillTable {
     /// Largest allowed deviation of the wall; default 0.02.
     #[serde(default)]
     pub tolerance: Option<f64>,
+}
+
+impl DrillTable {
+    /// One in which all that has a usual value has it.
+    pub(crate) fn usual() -> DrillTable {
+        DrillTable { approach: two(), cycles: yes(), ..DrillTable::default() }
+    }
 }
 
 fn two() -> f64 {
