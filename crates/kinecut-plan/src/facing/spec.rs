@@ -36,6 +36,8 @@ pub enum PassesChoice {
     /// One straight pass.
     #[default]
     One,
+    /// One straight pass, or where the part is too wide for it as few rows as cover it.
+    Fewest,
     /// This many parallel rows, their offsets and directions optimised.
     Rows(u32),
     /// Along the outline, the cutter's centre this far outside the edge [mm] (negative: inside), then rings inwards.

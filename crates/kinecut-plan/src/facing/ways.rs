@@ -47,6 +47,7 @@ impl Ways<'_> {
         // A kind of pass that was asked for; without one the best of all ways is chosen below.
         let asked = match self.spec.passes {
             PassesChoice::One => Some(self.one(self.placement()?)),
+            PassesChoice::Fewest => Some(self.fewest()?),
             PassesChoice::Rows(count) => Some(self.rows(count as usize)?),
             PassesChoice::Frames(outside) => Some(self.frames(outside)?),
             PassesChoice::LeastBurr | PassesChoice::Fastest => None,
@@ -210,6 +211,24 @@ impl Ways<'_> {
         let path = PassPath::straight(placement, along, run);
         let name = pass_name(self.seen(placement.angle));
         self.way(name, path, Some(placement.angle), Some(placement.offset))
+    }
+
+    /// One straight pass, or where the part is too wide for it the best of as few rows as cover it.
+    fn fewest(&self) -> Result<MillingWay> {
+        let too_wide = match self.placement() {
+            Ok(placement) => return Ok(self.one(placement)),
+            Err(e) if e.code() == Code::FACE_TOO_WIDE => e,
+            Err(e) => return Err(e),
+        };
+        let angles = match self.spec.placement {
+            // An offset is that of one pass.
+            PlacementChoice::Given { offset: Some(_), .. } => return Err(too_wide),
+            _ => self.angle().map_or_else(|| self.row_angles(), |angle| vec![angle]),
+        };
+        let margin = self.spec.options.margin;
+        let least = angles.iter().filter_map(|a| MilledRows::least(self.case, *a, margin)).min();
+        // Rows that cover the face may not be those that may be turned so.
+        least.map_or(Err(too_wide), |count| self.rows(count.max(2)).or_else(|_| self.rows(count.max(2) + 1)))
     }
 
     /// The best rows of this number.

@@ -9,7 +9,7 @@ use super::{FaceOperation, SimulatedFace, TurnName};
 use crate::base::{Error, Finding, Result};
 use crate::facing::optimum::Options;
 use crate::facing::passes::{EdgeStretch, PassPath};
-use crate::facing::{self, FacePlan, FaceSpec, MillingWay, Tooth, ToothedPass};
+use crate::facing::{self, FacePlan, FaceSpec, MillingWay, PassesChoice, Tooth, ToothedPass};
 use crate::operations::{Attempt, Setting};
 
 /// A planned face operation.
@@ -158,7 +158,7 @@ fn spec(face: &FaceOperation, compare: bool, rapid: Option<f64>) -> FaceSpec {
         guard: face.guard,
         options: options(face, false),
         placement: t.placement.unwrap_or_default(),
-        passes: t.passes.unwrap_or_default(),
+        passes: t.passes.unwrap_or(PassesChoice::Fewest),
         feed: face.feed,
         rapid: rapid.unwrap_or(USUAL_RAPID),
         clearance: t.clearance.unwrap_or(5.0),

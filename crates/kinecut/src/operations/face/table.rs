@@ -101,7 +101,8 @@ pub struct FacingTable {
     /// Placement under the cutter: "least-burr", "as-drawn", or { angle = .., offset = .. }; default least-burr.
     #[serde(default)]
     pub placement: Option<PlacementChoice>,
-    /// Passes that mill it: "one", { rows = 3 }, { frames = 10 }, "least-burr" or "fastest" of all; default one.
+    /// Passes that mill it: "one", "fewest", { rows = 3 }, { frames = 10 }, "least-burr" or "fastest" of all; default "fewest": one, or
+    /// as few rows as cover a part that is too wide for it.
     #[serde(default)]
     pub passes: Option<PassesChoice>,
     /// Path, coordinates or part: the one turned to give the feed the planned direction; default the path.

@@ -247,7 +247,11 @@ fn what_makes_no_sense_is_refused_with_its_key() {
             "KC0804",
             "(5.0000, 5.0000)",
         ),
-        ("outline = { loops = [[[0, 0], [90, 0], [90, 90], [0, 90]]] }".to_owned(), "KC1002", "wide"),
+        (
+            "outline = { loops = [[[0, 0], [90, 0], [90, 90], [0, 90]]] }\npasses = \"one\"".to_owned(),
+            "KC1002",
+            "wide",
+        ),
     ] {
         let error = outcome("linuxcnc", &keys).expect_err(&keys);
         assert_eq!(error.code().as_str(), code, "{keys}: {error}");
@@ -258,4 +262,17 @@ fn what_makes_no_sense_is_refused_with_its_key() {
         );
         assert!(shown.starts_with("job.toml:"), "{keys}: {shown}");
     }
+}
+
+#[test]
+fn a_part_too_wide_for_one_pass_is_milled_in_as_few_rows_as_cover_it() {
+    let ways = |keys: &str| {
+        let done = outcome("linuxcnc", keys).unwrap_or_else(|e| panic!("{keys}: {e}"));
+        faces(&done.setups[0].planned)[0].chosen().name.clone()
+    };
+    let square =
+        |side: u32| format!("outline = {{ loops = [[[0, 0], [{side}, 0], [{side}, {side}], [0, {side}]]] }}");
+    assert!(ways(&square(90)).starts_with("2 best rows"), "{}", ways(&square(90)));
+    assert!(ways(&square(160)).starts_with("3 best rows"), "{}", ways(&square(160)));
+    assert!(ways(&square(40)).starts_with("one pass"), "{}", ways(&square(40)));
 }
