@@ -13,6 +13,7 @@ pub(crate) mod feeds;
 pub mod file;
 pub(crate) mod following;
 pub(crate) mod held_feed;
+mod holes;
 pub mod inspect;
 pub(crate) mod items;
 mod lacking;

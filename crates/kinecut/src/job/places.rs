@@ -46,6 +46,21 @@ impl Places {
         self.included.insert(key.to_owned(), (Arc::clone(places), own.to_owned()));
     }
 
+    /// Gives the entries of a list the numbers of another: its entry `i` is that of `origins[i]` in the text.
+    pub(super) fn renumber(&mut self, list: &str, origins: &[usize]) {
+        let under = |prefix: &str| -> Vec<(String, Range<usize>)> {
+            let own = self.ranges.range(prefix.to_owned()..).take_while(|(key, _)| key.starts_with(prefix));
+            own.map(|(key, range)| (key[prefix.len()..].to_owned(), range.clone())).collect()
+        };
+        let all: Vec<Vec<(String, Range<usize>)>> =
+            origins.iter().map(|origin| under(&format!("{list}[{origin}]"))).collect();
+        let before = format!("{list}[");
+        self.ranges.retain(|key, _| !key.starts_with(&before));
+        for (i, own) in all.into_iter().enumerate() {
+            self.ranges.extend(own.into_iter().map(|(rest, range)| (format!("{list}[{i}]{rest}"), range)));
+        }
+    }
+
     /// A note for each key that has a new name, in the order of the keys.
     pub(super) fn renamed(&self, sources: &Sources) -> Vec<Finding> {
         self.ranges

@@ -8,7 +8,8 @@ use serde::de::DeserializeOwned;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue, Deserializer};
 
-use super::file::{JobFile, MachineEntry, MachineTable};
+use super::file::{HoleTable, JobFile, MachineEntry, MachineTable};
+use super::holes::expand;
 use super::lacking::{Keys, Lacking, is_missing, missing};
 use super::library::Shop;
 use super::places::{Places, parse, span, toml_error};
@@ -24,6 +25,8 @@ pub struct JobText {
     pub id: FileId,
     places: Places,
     shop: Shop,
+    /// Notes about tools that were chosen for holes.
+    chosen: Vec<Finding>,
 }
 
 impl JobText {
@@ -44,7 +47,7 @@ impl JobText {
         for tables in operations {
             let mut own = Vec::with_capacity(tables.len());
             for table in tables {
-                own.extend(operation_or_lack(sources, id, table, &mut lacking)?);
+                own.push(entry_or_lack(sources, id, table, &mut lacking)?);
             }
             decoded.push(own);
         }
@@ -53,7 +56,13 @@ impl JobText {
         }
         let Some(mut file) = file else { return Err(Finding::error(Code::JOB_SHAPE, "no job").into()) };
         for (setup, own) in file.setups.iter_mut().zip(decoded) {
-            setup.operations.extend(own);
+            for (at, entry) in own.into_iter().enumerate() {
+                match entry {
+                    Some(Entry::Operation(operation)) => setup.operations.push(*operation),
+                    Some(Entry::Hole(hole)) => setup.holes.push((at, *hole)),
+                    None => {}
+                }
+            }
         }
         file.machine = match machine.map(|m| (m.span(), m.into_inner())) {
             None => None,
@@ -74,14 +83,16 @@ impl JobText {
             }
         };
         let mut shop = Shop::read(sources, &mut file, &places, loader)?;
+        let chosen = expand(&mut file, &mut places, &mut shop).map_err(|e| places.locate(sources, e))?;
         shop.fill(&mut file, &mut places, loader).map_err(|e| places.locate(sources, e))?;
-        Ok(JobText { file, id, places, shop })
+        Ok(JobText { file, id, places, shop, chosen })
     }
 
     /// A note for each key that has a new name; what was taken of tool files, and what not.
     pub fn notes(&self, sources: &Sources) -> Vec<Finding> {
         let mut notes = self.places.renamed(sources);
-        notes.extend(self.shop.notes().into_iter().map(|note| *self.locate(sources, note.into()).0));
+        let about_tools = self.chosen.iter().cloned().chain(self.shop.notes());
+        notes.extend(about_tools.map(|note| *self.locate(sources, note.into()).0));
         notes
     }
 
@@ -220,32 +231,54 @@ pub(crate) fn decode_operation(
     value: Spanned<DeValue<'_>>,
 ) -> Result<OperationTable> {
     let mut lacking = Vec::new();
-    let operation = operation_or_lack(sources, id, value, &mut lacking)?;
-    match missing(sources, id, &lacking) {
-        Some(error) => Err(error),
-        None => operation.ok_or_else(|| Finding::error(Code::JOB_SHAPE, "no operation").into()),
+    let at = sources.locate(span(id, &value.span()));
+    let entry = entry_or_lack(sources, id, value, &mut lacking)?;
+    if let Some(error) = missing(sources, id, &lacking) {
+        return Err(error);
+    }
+    match entry {
+        Some(Entry::Operation(operation)) => Ok(*operation),
+        Some(Entry::Hole(_)) => {
+            let what = "`hole` becomes several operations, with tools of a job";
+            let finding = Finding::error(Code::JOB_SHAPE, what).at(at);
+            Err(finding.help("use `kinecut run` on the job, or write an operation").into())
+        }
+        None => Err(Finding::error(Code::JOB_SHAPE, "no operation").into()),
     }
 }
 
-fn operation_or_lack(
+/// An entry of a setup's list of operations.
+enum Entry {
+    Operation(Box<OperationTable>),
+    Hole(Box<HoleTable>),
+}
+
+/// The name of holes by their size in the job file.
+const HOLE: &str = "hole";
+
+fn entry_or_lack(
     sources: &Sources,
     id: FileId,
     value: Spanned<DeValue<'_>>,
     lacking: &mut Vec<Lacking>,
-) -> Result<Option<OperationTable>> {
+) -> Result<Option<Entry>> {
     let range = value.span();
     let mut table = table_of(sources, id, range.clone(), value.into_inner())?;
     let kind = table.get_mut().remove("type");
     let fail = |message: String, range: &Range<usize>| {
         Err(Finding::error(Code::JOB_SHAPE, message)
             .at(sources.locate(span(id, range)))
-            .help(format!("write type = \"{}\"", OperationTable::NAMES.join("\" or \"")))
+            .help(format!("write type = \"{}\" or \"{HOLE}\"", OperationTable::NAMES.join("\" or \"")))
             .into())
     };
     let Some(kind) = kind else { return fail("an operation has no type".to_owned(), &range) };
     match kind.get_ref().as_str() {
+        Some(HOLE) => {
+            let hole: Option<HoleTable> = decode_or_lack(sources, id, table, lacking)?;
+            Ok(hole.map(|hole| Entry::Hole(Box::new(hole))))
+        }
         Some(name) => match OperationTable::of_kind(name, InText { sources, id, table, lacking }) {
-            Some(Ok(operation)) => Ok(Some(operation)),
+            Some(Ok(operation)) => Ok(Some(Entry::Operation(Box::new(operation)))),
             Some(Err(None)) => Ok(None),
             Some(Err(Some(error))) => Err(error),
             None => fail(format!("unknown operation `{name}`"), &kind.span()),

@@ -6,6 +6,7 @@
 mod body;
 mod contour;
 mod fixture;
+mod hole;
 mod machine;
 mod program;
 mod tool;
@@ -14,6 +15,7 @@ mod tools;
 pub use body::*;
 pub use contour::*;
 pub use fixture::*;
+pub use hole::*;
 pub use machine::*;
 pub use program::*;
 pub use tool::*;
@@ -290,7 +292,11 @@ pub struct SetupTable {
     pub offsets: BTreeMap<String, [f64; 3]>,
     /// The operations, in order.
     #[serde(default, rename = "operation")]
+    #[schemars(with = "Vec<OperationEntry>")]
     pub operations: Vec<OperationTable>,
+    /// The holes by size among them, until operations take their place.
+    #[serde(skip)]
+    pub(crate) holes: Vec<ListedHole>,
     /// A program that others wrote, in place of operations: `program = { file = "O1234.nc", control = "fanuc" }`.
     #[serde(default)]
     pub program: Option<ProgramTable>,
@@ -318,6 +324,7 @@ impl SetupTable {
             breakthrough: None,
             offsets: BTreeMap::new(),
             operations: Vec::new(),
+            holes: Vec::new(),
             program: None,
         }
     }

@@ -1,6 +1,7 @@
 //! Cutting data of a tool for a material, taken by an operation that has no speed.
 
 use crate::base::{Code, Finding, Result};
+use crate::drilling::FeedChoice;
 use crate::job::file::{PresetTable, ToolTable};
 use crate::operations::{CuttingKeys, OperationTable, plain_name};
 
@@ -54,6 +55,10 @@ fn taken_data(keys: CuttingKeys<'_>, preset: &PresetTable) -> Vec<String> {
         taken.push(format!("speed {speed} rev/min"));
     } else {
         return taken;
+    }
+    if let (Some(per_rev), Some(feed)) = (keys.per_rev.filter(|own| own.is_none()), preset.feed_per_rev) {
+        *per_rev = Some(FeedChoice { entry: None, steady: feed, exit: None });
+        taken.push(format!("feed_per_rev {feed} mm"));
     }
     let Some(feed) = keys.feed.filter(|keys| keys.feed.is_none() && keys.per_tooth.is_none()) else {
         return taken;

@@ -139,7 +139,12 @@ impl Shop {
     }
 
     /// The number of a tool that is called, taken if a file has it; `None` where nothing has this number.
-    fn call(&mut self, file: &mut JobFile, places: &mut Places, called: &CalledTool) -> Result<Option<u32>> {
+    pub(in crate::job) fn call(
+        &mut self,
+        file: &mut JobFile,
+        places: &mut Places,
+        called: &CalledTool,
+    ) -> Result<Option<u32>> {
         let found = match called {
             CalledTool::Number(number) if self.is_own(file, *number) => {
                 if !self.of_number(*number).is_empty() {
@@ -174,6 +179,29 @@ impl Shop {
             },
             more => Err(several(called, &more.iter().map(|&at| self.title(at)).collect::<Vec<_>>())),
         }
+    }
+
+    /// The tools that can be taken: those of the job, and those of the files that have a number and lack nothing.
+    pub(in crate::job) fn usable<'a>(&'a self, file: &'a JobFile) -> Vec<&'a ToolTable> {
+        let own = &file.tools[..self.own];
+        let is_free = |tool: &&ToolTable| own.iter().all(|other| other.number != tool.number);
+        let of_file = |(k, library): (usize, &'a Library)| -> Vec<&'a ToolTable> {
+            let tools = library.tools.iter().zip(&self.valid[k]);
+            let usable =
+                tools.filter(|(tool, valid)| **valid && tool.missing.is_empty() && tool.has("number"));
+            usable.map(|(tool, _)| &tool.table).collect()
+        };
+        own.iter().chain(self.libraries.iter().enumerate().flat_map(of_file).filter(is_free)).collect()
+    }
+
+    /// Words for where its tools are: "`shop.toml`", "the job".
+    pub(in crate::job) fn place(&self) -> String {
+        let mut places: Vec<String> =
+            self.libraries.iter().map(|library| format!("`{}`", library.file)).collect();
+        if self.own > 0 || places.is_empty() {
+            places.insert(0, "the job".to_owned());
+        }
+        places.join(" and ")
     }
 
     fn is_own(&self, file: &JobFile, number: u32) -> bool {

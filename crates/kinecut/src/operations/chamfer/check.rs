@@ -66,7 +66,12 @@ impl kind::Table for ChamferTable {
 
     fn data(&mut self) -> Option<CuttingKeys<'_>> {
         let feed = Some(FeedKeys { feed: &mut self.feed, per_tooth: &mut self.feed_per_tooth });
-        Some(CuttingKeys { speed: &mut self.speed, cutting_speed: &mut self.cutting_speed, feed })
+        Some(CuttingKeys {
+            speed: &mut self.speed,
+            cutting_speed: &mut self.cutting_speed,
+            feed,
+            per_rev: None,
+        })
     }
 
     fn plane(&self) -> Option<&PlaneTable> {

@@ -51,7 +51,7 @@ pub struct SlotTable {
     /// Climb or conventional milling; default climb.
     #[serde(default)]
     pub direction: Sense,
-    /// Largest angle of the cutter's circle that cuts, degrees, between 5 and 120; default 60. 180 for a slot as wide as the cutter.
+    /// Largest angle of the cutter's circle that cuts, degrees, between 5 and 120; default 60. 180 for a slot hardly wider than the cutter, up to a twentieth of its diameter: no room for loops.
     #[serde(default)]
     pub engagement: Option<f64>,
     /// The way down where no end is open and no hole is there.

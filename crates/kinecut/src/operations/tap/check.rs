@@ -8,6 +8,7 @@ use crate::base::bounded::{MAX_LENGTH, length, positive};
 use crate::base::{Code, Finding, Result};
 use crate::operations::kind::{self, Attempt};
 use crate::operations::places::{HolePlace, places};
+use crate::operations::thread_depth::thread_depth;
 use crate::operations::{
     Around, CalledTool, CuttingKeys, Milling, PlaneTable, Setting, milling_of, spindle, tool_of,
     whole_revolutions,
@@ -26,6 +27,8 @@ pub struct TapOperation {
     pub table: TapTable,
     /// Tool, speed, coolant, tolerance.
     pub milling: Milling,
+    /// Depth of full thread [mm].
+    pub depth: f64,
     /// The thread of its tap.
     pub tap: Tap,
     /// The holes in the order of tapping.
@@ -42,7 +45,7 @@ impl TapOperation {
 
     /// Height of the lowest point of the tap at the bottom, in coordinates of the work offset [mm].
     pub fn bottom(&self) -> f64 {
-        self.table.top - self.table.depth - self.tap.below_thread()
+        self.table.top - self.depth - self.tap.below_thread()
     }
 
     /// Height from which feed and spindle run together, in coordinates of the work offset [mm].
@@ -101,7 +104,12 @@ impl kind::Table for TapTable {
     }
 
     fn data(&mut self) -> Option<CuttingKeys<'_>> {
-        Some(CuttingKeys { speed: &mut self.speed, cutting_speed: &mut self.cutting_speed, feed: None })
+        Some(CuttingKeys {
+            speed: &mut self.speed,
+            cutting_speed: &mut self.cutting_speed,
+            feed: None,
+            per_rev: None,
+        })
     }
 
     fn plane(&self) -> Option<&PlaneTable> {
@@ -126,9 +134,9 @@ fn operation(t: &TapTable, around: &Around<'_>) -> Result<TapOperation> {
         return Err(finding.help("give the tool type = \"tap\" and its pitch").key("tool").into());
     };
     let speed = spindle(t.speed, t.cutting_speed, ("tool", tap.diameter))?;
-    positive("depth", t.depth, MAX_LENGTH, "mm")?;
     length("top", t.top, -MAX_LENGTH, MAX_LENGTH)?;
     length("clearance", t.clearance.unwrap_or(0.0), -MAX_LENGTH, MAX_LENGTH)?;
+    let depth = thread_depth(t.depth, t.top, t.plane.is_some(), around)?;
     let run_up = RUN_UP * tap.pitch;
     let approach = length("approach", t.approach.unwrap_or(run_up), 0.0, 1000.0)?;
     if approach < run_up - ROUNDING {
@@ -146,6 +154,7 @@ fn operation(t: &TapTable, around: &Around<'_>) -> Result<TapOperation> {
     Ok(TapOperation {
         holes: places(t.points.as_deref(), t.pattern.as_ref())?,
         milling: milling_of(tool, whole_revolutions(speed), t.coolant, None)?,
+        depth,
         tap,
         approach,
         table: t.clone(),

@@ -57,7 +57,7 @@ fn diameter(of: &TapOperation, at: [f64; 2], core: &Core) -> Result<Option<Findi
 fn depth(of: &TapOperation, at: [f64; 2], core: &Core) -> Result<()> {
     let (tap, t) = (&of.tap, &of.table);
     let (free, deep) = (FREE * tap.pitch, t.top - core.bottom);
-    let wanted = t.depth + tap.below_thread() + free;
+    let wanted = of.depth + tap.below_thread() + free;
     if core.through || deep >= wanted - SAME_HEIGHT {
         return Ok(());
     }
@@ -66,7 +66,7 @@ fn depth(of: &TapOperation, at: [f64; 2], core: &Core) -> Result<()> {
         "{}: the core hole is {} deep to its full diameter, the tap needs {} + {} (lead){tip} + {} (free)",
         place(of, at),
         short(deep),
-        short(t.depth),
+        short(of.depth),
         short(tap.lead * tap.pitch),
         short(free)
     );

@@ -55,7 +55,7 @@ impl ThreadsJson {
             hand: of.hand(),
             pitch: tap.pitch,
             forming: tap.forming,
-            depth: of.table.depth,
+            depth: of.depth,
             lead: tap.lead * tap.pitch,
             tip: tap.tip,
             reference: of.reference(),

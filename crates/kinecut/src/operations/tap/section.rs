@@ -27,7 +27,7 @@ fn facts(plan: &PlannedTapping) -> Vec<Fact> {
     let kind = if tap.forming { "formed" } else { "cut" };
     vec![
         Fact::new("Thread", of.thread()).note(kind),
-        Fact::new("Full thread", format!("{} mm", short(of.table.depth))),
+        Fact::new("Full thread", format!("{} mm", short(of.depth))),
         Fact::new("Lead", format!("{} mm", short(tap.lead * tap.pitch)))
             .note(format!("{} pitches", short(tap.lead))),
         Fact::new("Core hole", format!("{} to {} mm", fixed(least, 3), fixed(most, 3)))
@@ -45,7 +45,7 @@ fn facts(plan: &PlannedTapping) -> Vec<Fact> {
 fn drawing(plan: &PlannedTapping, thread: &PlannedThread) -> Drawing {
     let (of, tap, core) = (&plan.of, &plan.of.tap, &thread.core);
     let (top, low) = (of.table.top, of.bottom());
-    let (thread_end, r, inner) = (top - of.table.depth, 0.5 * tap.diameter, 0.5 * core.diameter);
+    let (thread_end, r, inner) = (top - of.depth, 0.5 * tap.diameter, 0.5 * core.diameter);
     let floor = if core.through { low - tap.pitch } else { core.bottom };
     let (far, below) = (2.2 * r, floor - 0.6 * r);
     let mut d = Drawing::new("Section of the first thread", [[-far, below], [far, of.reference() + 0.4 * r]]);
@@ -72,7 +72,7 @@ fn drawing(plan: &PlannedTapping, thread: &PlannedThread) -> Drawing {
     d.line(Look::First, vec![[-inner, low], [inner, low]]);
     d.span(Along::Above, [-r, top], [r, top], tap.name());
     d.span(Along::Below, [-inner, floor], [inner, floor], format!("core {}", short(core.diameter)));
-    d.span(Along::Left, [-r, top], [-r, thread_end], format!("thread {}", short(of.table.depth)));
+    d.span(Along::Left, [-r, top], [-r, thread_end], format!("thread {}", short(of.depth)));
     d.span(Along::Left, [-r, thread_end], [-inner, low], format!("lead {}", short(tap.below_thread())));
     if !core.through {
         d.span(Along::Left, [-inner, top], [-inner, floor], format!("core {}", short(top - floor)));

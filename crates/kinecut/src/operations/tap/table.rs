@@ -27,8 +27,9 @@ pub struct TapTable {
     /// Height at which the thread begins, in coordinates of the work offset; default 0.
     #[serde(default)]
     pub top: f64,
-    /// Depth of full thread below `top`; the lead of the tap goes deeper.
-    pub depth: f64,
+    /// Depth of full thread below `top`; the lead of the tap goes deeper. Default: through the stock.
+    #[serde(default)]
+    pub depth: Option<f64>,
     /// The core holes, where neither an operation before nor `drilled` says them.
     #[serde(default)]
     pub core: Option<CoreTable>,

@@ -8,6 +8,7 @@ use crate::base::bounded::{MAX_LENGTH, bounded, length, positive};
 use crate::base::{Code, Finding, Result};
 use crate::operations::kind::{self, Attempt};
 use crate::operations::places::{HolePlace, places};
+use crate::operations::thread_depth::thread_depth;
 use crate::operations::{
     Around, CalledTool, CuttingKeys, FeedKeys, Milling, PlaneTable, Setting, feed_of, milling_of, spindle,
     tool_of, whole_revolutions,
@@ -30,6 +31,8 @@ pub struct ThreadMillOperation {
     pub milling: Milling,
     /// The teeth of its tool.
     pub mill: ThreadMill,
+    /// Depth of full thread [mm].
+    pub depth: f64,
     /// The thread.
     pub thread: Thread,
     /// The places in the order of milling.
@@ -97,7 +100,12 @@ impl kind::Table for ThreadMillTable {
 
     fn data(&mut self) -> Option<CuttingKeys<'_>> {
         let feed = Some(FeedKeys { feed: &mut self.feed, per_tooth: &mut self.feed_per_tooth });
-        Some(CuttingKeys { speed: &mut self.speed, cutting_speed: &mut self.cutting_speed, feed })
+        Some(CuttingKeys {
+            speed: &mut self.speed,
+            cutting_speed: &mut self.cutting_speed,
+            feed,
+            per_rev: None,
+        })
     }
 
     fn plane(&self) -> Option<&PlaneTable> {
@@ -115,9 +123,9 @@ fn operation(t: &ThreadMillTable, around: &Around<'_>) -> Result<ThreadMillOpera
             .into());
     };
     let thread = thread(t)?;
-    positive("depth", t.depth, MAX_LENGTH, "mm")?;
     length("top", t.top, -MAX_LENGTH, MAX_LENGTH)?;
     length("clearance", t.clearance.unwrap_or(0.0), -MAX_LENGTH, MAX_LENGTH)?;
+    let depth = thread_depth(t.depth, t.top, t.plane.is_some(), around)?;
     if let Some(core) = t.core {
         if t.side == ThreadSide::Outside {
             let finding = Finding::error(Code::JOB_SHAPE, "a thread on a boss has no core hole");
@@ -133,6 +141,7 @@ fn operation(t: &ThreadMillTable, around: &Around<'_>) -> Result<ThreadMillOpera
         places: places(t.points.as_deref(), t.pattern.as_ref())?,
         milling: milling_of(tool, speed, t.coolant, tolerance)?,
         table: t.clone(),
+        depth,
         mill,
         thread,
         feed,

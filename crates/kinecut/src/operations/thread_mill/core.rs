@@ -52,11 +52,11 @@ pub(super) fn core(
     let free = FREE * of.thread.pitch;
     let wanted = of.table.top - spec.lowest() + free;
     if !core.through && deep < wanted - SAME_HEIGHT {
-        let below = wanted - of.table.depth - free;
+        let below = wanted - of.depth - free;
         let what = format!(
             "the core hole is {} deep to its full diameter, the thread mill needs {} + {} (lowest tooth and way in) + {} (free)",
             shown(deep),
-            shown(of.table.depth),
+            shown(of.depth),
             shown(below),
             shown(free)
         );

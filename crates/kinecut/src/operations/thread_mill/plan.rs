@@ -109,7 +109,7 @@ fn spec(of: &ThreadMillOperation, setting: &Setting<'_>) -> Result<ThreadMillSpe
         approach_z: (t.top + CLEARANCE).clamp(f64::NEG_INFINITY, retract_z),
         ..ThreadMillSpec::new(
             of.thread,
-            t.depth,
+            of.depth,
             ThreadCutter::of(&of.milling.tool, of.mill, t.profile),
             of.feed,
         )

@@ -63,7 +63,9 @@ pub struct ThreadMillTable {
     #[serde(default)]
     pub top: f64,
     /// Depth of full thread below `top`; the lowest tooth and the way in or out go deeper by three quarters of a pitch.
-    pub depth: f64,
+    /// Default: through the stock.
+    #[serde(default)]
+    pub depth: Option<f64>,
     /// The core holes, where neither an operation before nor `drilled` says them.
     #[serde(default)]
     pub core: Option<CoreTable>,

@@ -95,9 +95,9 @@ impl Wanted {
             inside,
             rise: if thread.hand == Hand::Right { thread.pitch } else { -thread.pitch },
             rows: plan.of.mill.rows,
-            heights: [table.top - table.depth, table.top],
+            heights: [table.top - plan.of.depth, table.top],
             radii: match thread.taper > 0.0 {
-                true => (0..=NODES).map(|i| helix(table.depth * (1.0 - i as f64 / NODES as f64))).collect(),
+                true => (0..=NODES).map(|i| helix(plan.of.depth * (1.0 - i as f64 / NODES as f64))).collect(),
                 false => vec![helix(0.0)],
             },
             counter_clockwise: counter_clockwise(inside, table.direction, plan.of.is_left_hand()),

@@ -13,6 +13,7 @@ mod external;
 mod feeds;
 mod five_axis;
 mod fixtures;
+mod hole;
 mod inspect;
 mod kept;
 mod machine_bodies;

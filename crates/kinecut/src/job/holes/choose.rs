@@ -1,0 +1,215 @@
+//! Choice of the tools of a hole by their kinds and diameters.
+
+use super::size::{SAME, Size};
+use crate::base::{Code, Error, Finding, Result};
+use crate::job::file::{ToolTable, ToolType};
+use crate::threading::coarse_pitch;
+use crate::tool::{DrillPoint, Hand};
+
+/// Point angle up to which a drill is one for spots, degrees: no drill for the solid is so sharp.
+const SPOT_ANGLE: f64 = 100.0;
+/// Share of a spot drill's diameter that is used.
+const SPOT_SHARE: f64 = 0.95;
+/// Largest diameter of a thread mill, in diameters of a coarse and of a fine thread: above, the flanks are overcut by much.
+const COARSE: f64 = 0.7;
+const FINE: f64 = 0.8;
+
+/// The tools that a job has, in the order in which it names them, and the words for where they are.
+pub(super) struct Shelf<'a> {
+    pub(super) tools: Vec<&'a ToolTable>,
+    pub(super) place: String,
+}
+
+/// Whether a tool drills into the solid, and with what point.
+fn is_drill(tool: &ToolTable) -> bool {
+    tool.kind == ToolType::Drill && tool.centre_cutting != Some(false)
+}
+
+pub(super) fn is_spot_drill(tool: &ToolTable) -> bool {
+    is_drill(tool)
+        && tool.point.is_none()
+        && tool.point_angle.is_some_and(|angle| angle <= SPOT_ANGLE.to_radians())
+}
+
+/// Whether a tool makes a plain hole into the solid.
+fn is_hole_drill(tool: &ToolTable) -> bool {
+    let other = matches!(
+        tool.point,
+        Some(
+            DrillPoint::Centre { .. }
+                | DrillPoint::Cone { .. }
+                | DrillPoint::Annular { .. }
+                | DrillPoint::Stepped { .. }
+                | DrillPoint::Gun { .. }
+                | DrillPoint::Cannon { .. }
+        )
+    );
+    is_drill(tool) && !is_spot_drill(tool) && !other
+}
+
+fn is_reamer(tool: &ToolTable) -> bool {
+    tool.kind == ToolType::Drill && tool.centre_cutting == Some(false)
+}
+
+fn said(tool: &ToolTable, word: &str) -> bool {
+    tool.name.as_deref().is_some_and(|name| name.contains(word))
+}
+
+impl<'a> Shelf<'a> {
+    fn of(&self, accept: impl Fn(&ToolTable) -> bool) -> impl Iterator<Item = &'a ToolTable> {
+        self.tools.iter().copied().filter(move |tool| accept(tool))
+    }
+
+    /// The smallest spot drill that makes a spot of a diameter [mm], or else the widest; with the diameter that it makes.
+    pub(super) fn spot(&self, diameter: f64) -> Result<(&'a ToolTable, f64)> {
+        let mut all: Vec<&ToolTable> = self.of(is_spot_drill).collect();
+        all.sort_by(|a, b| a.diameter.total_cmp(&b.diameter));
+        let wide = |tool: &&&ToolTable| tool.diameter * SPOT_SHARE >= diameter - 1e-9;
+        let tool = all.iter().find(wide).or(all.last()).copied();
+        let tool = tool.ok_or_else(|| {
+            self.missing("no spot drill", "add a drill with point_angle = 90, or write spot = false")
+        })?;
+        Ok((tool, Shelf::spot_within(tool, diameter)))
+    }
+
+    /// Diameter of the spot that a spot drill makes where one is wanted [mm].
+    pub(super) fn spot_within(tool: &ToolTable, diameter: f64) -> f64 {
+        diameter.min(SPOT_SHARE * tool.diameter)
+    }
+
+    /// The drill between two diameters: the nearest to the usual one, among those alike the shortest that reaches `depth` [mm], or
+    /// the longest for a hole through.
+    pub(super) fn drill(
+        &self,
+        [least, usual, most]: [f64; 3],
+        size: &Size,
+        pilot: Option<f64>,
+        depth: Option<f64>,
+    ) -> Result<&'a ToolTable> {
+        let fit = self.of(is_hole_drill).filter(|t| t.diameter >= least && t.diameter <= most);
+        let off = |t: &ToolTable| ((t.diameter - usual).abs() / SAME).round();
+        // Of two as near the wider: a tap turns easier in it.
+        let wide = |t: &ToolTable| -t.diameter;
+        let length = |t: &ToolTable| match depth {
+            Some(depth) if t.flute_length >= depth + t.diameter => t.flute_length,
+            Some(_) => f64::INFINITY,
+            None => -t.flute_length,
+        };
+        let best = fit.min_by(|a, b| {
+            let near = off(a).total_cmp(&off(b)).then(wide(a).total_cmp(&wide(b)));
+            near.then(length(a).total_cmp(&length(b)))
+        });
+        best.ok_or_else(|| self.no_drill(size, pilot, [least + SAME, most - SAME]))
+    }
+
+    /// The error where no drill fits, with the nearest that are there.
+    fn no_drill(&self, size: &Size, pilot: Option<f64>, [least, most]: [f64; 2]) -> Error {
+        let wanted = match most - least < SAME {
+            true => short(least),
+            false => format!("of {} to {}", short(least), short(most)),
+        };
+        let drills: Vec<f64> = self.of(is_hole_drill).map(|t| t.diameter).collect();
+        let below = drills.iter().copied().filter(|d| *d < least).reduce(f64::max);
+        let above = drills.iter().copied().filter(|d| *d > most && *d < size.diameter()).reduce(f64::min);
+        let above = match size {
+            Size::Plain(_) => drills.iter().copied().filter(|d| *d > most).reduce(f64::min),
+            _ => above,
+        };
+        let near: Vec<f64> = below.into_iter().chain(above).collect();
+        let share = |d: f64| match size {
+            // The height of the thread is 5/8 of that of the sharp triangle, on both sides.
+            Size::Thread(t) => {
+                format!(
+                    "{} gives {:.0} % of the thread",
+                    short(d),
+                    (size.diameter() - d) / (1.0825 * t.pitch) * 100.0
+                )
+            }
+            _ => short(d),
+        };
+        let near = match (&near[..], size) {
+            ([], _) => String::new(),
+            (all, Size::Thread(_)) => {
+                format!("; {}", all.iter().map(|d| share(*d)).collect::<Vec<_>>().join(", "))
+            }
+            (all, _) => {
+                let all: Vec<String> = all.iter().map(|d| share(*d)).collect();
+                format!("; the nearest {} {}", if all.len() > 1 { "are" } else { "is" }, all.join(" and "))
+            }
+        };
+        let cure = match (size, pilot, above.or(below)) {
+            (Size::Plain(_), ..) | (_, Some(_), _) | (.., None) => "add one".to_owned(),
+            (.., Some(d)) => format!("add one, or write pilot = {}", short(d)),
+        };
+        let mut error = self.missing(&format!("no drill {wanted} for {}", size.word()), &cure);
+        error.0.message += &near;
+        error
+    }
+
+    /// The reamer for a diameter [mm] and a fit; whether its name says the fit.
+    pub(super) fn reamer(&self, diameter: f64, fit: &str) -> Result<(&'a ToolTable, bool)> {
+        let all = self.of(is_reamer).filter(|t| (t.diameter - diameter).abs() <= SAME);
+        let best = all.min_by_key(|t| {
+            if said(t, fit) {
+                0
+            } else if said(t, "ream") {
+                1
+            } else {
+                2
+            }
+        });
+        let best = best.ok_or_else(|| {
+            let what = format!("no reamer {} for {}{fit}", short(diameter), short(diameter));
+            self.missing(
+                &what,
+                "add a drill with centre_cutting = false, or mill the hole with type = \"bore\"",
+            )
+        })?;
+        Ok((best, said(best, fit)))
+    }
+
+    /// The tap of a diameter and a pitch [mm], right-handed.
+    pub(super) fn tap(&self, diameter: f64, pitch: f64) -> Option<&'a ToolTable> {
+        let same = |a: f64, b: f64| (a - b).abs() < 1e-6;
+        let fits = |t: &ToolTable| {
+            t.kind == ToolType::Tap
+                && t.hand == Hand::Right
+                && same(t.diameter, diameter)
+                && t.pitch.is_some_and(|p| same(p, pitch))
+        };
+        self.of(fits).next()
+    }
+
+    /// The widest thread mill that is narrow enough for a diameter and a pitch [mm], or else the narrowest.
+    pub(super) fn thread_mill(&self, diameter: f64, pitch: f64) -> Option<&'a ToolTable> {
+        let fits = |t: &ToolTable| {
+            t.kind == ToolType::ThreadMill
+                && t.pitch.is_some_and(|p| (p - pitch).abs() < 1e-6)
+                && t.diameter < diameter
+        };
+        let share = if coarse_pitch(diameter).is_some_and(|p| pitch >= p - 1e-6) { COARSE } else { FINE };
+        let all: Vec<&ToolTable> = self.of(fits).collect();
+        let by_width = |a: &&&ToolTable, b: &&&ToolTable| a.diameter.total_cmp(&b.diameter);
+        let narrow = all.iter().filter(|t| t.diameter <= share * diameter + 1e-9).max_by(by_width);
+        narrow.or_else(|| all.iter().min_by(by_width)).copied()
+    }
+
+    /// An error of what the tools lack.
+    pub(super) fn missing(&self, what: &str, help: &str) -> Error {
+        let what = format!("{what} in {}", self.place);
+        Finding::error(Code::JOB_REFERENCE, what).help(help).key("size").into()
+    }
+}
+
+/// A number with the digits that it needs, at most three decimals.
+pub(super) fn short(value: f64) -> String {
+    format!("{}", (value * 1e3).round() / 1e3 + 0.0)
+}
+
+/// The name of a tool for a message.
+pub(super) fn title(tool: &ToolTable) -> String {
+    match &tool.name {
+        Some(name) => format!("T{} `{}`", tool.number, name.escape_debug()),
+        None => format!("T{}", tool.number),
+    }
+}

@@ -1,0 +1,249 @@
+//! Holes by their size: the operations that they become, the tools that are taken, spots before drills.
+
+use kinecut::base::{Code, Finding, MemoryLoader, Silent};
+use kinecut::job::{Outcome, run};
+
+/// A plate of 20 mm with a milled face, and the tools for its holes.
+fn job(control: &str, more: &str, operations: &str) -> String {
+    let drill = |number: u32, name: &str, diameter: f64, rest: &str, feed: f64| {
+        format!(
+            "[[tool]]\nnumber = {number}\nname = \"{name}\"\ntype = \"drill\"\ndiameter = {diameter}\nflute_length = 60\n\
+             stickout = 80\ngauge_length = 160\n{rest}preset = [{{ material = \"C45\", cutting_speed = 20, feed_per_rev = {feed} }}]\n"
+        )
+    };
+    let tools = [
+        drill(1, "spot drill 90", 10.0, "point_angle = 90\n", 0.1),
+        drill(2, "drill 6.6", 6.6, "", 0.13),
+        drill(3, "drill 6.8", 6.8, "", 0.13),
+        drill(4, "drill 7.8", 7.8, "", 0.15),
+        drill(
+            5,
+            "reamer 8H7",
+            8.0,
+            "centre_cutting = false\npoint = { cone = { cone_angle = 90, nose_diameter = 7.6 } }\n",
+            0.16,
+        ),
+        drill(6, "drill 12", 12.0, "", 0.2),
+    ];
+    format!(
+        r#"format = 1
+material = "C45"
+post = {{ control = "{control}" }}
+stock = {{ box = {{ min = [-60, -40, -20], max = [60, 40, 1] }} }}
+simulate = {{ step = 0.4 }}
+{}
+[[tool]]
+number = 7
+name = "tap M8"
+type = "tap"
+diameter = 8
+pitch = 1.25
+flute_length = 20
+stickout = 60
+gauge_length = 160
+preset = [{{ material = "C45", cutting_speed = 12 }}]
+[[tool]]
+number = 8
+name = "face mill 80"
+type = "face-mill"
+diameter = 90
+flute_length = 10
+teeth = 6
+stickout = 40
+gauge_length = 120
+{more}
+[[setup]]
+offset = "G54"
+[[setup.operation]]
+type = "face"
+tool = 8
+outline = "top"
+depth = 1
+speed = 700
+feed = 400
+{operations}
+"#,
+        tools.concat()
+    )
+}
+
+const THREAD_MILL: &str = r#"[[tool]]
+number = 9
+type = "thread-mill"
+diameter = 5.5
+pitch = 1.25
+teeth = 3
+rows = 10
+flute_length = 14
+stickout = 30
+shank_diameter = 6
+gauge_length = 120
+preset = [{ material = "C45", cutting_speed = 80, feed_per_tooth = 0.03 }]
+"#;
+
+fn done(control: &str, more: &str, operations: &str) -> Outcome {
+    run("job.toml", &job(control, more, operations), &MemoryLoader::default(), &Silent)
+        .unwrap_or_else(|e| panic!("{control}: {e}"))
+}
+
+fn refused(operations: &str) -> Box<Finding> {
+    run("job.toml", &job("fanuc", "", operations), &MemoryLoader::default(), &Silent)
+        .map(|_| ())
+        .unwrap_err()
+        .0
+}
+
+fn names(outcome: &Outcome) -> Vec<String> {
+    outcome.job.setups[0].operations.iter().map(|o| o.name()).collect()
+}
+
+/// What a person has to act on.
+fn findings(outcome: &Outcome) -> Vec<&Finding> {
+    outcome.verdict.found.iter().filter(|f| f.code != Code::TOOL_CHOSEN).collect()
+}
+
+const HOLES: &str = r#"[[setup.operation]]
+type = "hole"
+size = 6.6
+points = [[-50, -30], [50, 30]]
+[[setup.operation]]
+type = "hole"
+size = "8H7"
+points = [[-20, 0]]
+[[setup.operation]]
+type = "hole"
+size = "M8"
+depth = 12
+points = [[20, 0], [30, 10]]
+"#;
+
+#[test]
+fn holes_become_spots_drills_and_what_brings_them_to_size() {
+    for control in ["sinumerik-840d", "heidenhain", "linuxcnc", "fanuc"] {
+        let outcome = done(control, "", HOLES);
+        assert_eq!(
+            names(&outcome)[1..],
+            [
+                "centring 7, 2 holes",
+                "centring 8.4 at X-20 Y0",
+                "centring 8.4, 2 holes",
+                "drilling 6.6, 2 holes",
+                "drilling 7.8 at X-20 Y0",
+                "drilling 6.8, 2 holes",
+                "reaming 8 at X-20 Y0",
+                "tap M8x1.25, 2 holes"
+            ]
+        );
+        // Each tool is changed in once.
+        assert!(outcome.verdict.is_safe(), "{control}: {:?}", outcome.verdict.found);
+        assert!(findings(&outcome).is_empty(), "{control}: {:?}", findings(&outcome));
+    }
+    // GRBL has no synchronised spindle: the thread is milled.
+    let outcome = done("grbl", THREAD_MILL, HOLES);
+    assert!(names(&outcome)[8].starts_with("mill thread M8x1.25"), "{:?}", names(&outcome));
+    assert!(outcome.verdict.is_safe(), "{:?}", outcome.verdict.found);
+}
+
+#[test]
+fn the_drilling_knows_the_spot_and_the_depth_counts_from_the_milled_face() {
+    let outcome = done(
+        "fanuc",
+        "",
+        "[[setup.operation]]\ntype = \"hole\"\nsize = 6.6\ndepth = 15\npoints = [[0, 0]]\n",
+    );
+    assert!(findings(&outcome).is_empty(), "{:?}", findings(&outcome));
+    let plan: serde_json::Value = serde_json::from_str(&kinecut::job::plan_json(&outcome)).unwrap();
+    let hole = |i: usize| plan["setups"][0]["drillings"][i]["holes"][0].clone();
+    // The spot: 90 degrees, 7 mm wide at the face in Z 0.
+    let tip = hole(0)["zones"].as_array().unwrap().last().unwrap()["to"].as_f64().unwrap();
+    assert!((tip + 3.5).abs() < 1e-9, "{}", hole(0));
+    // The corner of the drill comes to the cone of the spot 0.2 mm below the face, its tip is deeper by its point then.
+    let point = 3.3 / 59f64.to_radians().tan();
+    let zones = hole(1)["zones"].as_array().unwrap().clone();
+    let last = zones.iter().find(|z| z["stage"] == "entry").unwrap()["to"].as_f64().unwrap();
+    assert!((last + 3.5).abs() < 1e-9 && hole(1)["first_contact_radius"] == 3.3, "{}", hole(1));
+    let end = hole(1)["zones"].as_array().unwrap().last().unwrap()["to"].as_f64().unwrap();
+    assert!((end + 15.0 + point).abs() < 1e-9, "{}", hole(1));
+    // A face at another height.
+    let text =
+        job("fanuc", "", "[[setup.operation]]\ntype = \"hole\"\nsize = 6.6\ndepth = 15\npoints = [[0, 0]]\n");
+    let text = text.replace("outline = \"top\"\ndepth = 1\n", "outline = \"top\"\ntop = -2\ndepth = 3\n");
+    let lower = run("job.toml", &text, &MemoryLoader::default(), &Silent).unwrap_or_else(|e| panic!("{e}"));
+    assert!(findings(&lower).is_empty(), "{:?}", findings(&lower));
+    let plan: serde_json::Value = serde_json::from_str(&kinecut::job::plan_json(&lower)).unwrap();
+    let zero = plan["setups"][0]["drillings"][1]["holes"][0]["zero"].as_f64();
+    assert!(zero.is_none_or(|zero| (zero + 2.0).abs() < 1e-9), "{zero:?}");
+}
+
+#[test]
+fn tools_can_be_named_and_spots_left_out() {
+    let hole = "[[setup.operation]]\ntype = \"hole\"\nsize = \"M8\"\npoints = [[0, 0]]\n";
+    let outcome = done(
+        "fanuc",
+        THREAD_MILL,
+        &format!("{hole}depth = 10\nspot = false\ntool = 9\ndrill = \"drill 6.8\"\n"),
+    );
+    let names = names(&outcome);
+    assert_eq!(names[1], "drilling 6.8 at X0 Y0");
+    assert!(names[2].starts_with("mill thread M8x1.25") && names.len() == 3, "{names:?}");
+    // Through: the tap goes through the stock, which ends at Z -20.
+    let outcome = done("fanuc", "", hole);
+    assert!(outcome.verdict.is_safe(), "{:?}", outcome.verdict.found);
+    let plan: serde_json::Value = serde_json::from_str(&kinecut::job::plan_json(&outcome)).unwrap();
+    assert_eq!(plan["setups"][0]["threads"][0]["depth"].as_f64(), Some(20.0));
+}
+
+#[test]
+fn what_is_missing_is_said_with_what_is_there() {
+    let hole = |rest: &str| format!("[[setup.operation]]\ntype = \"hole\"\npoints = [[0, 0]]\n{rest}\n");
+    for (rest, key, says) in [
+        ("size = 6.5", "size", "no drill 6.5 for a hole of 6.5 in the job; the nearest is 6.6"),
+        ("size = \"10H7\"", "size", "no reamer 10 for 10H7 in the job"),
+        ("size = \"M10\"", "size", "no tap M10x1.5 and no thread mill for it in the job"),
+        (
+            "size = \"M8\"\npilot = 7.2",
+            "size",
+            "no drill 7.2 for M8x1.25 in the job; 6.8 gives 89 % of the thread, 7.8 gives 15 % of the thread",
+        ),
+        ("size = \"8h7\"", "size", "`8h7` is no size of a hole"),
+        ("size = 12\npilot = 5", "pilot", "a plain hole has no pilot"),
+        ("size = \"8H7\"\npilot = 8", "pilot", "the pilot is as wide as the hole"),
+        ("size = \"8H7\"\npilot = 7.8\ndrill = 4", "pilot", "`pilot` and `drill` exclude each other"),
+        ("size = 12\ntool = 6", "tool", "a plain hole has only a drill"),
+        ("size = 12\nspot = false\nchamfer = 0.3", "chamfer", "a hole without a spot has none of its keys"),
+        ("size = 12\ndrill = \"drill 13\"", "drill", "`drill 13` is not defined"),
+        ("size = 12\ndepth = -1", "depth", "depth must be positive"),
+    ] {
+        let error = refused(&hole(rest));
+        assert_eq!(error.key.as_deref(), Some(&*format!("setup[0].operation[1].{key}")), "{rest}: {error:?}");
+        assert!(error.message.contains(says), "{rest}: {}", error.message);
+        let place = error.place.as_ref().unwrap();
+        assert!(place.line > 90, "{rest}: {place:?}");
+    }
+    let text = job("fanuc", "", &hole("size = 12")).replace("material = \"C45\"\npost", "post");
+    let error = run("job.toml", &text, &MemoryLoader::default(), &Silent).map(|_| ()).unwrap_err().0;
+    assert!(error.message.contains("the job has no material"), "{error:?}");
+    let text =
+        job("fanuc", "", &hole("size = 12")).replace("material = \"C45\"\npost", "material = \"POM\"\npost");
+    let error = run("job.toml", &text, &MemoryLoader::default(), &Silent).map(|_| ()).unwrap_err().0;
+    assert!(
+        error.message.contains("T1 `spot drill 90` has no cutting_speed and feed_per_rev for POM"),
+        "{error:?}"
+    );
+}
+
+/// Errors of operations after a hole keep their place though the hole has become several of them.
+#[test]
+fn places_are_those_of_the_text() {
+    let after = "[[setup.operation]]\ntype = \"drill\"\ntool = 6\npoints = [[0, 0], [1, 1]]\nspeed = -5\nfeed_per_rev = { steady = 0.1 }\n";
+    let operations = format!("{HOLES}{after}");
+    let error = refused(&operations);
+    let text = job("fanuc", "", &operations);
+    let line = text.lines().position(|l| l == "speed = -5").unwrap() + 1;
+    assert_eq!(error.place.as_ref().map(|p| p.line as usize), Some(line), "{error:?}");
+    // A hole off the stock: at its own point.
+    let off = HOLES.replace("[30, 10]", "[90, 10]");
+    let error = refused(&off);
+    let line = job("fanuc", "", &off).lines().position(|l| l.contains("[90, 10]")).unwrap() + 1;
+    assert_eq!(error.place.as_ref().map(|p| p.line as usize), Some(line), "{error:?}");
+}
