@@ -22,6 +22,8 @@ use crate::num::angle::wrap_positive;
 
 /// Difference of the width from the cutter's diameter that is nothing [mm].
 pub const AS_WIDE: f64 = 0.01;
+/// Least radius of a loop, in radii of the cutter: on smaller ones a cutter hardly leaves its place.
+const LEAST_LOOP: f64 = 0.05;
 /// Radius of the arcs on which a loop goes back, in radii of the loop.
 const BACK: f64 = 0.5;
 /// Chords by which loops are looked at [rad].
@@ -61,7 +63,7 @@ impl SlotSpec {
     /// Radius of the loops of the cutter's centre; `None` where the slot is hardly wider than the cutter [mm].
     pub fn around(&self) -> Option<f64> {
         let around = 0.5 * self.rough_width() - WALL_STOCK - self.pocket.radius();
-        (around > 0.5 * WALL_STOCK).then_some(around)
+        (around > LEAST_LOOP * self.pocket.radius()).then_some(around)
     }
 }
 
@@ -172,11 +174,12 @@ fn fits(spec: &SlotSpec) -> Result<()> {
     Err(finding.help(help).key("tool").into())
 }
 
-/// An error where only the full width of the cutter can cut, and that is not allowed.
+/// An error where there is no room for loops, and passes with all of the cutter in the stock are not allowed.
 fn as_wide(spec: &SlotSpec) -> Finding {
     let diameter = spec.pocket.cutter.diameter;
     let what = format!(
-        "the slot is as wide as the cutter ({:.3} mm): it cuts with 180 degrees over {:.1} mm",
+        "a slot of {:.3} mm leaves no room for loops to a cutter of {:.3} mm: it cuts with 180 degrees over {:.1} mm",
+        spec.width,
         diameter,
         spec.line.length()
     );

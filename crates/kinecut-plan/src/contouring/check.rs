@@ -31,7 +31,8 @@ pub(super) fn check(spec: &ContourSpec) -> Result<()> {
         ("tool", Some(spec.cutter.diameter)),
         ("room", spec.room),
         ("lead_radius", spec.lead_radius),
-        ("finish.allowance", finish.map(|f| f.allowance)),
+        // What has been cleared by passes in the middle leaves as much as there is.
+        ("finish.allowance", finish.map(|f| f.allowance).filter(|a| !(spec.cleared && *a == 0.0))),
         ("finish.stepdown", finish.and_then(|f| f.stepdown)),
         ("finish.wear_largest", finish.and_then(|f| f.wear).map(|w| w.largest)),
         ("tabs.width", tabs.map(|t| t.width)),

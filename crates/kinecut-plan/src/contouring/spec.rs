@@ -70,7 +70,7 @@ pub struct Tabs {
 /// Finishing of a contour.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ContourFinish {
-    /// Stock that roughing leaves for it on the wall [mm].
+    /// Stock that roughing leaves for it on the wall [mm]; 0, of a cleared contour, where leads may come from anywhere.
     pub allowance: f64,
     /// Feed [mm/s].
     pub feed: f64,

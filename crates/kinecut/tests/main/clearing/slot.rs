@@ -113,7 +113,7 @@ fn a_slot_as_wide_as_the_cutter_wants_it_said() {
     spec.pocket.stepdown = Some(3.0);
     let error = plan_slot(&spec).unwrap_err().0;
     assert_eq!(error.key.as_deref(), Some("engagement"));
-    assert!(error.message.contains("as wide as the cutter (10.000 mm)"), "{error:?}");
+    assert!(error.message.contains("leaves no room for loops to a cutter of 10.000 mm"), "{error:?}");
     spec.pocket.engagement = PI;
     let plan = plan_slot(&spec).expect("a plan");
     assert_eq!((plan.levels.len(), plan.figures.largest), (2, PI));

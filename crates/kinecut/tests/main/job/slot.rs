@@ -69,10 +69,10 @@ fn slots_hardly_wider_than_the_cutter_are_cut_to_size() {
     for (width, keys) in [
         (10.02, "engagement = 180\n"),
         (10.05, "engagement = 180\n"),
-        (10.1, ""),
-        (10.4, ""),
+        (10.4, "engagement = 180\n"),
+        (10.6, ""),
         (10.5, "engagement = 180\nfinish = { allowance = 0.25 }\n"),
-        (10.9, "finish = { allowance = 0.2 }\n"),
+        (11.1, "finish = { allowance = 0.2 }\n"),
     ] {
         let outcome = cut("fanuc", &format!("{line}width = {width}\n{keys}"));
         is_good(
