@@ -48,6 +48,8 @@ pub(super) struct WaySpan {
     swept: Aabb,
     /// Most that a point of the tool moves from its place in the middle [mm].
     stray: f64,
+    /// Greatest speed of a point of the tool [mm by the parameter of the stretch].
+    speed: f64,
     /// Square of the distance from the axis in the middle beyond which nothing is swept [mm^2].
     far: f64,
 }
@@ -114,7 +116,8 @@ impl<'a> ToolWay<'a> {
             let off = 2.0 * span.bend(self.reach) + 0.125 * span.turn().powi(2) * self.body.radius;
             let [start, end] = [-0.5, 0.5].map(|t| span.at(t)).map(|pose| swept((pose.tip, pose.axis)));
             let swept = start.union(end).grown(off + SLACK);
-            WaySpan { span, middle, swept, stray, far: (self.body.radius + stray + ROUNDING).powi(2) }
+            let speed = 2.0 * stray + 4.0 * span.bend(self.reach);
+            WaySpan { span, middle, swept, stray, speed, far: (self.body.radius + stray + ROUNDING).powi(2) }
         };
         spans.into_iter().map(one).filter(|own| own.meets(region)).collect()
     }
@@ -128,7 +131,7 @@ impl<'a> ToolWay<'a> {
         short: f64,
     ) -> Option<Coming> {
         let mut nearest: Option<(f64, Coming)> = None;
-        for own @ WaySpan { span, middle, stray, far, .. } in near {
+        for own @ WaySpan { span, middle, stray, speed, far, .. } in near {
             if !own.may_hold(point) {
                 continue;
             }
@@ -154,7 +157,7 @@ impl<'a> ToolWay<'a> {
             }
             // A moment that is known to be in the tool, else the one that is nearest to it.
             let (t, (least, part)) =
-                if middle.0 <= ROUNDING { (0.0, middle) } else { held(off, [start, middle], *stray) };
+                if middle.0 <= ROUNDING { (0.0, middle) } else { held(off, [start, middle], *speed) };
             if nearest.is_none_or(|(known, _)| least < known) {
                 nearest = Some((least, coming(t, part)));
             }
@@ -187,27 +190,30 @@ impl<'a> ToolWay<'a> {
 fn held(
     off: impl Fn(f64) -> (f64, usize),
     [start, middle]: [(f64, usize); 2],
-    stray: f64,
+    speed: f64,
 ) -> (f64, (f64, usize)) {
     let end = off(0.5);
     let ends = [(-0.5, start), (0.0, middle), (0.5, end)];
     let mut best = if end.0 < middle.0 { ends[2] } else { ends[1] };
-    // No point of the tool moves by more than `stray` in half of the stretch.
-    let may_dip = |a: f64, b: f64| 0.5 * (a + b - stray) <= ROUNDING;
     for pair in ends.windows(2) {
-        if best.1.0 <= ROUNDING || !may_dip(pair[0].1.0, pair[1].1.0) {
+        if best.1.0 <= ROUNDING {
             continue;
         }
-        let (mut low, mut high) = (pair[0].0, pair[1].0);
+        let (mut low, mut high) = ((pair[0].0, pair[0].1.0), (pair[1].0, pair[1].1.0));
         for _ in 0..LOOKS {
-            let (a, b) = (low + 0.382 * (high - low), low + 0.618 * (high - low));
+            let width = high.0 - low.0;
+            // So near no point of the tool can come between the two moments.
+            if 0.5 * (low.1 + high.1 - speed * width) > ROUNDING {
+                break;
+            }
+            let (a, b) = (low.0 + 0.382 * width, low.0 + 0.618 * width);
             let [at_a, at_b] = [off(a), off(b)];
             for found in [(a, at_a), (b, at_b)] {
                 if found.1.0 < best.1.0 {
                     best = found;
                 }
             }
-            if at_a.0 <= at_b.0 { high = b } else { low = a }
+            if at_a.0 <= at_b.0 { high = (b, at_b.0) } else { low = (a, at_a.0) }
         }
     }
     best

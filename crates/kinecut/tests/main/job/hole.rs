@@ -39,6 +39,7 @@ type = "tap"
 diameter = 8
 pitch = 1.25
 flute_length = 20
+shank_diameter = 6
 stickout = 60
 gauge_length = 160
 preset = [{{ material = "C45", cutting_speed = 12 }}]
