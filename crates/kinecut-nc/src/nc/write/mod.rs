@@ -248,7 +248,9 @@ impl Writer<'_> {
         for number in used {
             let about = tools.iter().find(|t| t.number == number).map_or_else(String::new, |t| {
                 let length = t.gauge_length.map_or_else(String::new, |l| format!(", length {l}"));
-                format!(" {}, diameter {}{length}", t.name, t.cutter.diameter(t.flute_length))
+                // That of a cone is worked out: without the rounding of its tangent.
+                let diameter = (t.cutter.diameter(t.flute_length) * 1e6).round() / 1e6;
+                format!(" {}, diameter {diameter}{length}", t.name)
             });
             self.comment(&format!("{number}{about}"));
         }

@@ -127,7 +127,10 @@ fn verdict(outcome: &Outcome) -> ReportVerdict {
         .filter(|t| uses(outcome, t).next().is_some())
         .map(|t| format!("{} {}", t.number, t.name))
         .collect();
-    verdict.facts.push(Fact::new("Tools", used.join(", ")));
+    verdict.facts.push(match used.len() {
+        0..=2 => Fact::new("Tools", used.join(", ")),
+        many => Fact::new("Tools", many.to_string()).note(used.join(", ")),
+    });
     if let Some(largest) = outcome.deviation.largest {
         let side = match largest.deviation {
             d if d.abs() < SHOWN => "",

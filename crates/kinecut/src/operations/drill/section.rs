@@ -2,7 +2,7 @@
 
 use super::show::{DrilledHole, drill_sections};
 use super::{PlannedDrilling, PlannedHole};
-use crate::drilling::PaperResult;
+use crate::drilling::{End, PaperResult};
 use crate::operations::Shown;
 use crate::page::Section;
 use crate::program::{Item, Speed};
@@ -39,10 +39,19 @@ impl<'a> ShownHole<'a> {
 /// Of one hole what is done there; of many which one it is.
 pub(crate) fn title(name: &str, hole: &PlannedHole, count: usize) -> String {
     if count == 1 {
-        return name[..1].to_uppercase() + &name[1..];
+        return capital(name);
     }
+    let diameter = match hole.spec.end {
+        End::Reached(diameter) => diameter,
+        _ => hole.spec.diameter,
+    };
     let [x, y] = hole.at.map(|v| (v * 1e3).round() / 1e3 + 0.0);
-    format!("D{} hole {} at X{x} Y{y}", hole.spec.diameter, hole.number + 1)
+    format!("D{diameter} hole {} at X{x} Y{y}", hole.number + 1)
+}
+
+/// A name as a heading.
+fn capital(name: &str) -> String {
+    name[..1].to_uppercase() + &name[1..]
 }
 
 /// The sections of a job's drillings.
@@ -64,7 +73,7 @@ pub(super) fn sections(all: &[(&PlannedDrilling, &Shown<'_>)]) -> Vec<Section> {
             })
             .collect();
         let views: Vec<DrilledHole<'_>> = shown.iter().map(ShownHole::view).collect();
-        sections.extend(drill_sections(&views, &[]));
+        sections.extend(drill_sections(&capital(&of.name), &views, &[]));
     }
     sections
 }

@@ -129,14 +129,25 @@ fn place(at: Option<[f64; 3]>) -> String {
     at.map_or(String::new(), |p| p.map(|v| fixed(v, 3)).join(", "))
 }
 
-/// The sections of one hole or of many: a table, then the drawings of each of a few, of the first and the worst of many.
-pub fn drill_sections(holes: &[DrilledHole], refused: &[RefusedHole]) -> Vec<Section> {
+/// The sections of one hole or of many under a name: a table, then the drawings of each kind of a few, of the first and the worst of
+/// many. Holes alike have one section.
+pub fn drill_sections(name: &str, holes: &[DrilledHole], refused: &[RefusedHole]) -> Vec<Section> {
     let mut sections = Vec::new();
     if holes.len() + refused.len() > 1 || holes.is_empty() && !refused.is_empty() {
-        sections.push(Section::new("All holes").with(drill_table(holes, refused)));
+        sections.push(Section::new(name).with(drill_table(holes, refused)));
     }
-    if holes.len() <= FEW {
-        sections.extend(holes.iter().map(drill_section));
+    let kinds = kinds(holes);
+    if let ([first], Some(all)) = (&kinds[..], sections.first_mut()) {
+        let same = if holes.len() > 1 { ", and all are alike" } else { "" };
+        all.blocks.push(Block::Text(format!("Drawn below: {}{same}.", holes[*first].title)));
+        all.blocks.extend(drill_section(&holes[*first]).blocks);
+        return sections;
+    }
+    if kinds.len() <= FEW {
+        sections.extend(kinds.iter().map(|&i| drill_section(&holes[i])));
+        if let Some(all) = sections.first_mut().filter(|_| kinds.len() < holes.len()) {
+            all.blocks.push(Block::Text("Drawn below: the first of each that are alike.".to_owned()));
+        }
         return sections;
     }
     sections.push(drill_section(&holes[0]));
@@ -149,6 +160,43 @@ pub fn drill_sections(holes: &[DrilledHole], refused: &[RefusedHole]) -> Vec<Sec
         all.blocks.push(Block::Text(format!("Drawn below: {shown} of these holes.")));
     }
     sections
+}
+
+/// The first of each of the holes that are alike.
+fn kinds(holes: &[DrilledHole]) -> Vec<usize> {
+    let mut first: Vec<usize> = Vec::new();
+    for (i, hole) in holes.iter().enumerate() {
+        if first.len() > FEW {
+            break;
+        }
+        if !first.iter().any(|&k| are_alike(&holes[k], hole)) {
+            first.push(i);
+        }
+    }
+    first
+}
+
+/// Whether two holes differ in their places only.
+fn are_alike(a: &DrilledHole, b: &DrilledHole) -> bool {
+    /// Differences of lengths that no number of a section shows [mm].
+    const SAME: f64 = 1e-6;
+    let near = |a: f64, b: f64| (a - b).abs() <= SAME;
+    let (p, q) = (a.plan, b.plan);
+    let zones = p.zones.len() == q.zones.len()
+        && p.zones.iter().zip(&q.zones).all(|(a, b)| {
+            a.stage == b.stage && near(a.from, b.from) && near(a.to, b.to) && near(a.feed, b.feed)
+        });
+    let codes = |p: &crate::drilling::DrillPlan| p.findings.iter().map(|f| f.code).collect::<Vec<_>>();
+    let radii = |t: &crate::drilling::Transient| [t.first_radius, t.last_radius];
+    let [one, other] = [radii(&p.entry), radii(&q.entry)];
+    zones
+        && p.edge == q.edge
+        && one.iter().zip(other).all(|(a, b)| near(*a, b))
+        && std::mem::discriminant(&a.spec.entry) == std::mem::discriminant(&b.spec.entry)
+        && near(a.spec.entry.slope(), b.spec.entry.slope())
+        && a.spec.end.exit().map(std::mem::discriminant) == b.spec.end.exit().map(std::mem::discriminant)
+        && codes(p) == codes(q)
+        && a.paper == b.paper
 }
 
 /// The hole with the gravest finding, of equals the one whose transients are longest, of equals the first.
@@ -179,7 +227,7 @@ pub fn drill_html(holes: &[DrilledHole], refused: &[RefusedHole]) -> String {
         title: &format!("Drilling: {title}"),
         style: STYLE,
         caution: "Zones on a model do not replace the trial cut.",
-        sections: &drill_sections(holes, refused),
+        sections: &drill_sections("All holes", holes, refused),
         ..VerbPage::default()
     }
     .html()

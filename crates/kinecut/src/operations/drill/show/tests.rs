@@ -432,7 +432,7 @@ fn a_pattern_is_a_table_with_the_first_and_the_worst_drawn() {
         at: None,
         finding: Finding::error(Code::DRILL_MISSES, "the hole lies beside the part"),
     }];
-    let sections = drill_sections(&holes, &refused);
+    let sections = drill_sections("All holes", &holes, &refused);
     assert_eq!(
         sections.iter().map(|s| s.title.as_str()).collect::<Vec<_>>(),
         ["All holes", "hole 0 <b>", "hole 150 <b>"]
