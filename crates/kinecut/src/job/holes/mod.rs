@@ -66,7 +66,7 @@ pub(super) fn expand(file: &mut JobFile, places: &mut Places, shop: &mut Shop) -
 /// An entry of a setup.
 enum Entry {
     Operation(Box<OperationTable>),
-    Hole(HoleTable),
+    Hole(Box<HoleTable>),
 }
 
 /// The entries of a setup in the order of the text, each with its place there.
@@ -76,7 +76,7 @@ fn entries(setup: &mut super::file::SetupTable) -> Vec<(usize, Entry)> {
     let free = (0..).filter(|at| !taken.contains(at));
     let operations = std::mem::take(&mut setup.operations).into_iter().map(|o| Entry::Operation(Box::new(o)));
     let mut entries: Vec<(usize, Entry)> = free.zip(operations).collect();
-    entries.extend(holes.into_iter().map(|(at, hole)| (at, Entry::Hole(hole))));
+    entries.extend(holes.into_iter().map(|(at, hole)| (at, Entry::Hole(Box::new(hole)))));
     entries.sort_by_key(|(at, _)| *at);
     entries
 }
