@@ -82,8 +82,8 @@ fn a_hole_begins_at_the_face_where_all_of_it_was_milled() {
         let outcome = done(long, &format!("{}{DRILL}points = [[{x}, 0]]\n", face(more)));
         let zones = outcome.verdict.found.iter().filter(|f| f.code.to_string() == "KC0905").count();
         assert_eq!(zones, 0, "{more} {x}: {:?}", outcome.verdict.found);
-        let lines = drilled(&outcome).into_iter().filter(|l| l.starts_with("G1 Z"));
-        lines.last().expect("the entry")
+        let mut lines = drilled(&outcome).into_iter().filter(|l| l.starts_with("G1 Z"));
+        lines.next_back().expect("the entry")
     };
     let [over, beside, raw] = [-20.0, 30.0, 100.0].map(|x| at("", x));
     assert_eq!(over, beside);
