@@ -67,6 +67,23 @@ impl<'a> Scene<'a> {
         points
     }
 
+    /// The face that the drill enters, with the recess at the hole's mouth.
+    fn face(&self, cos: f64, from: f64, to: f64) -> Vec<[f64; 2]> {
+        let mut points = Scene::run(&self.entry, cos, from, to);
+        let Some(mouth) = &self.hole.spec.mouth else { return points };
+        let rim = mouth.edge.outer_radius();
+        points.retain(|p| p[0].abs() >= rim);
+        let half = half(&mouth.edge);
+        let both = half.iter().flat_map(|p| [[-p[0], p[1]], *p]).map(|p| [p[0], mouth.height + p[1]]);
+        points.extend(both.filter(|p| p[0] >= from && p[0] <= to));
+        // Where the run ends within the recess.
+        let ends = [from, to].into_iter().filter(|u| u.abs() < rim);
+        points.extend(ends.filter_map(|u| Some([u, mouth.height + mouth.edge.height(u.abs())?])));
+        points.sort_by(|a, b| a[0].total_cmp(&b[0]));
+        points.dedup();
+        points
+    }
+
     /// The drawing of the part and the hole in it, nothing named yet, in the section along the u of a side.
     pub(super) fn part(&self, title: &str, along: Side, low: f64, high: f64) -> Drawing {
         let turned = self.hole.spec.exit_turn.cos();
@@ -80,22 +97,24 @@ impl<'a> Scene<'a> {
             None => vec![[from, floor], [to, floor]],
         };
         for [from, to] in [[-far, -r], [r, far]] {
-            let mut outline = Scene::run(&self.entry, ce, from, to);
+            let mut outline = self.face(ce, from, to);
             outline.extend(foot(from, to).into_iter().rev());
             d.hatched.push(outline);
-            d.line(Look::Edge, Scene::run(&self.entry, ce, from, to));
+            d.line(Look::Edge, self.face(ce, from, to));
             if self.exit.is_some() {
                 d.line(Look::Edge, foot(from, to));
             }
         }
-        d.line(Look::Hidden, Scene::run(&self.entry, ce, -r, r));
+        d.line(Look::Hidden, self.face(ce, -r, r));
         let end = self.hole.plan.travel.end;
         let corner = |sign: f64| match &self.exit {
             Some((exit, _)) => exit.height(cx * sign * r),
             None => end + self.extent()[1],
         };
         for sign in [-1.0, 1.0] {
-            d.line(Look::Edge, vec![[sign * r, self.entry.height(ce * sign * r)], [sign * r, corner(sign)]]);
+            let top = self.face(ce, sign * r, sign * r);
+            let top = top.first().map_or_else(|| self.entry.height(ce * sign * r), |p| p[1]);
+            d.line(Look::Edge, vec![[sign * r, top], [sign * r, corner(sign)]]);
         }
         match &self.exit {
             Some((exit, _)) => d.line(Look::Hidden, Scene::run(exit, cx, -r, r)),

@@ -134,7 +134,10 @@ impl Scene<'_> {
         d.span(Along::Left, [0.0, start], [0.0, t.last], mm("L_vr", plan.lengths.entry));
         d.level([0.0, start], vec![format!("Z_nvr1 {}", fixed(start, 3))]);
         d.level([0.0, t.last], vec![format!("Z_nvr2 {}", fixed(t.last, 3))]);
-        let [first, last] = self.contacts(&self.entry, &t);
+        let [first, last] = match self.hole.spec.mouth {
+            Some(_) => self.on_edge(&t),
+            None => self.contacts(&self.entry, &t),
+        };
         self.contact(&mut d, &first, ["touches first:", "first contact"], t.first, Side::Entry);
         self.contact(&mut d, &last, ["last to go in:", "last point"], t.last, Side::Entry);
         self.advise(&mut d);
@@ -171,6 +174,11 @@ impl Scene<'_> {
         if self.hole.spec.passages.is_none() {
             return contacts(surface, t);
         }
+        self.on_edge(t)
+    }
+
+    /// These points where the edge then is.
+    fn on_edge(&self, t: &Transient) -> [ContactPoint; 2] {
         let edge = &self.hole.plan.edge;
         [(t.first, t.first_radius), (t.last, t.last_radius)].map(|(z, radius)| {
             let at = [radius, z + edge.height(radius).unwrap_or(0.0)];

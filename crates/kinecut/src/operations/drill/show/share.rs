@@ -6,7 +6,7 @@
 
 use std::f64::consts::PI;
 
-use crate::drilling::BoundarySurface;
+use crate::drilling::{BoundarySurface, Mouth};
 use crate::geom::EdgeProfile;
 
 /// Rings in which a segment of the edge is summed: an error of the share below a thousandth.
@@ -62,11 +62,41 @@ pub(super) fn passed(edge: &EdgeProfile, surface: &BoundarySurface, z: f64) -> f
     sum / area
 }
 
+/// The same of a level face with a recess about the axis.
+pub(super) fn passed_recess(edge: &EdgeProfile, recess: &Mouth, face: &BoundarySurface, z: f64) -> f64 {
+    let (mut sum, mut area) = (0.0, 0.0);
+    for segment in edge.segments() {
+        let [a, b] = segment.range();
+        let step = (b - a) / f64::from(RINGS);
+        for i in 0..RINGS {
+            let r = a + step * (f64::from(i) + 0.5);
+            let top = recess.edge.height(r).map_or(face.height(0.0), |h| recess.height + h);
+            sum += if top >= z + segment.height(r) { 2.0 * r * step } else { 0.0 };
+        }
+        area += b * b - a * a;
+    }
+    sum / area
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::drilling::{Cover, transient};
     use crate::tool::DrillPoint;
+
+    #[test]
+    fn in_a_spot_the_corner_is_in_material_first() {
+        let spot = DrillPoint::SinglePlane { angle: 90f64.to_radians() }.edge(22.0).unwrap();
+        let (mouth, face) =
+            (Mouth { height: -11.0, edge: spot }, BoundarySurface::Plane { height: 0.0, slope: 0.0 });
+        let k = 59f64.to_radians().tan().recip();
+        // The ring from r to 10 is in where the cone of the spot, r - 11, stands over the drill, z + k r.
+        for r in [2.0, 5.0, 9.0] {
+            let z = (r - 11.0) - k * r;
+            let share = passed_recess(&twist(), &mouth, &face, z);
+            assert!((share - (100.0 - r * r) / 100.0).abs() < 0.01, "{r} {share}");
+        }
+    }
 
     fn twist() -> EdgeProfile {
         DrillPoint::SinglePlane { angle: 118f64.to_radians() }.edge(20.0).unwrap()

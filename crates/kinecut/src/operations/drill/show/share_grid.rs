@@ -1,7 +1,7 @@
 //! The share of a point in material where no closed form holds: an eccentric or blind hole that is there, or a body of
 //! which only the passages are known.
 
-use super::share::passed;
+use super::share::{passed, passed_recess};
 use crate::drilling::{BoundarySurface, DrillPlan, DrillSpec, Side};
 use crate::page::simplify;
 
@@ -40,7 +40,11 @@ impl<'a> Share<'a> {
         let share = match self {
             Share::Closed(spec, plan) => {
                 let one = |surface: &BoundarySurface| passed(&plan.edge, surface, z);
-                let mut share = one(&spec.entry) - spec.end.exit().map_or(0.0, one);
+                let entered = match &spec.mouth {
+                    Some(mouth) => passed_recess(&plan.edge, mouth, &spec.entry, z),
+                    None => one(&spec.entry),
+                };
+                let mut share = entered - spec.end.exit().map_or(0.0, one);
                 for bore in &spec.bores {
                     let [roof, floor] = walls(bore.radius, bore.offset, bore.height);
                     share += one(&floor) - one(&roof);
@@ -86,6 +90,9 @@ fn counted(spec: &DrillSpec, plan: &DrillPlan) -> Share<'static> {
             let (x, y) = (r * cos, r * sin);
             let along = |turn: f64| x * turn.cos() + y * turn.sin();
             let mut top = spec.entry.height(x);
+            if let Some(depth) = spec.mouth.as_ref().and_then(|m| Some(m.height + m.edge.height(r)?)) {
+                top = depth;
+            }
             if let Some(hole) = &spec.pre_hole {
                 let d = (x - hole.at[0]).hypot(y - hole.at[1]);
                 if d < 0.5 * hole.diameter {

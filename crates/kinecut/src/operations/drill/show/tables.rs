@@ -267,5 +267,12 @@ pub(super) fn on_the_way(spec: &DrillSpec) -> Vec<String> {
         let place = if h.is_concentric() { "" } else { ", off the axis" };
         format!("A hole of \u{2300}{} mm is there, {kind}{place}.", trimmed(h.diameter))
     });
-    bores.chain(hole).collect()
+    let mouth = spec.mouth.iter().map(|m| {
+        let rim = trimmed(2.0 * m.edge.outer_radius());
+        format!(
+            "A recess of \u{2300}{rim} mm is at its mouth, to Z {}.",
+            fixed(m.height + m.edge.extent()[0], 3)
+        )
+    });
+    mouth.chain(bores).chain(hole).collect()
 }
