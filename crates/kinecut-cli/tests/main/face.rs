@@ -119,10 +119,14 @@ fn real_teeth_are_listed_and_the_papers_way_is_shown() {
 #[test]
 fn a_part_wider_than_the_cutter_says_which_passes_it_needs() {
     let input = plate(120.0, "").replace("40]", "110]");
-    let run = kinecut(&["face", "-"], &input);
+    let one = input.replace("\"depth\": 0.5", "\"depth\": 0.5, \"passes\": \"one\"");
+    let run = kinecut(&["face", "-"], &one);
     assert_eq!(run.status.code(), Some(2));
     let error = text(&run.stderr);
-    assert!(error.contains("KC1002") && error.contains("2"), "{error}");
+    assert!(error.contains("KC1002") && error.contains("mill it in 2 passes"), "{error}");
+    // Where nothing is said, it is milled in them.
+    let fewest = kinecut(&["face", "-"], &input);
+    assert_eq!(fewest.status.code(), Some(0), "{}", text(&fewest.stderr));
     let rows = input.replace("\"depth\": 0.5", "\"depth\": 0.5, \"passes\": { \"rows\": 2 }");
     let run = kinecut(&["face", "-"], &rows);
     assert_eq!(run.status.code(), Some(0), "{}", text(&run.stderr));

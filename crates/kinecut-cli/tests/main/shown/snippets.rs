@@ -65,6 +65,28 @@ type = "end-mill"
 diameter = 16
 flute_length = 30
 centre_cutting = true
+[[tool]]
+number = 93
+type = "drill"
+diameter = 10
+point_angle = 90
+flute_length = 20
+preset = [{ material = "C45", cutting_speed = 20, feed_per_rev = 0.1 }]
+[[tool]]
+number = 94
+type = "drill"
+diameter = 7.8
+flute_length = 80
+preset = [{ material = "C45", cutting_speed = 20, feed_per_rev = 0.1 }]
+[[tool]]
+number = 95
+name = "reamer 8H7"
+type = "drill"
+diameter = 8
+point = { cone = { cone_angle = 90, nose_diameter = 7.6 } }
+flute_length = 80
+centre_cutting = false
+preset = [{ material = "C45", cutting_speed = 10, feed_per_rev = 0.1 }]
 "#;
 
 const BORE: &str = r#"
