@@ -86,6 +86,34 @@ mod tests {
     use crate::tool::DrillPoint;
     use proptest::prelude::*;
 
+    #[test]
+    fn a_rapid_move_ends_above_the_face_though_the_spot_is_deeper() {
+        use crate::drilling::{DrillMethod, DrillSpec, plan_drill};
+        use crate::tool::StepStage;
+        let spot = DrillPoint::SinglePlane { angle: 90f64.to_radians() }.edge(7.0).unwrap();
+        let level = |height: f64| BoundarySurface::Plane { height, slope: 0.0 };
+        let twist = DrillPoint::SinglePlane { angle: 118f64.to_radians() };
+        let stage = StepStage { diameter: 3.0, length: 2.0, shoulder: std::f64::consts::PI };
+        let stepped = DrillPoint::Stepped { angle: 118f64.to_radians(), stages: vec![stage] };
+        for (method, point) in [(DrillMethod::Drilling, twist), (DrillMethod::StepDrilling, stepped)] {
+            let plain = DrillSpec::new(6.6, point, level(0.0), level(-20.0));
+            let plain = DrillSpec { method, tolerance: 0.1, ..plain };
+            let spotted = DrillSpec { mouth: Some(Mouth { height: -3.5, edge: spot }), ..plain.clone() };
+            let [a, b] = [plain, spotted].map(|spec| plan_drill(&spec).unwrap());
+            assert_eq!((a.travel.start, b.travel), (2.1, a.travel));
+            assert!(b.entry.first < a.entry.first - 0.5, "{:?} {:?}", a.entry, b.entry);
+            // What goes in on the way is that of the edge: of each diameter of a stepped one.
+            let ins = b.passages.iter().filter(|p| p.side == Side::Entry).map(|p| p.transient);
+            let first = ins.clone().map(|t| t.first).fold(f64::NEG_INFINITY, f64::max);
+            let last = ins.map(|t| t.last).fold(f64::INFINITY, f64::min);
+            assert!(
+                (first - b.entry.first).abs() < 1e-9 && (last - b.entry.last).abs() < 1e-9,
+                "{:?}",
+                b.passages
+            );
+        }
+    }
+
     proptest! {
         #![proptest_config(kinecut_cases::property(200))]
         /// Dense places of the edge against the height of what stands below them.

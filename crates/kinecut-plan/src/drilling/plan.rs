@@ -87,6 +87,7 @@ pub fn plan_drill(spec: &DrillSpec) -> Result<DrillPlan> {
     };
     body.passages.iter_mut().for_each(|p| widen(&mut p.transient));
     widen(&mut body.entry);
+    body.above += spec.tolerance;
     body.exit.iter_mut().for_each(widen);
     let banded = body.banded;
     let mut plan = plan_along(spec, body)?;
@@ -106,6 +107,8 @@ struct PassedBody {
     edge: EdgeProfile,
     passages: Vec<Passage>,
     entry: Transient,
+    /// Its first contact without a recess at its mouth: that may be missing, so that no rapid move relies on it.
+    above: f64,
     exit: Option<Transient>,
     /// Each diameter of a stepped tool has passages of its own.
     banded: bool,
@@ -129,6 +132,7 @@ impl PassedBody {
                 }
                 .passages(&edge)?,
             };
+            let above = whole(&passages, Side::Entry).map_or(f64::NEG_INFINITY, |t| t.first);
             if let Some((mouth, face)) = spec.level_mouth() {
                 let inner =
                     spec.pre_hole.as_ref().filter(|h| h.is_concentric()).map_or(0.0, |h| 0.5 * h.diameter);
@@ -137,13 +141,13 @@ impl PassedBody {
             let beside = || Finding::error(Code::DRILL_MISSES, "the drill meets nothing");
             let entry = whole(&passages, Side::Entry).ok_or_else(beside)?;
             let exit = if spec.end.exit().is_some() { whole(&passages, Side::Exit) } else { None };
-            return Ok(PassedBody { edge, passages, entry, exit, banded: false });
+            return Ok(PassedBody { edge, passages, entry, above, exit, banded: false });
         }
-        let entry = match spec.level_mouth() {
-            Some((mouth, face)) => mouth.transient(&edge, face),
-            None => transient(&edge, &spec.entry, Cover::Whole),
+        let entry = spec.goes_in(&edge).map_err(|e| e.under("entry"))?;
+        let above = match spec.mouth {
+            Some(_) => transient(&edge, &spec.entry, Cover::Whole).map_err(|e| e.under("entry"))?.first,
+            None => entry.first,
         };
-        let entry = entry.map_err(|e| e.under("entry"))?;
         let exit = match spec.end.exit() {
             Some(exit) => Some(transient(&edge, exit, Cover::Whole).map_err(|e| e.under("exit"))?),
             None => None,
@@ -156,7 +160,7 @@ impl PassedBody {
             passages.push(Passage { transient: entry, side: Side::Entry, share: 1.0 });
             passages.extend(exit.map(|t| Passage { transient: t, side: Side::Exit, share: 1.0 }));
         }
-        Ok(PassedBody { edge, passages, entry, exit, banded })
+        Ok(PassedBody { edge, passages, entry, above, exit, banded })
     }
 }
 
@@ -210,6 +214,14 @@ impl DrillSpec {
         }
     }
 
+    /// The transient of an edge at the entry.
+    fn goes_in(&self, edge: &EdgeProfile) -> Result<Transient> {
+        match self.level_mouth() {
+            Some((mouth, face)) => mouth.transient(edge, face),
+            None => transient(edge, &self.entry, Cover::Whole),
+        }
+    }
+
     /// The part of the tool's edge that cuts: without what runs in a through hole about the same axis, and up to the
     /// diameter that is reached. Passages found in a body must be those of this edge.
     ///
@@ -257,23 +269,27 @@ fn bands(spec: &DrillSpec, edge: &EdgeProfile, passages: &mut Vec<Passage>) -> R
     for band in spec.point.bands(spec.diameter)? {
         let Some(band) = band.clipped(edge.inner_radius(), edge.outer_radius()) else { continue };
         let share = area(&band) / whole;
-        let sides = [(Side::Entry, Some(&spec.entry)), (Side::Exit, spec.end.exit())];
-        for (side, surface) in sides.into_iter().filter_map(|(side, s)| Some((side, s?))) {
-            passages.push(Passage { transient: transient(&band, surface, Cover::Whole)?, side, share });
+        passages.push(Passage { transient: spec.goes_in(&band)?, side: Side::Entry, share });
+        if let Some(exit) = spec.end.exit() {
+            passages.push(Passage {
+                transient: transient(&band, exit, Cover::Whole)?,
+                side: Side::Exit,
+                share,
+            });
         }
     }
     Ok(())
 }
 
 fn plan_along(spec: &DrillSpec, body: PassedBody) -> Result<DrillPlan> {
-    let PassedBody { edge, passages, entry, exit, .. } = body;
+    let PassedBody { edge, passages, entry, above, exit, .. } = body;
     for (key, value) in [("approach", spec.approach), ("tolerance", spec.tolerance)] {
         not_negative(key, value)?;
     }
     if !spec.length.is_finite() {
         return Err(case("length", "the distance of the frames is not finite", spec.length, 0.0, "mm"));
     }
-    let start = entry.first + spec.approach;
+    let start = if above > entry.first { above } else { entry.first } + spec.approach;
     let end = match (spec.end, exit) {
         (End::Through { overrun, .. }, Some(exit)) => {
             not_negative("overrun", overrun)?;

@@ -146,7 +146,7 @@ pub(crate) fn setting<'a>(
     Setting {
         number,
         clamping,
-        alone: setup.operations.len() == 1,
+        others: setup.operations.len().saturating_sub(1),
         stock: &job.stock,
         drilled: &job.drilled,
         made: &[],

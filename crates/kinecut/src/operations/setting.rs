@@ -91,8 +91,8 @@ pub(crate) struct Setting<'a> {
     pub(crate) number: u32,
     /// The clamping as the operation sees it.
     pub(crate) clamping: &'a Clamping,
-    /// Whether its setup has no other operation.
-    pub(crate) alone: bool,
+    /// Number of the other operations of its setup.
+    pub(crate) others: usize,
     /// The raw stock [part coordinates].
     pub(crate) stock: &'a Solid,
     /// Holes that it already has.

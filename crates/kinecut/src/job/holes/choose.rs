@@ -3,8 +3,9 @@
 use super::size::{SAME, Size};
 use crate::base::{Code, Error, Finding, Result};
 use crate::job::file::{ToolTable, ToolType};
+use crate::page::trimmed;
 use crate::threading::coarse_pitch;
-use crate::tool::{DrillPoint, Hand};
+use crate::tool::{DrillPoint, Hand, Tap};
 
 /// Point angle up to which a drill is one for spots, degrees: no drill for the solid is so sharp.
 const SPOT_ANGLE: f64 = 100.0;
@@ -15,17 +16,17 @@ const COARSE: f64 = 0.7;
 const FINE: f64 = 0.8;
 
 /// The tools that a job has, in the order in which it names them, and the words for where they are.
-pub(super) struct Shelf<'a> {
+pub(super) struct ToolList<'a> {
     pub(super) tools: Vec<&'a ToolTable>,
     pub(super) place: String,
 }
 
-/// Whether a tool drills into the solid, and with what point.
+/// Whether a tool drills into the solid.
 fn is_drill(tool: &ToolTable) -> bool {
     tool.kind == ToolType::Drill && tool.centre_cutting != Some(false)
 }
 
-pub(super) fn is_spot_drill(tool: &ToolTable) -> bool {
+fn is_spot_drill(tool: &ToolTable) -> bool {
     is_drill(tool)
         && tool.point.is_none()
         && tool.point_angle.is_some_and(|angle| angle <= SPOT_ANGLE.to_radians())
@@ -55,7 +56,7 @@ fn said(tool: &ToolTable, word: &str) -> bool {
     tool.name.as_deref().is_some_and(|name| name.contains(word))
 }
 
-impl<'a> Shelf<'a> {
+impl<'a> ToolList<'a> {
     fn of(&self, accept: impl Fn(&ToolTable) -> bool) -> impl Iterator<Item = &'a ToolTable> {
         self.tools.iter().copied().filter(move |tool| accept(tool))
     }
@@ -69,7 +70,7 @@ impl<'a> Shelf<'a> {
         let tool = tool.ok_or_else(|| {
             self.missing("no spot drill", "add a drill with point_angle = 90, or write spot = false")
         })?;
-        Ok((tool, Shelf::spot_within(tool, diameter)))
+        Ok((tool, ToolList::spot_within(tool, diameter)))
     }
 
     /// Diameter of the spot that a spot drill makes where one is wanted [mm].
@@ -116,30 +117,24 @@ impl<'a> Shelf<'a> {
             _ => above,
         };
         let near: Vec<f64> = below.into_iter().chain(above).collect();
-        let share = |d: f64| match size {
-            // The height of the thread is 5/8 of that of the sharp triangle, on both sides.
-            Size::Thread(t) => {
-                format!(
-                    "{} gives {:.0} % of the thread",
-                    short(d),
-                    (size.diameter() - d) / (1.0825 * t.pitch) * 100.0
-                )
-            }
-            _ => short(d),
-        };
         let near = match (&near[..], size) {
             ([], _) => String::new(),
-            (all, Size::Thread(_)) => {
-                format!("; {}", all.iter().map(|d| share(*d)).collect::<Vec<_>>().join(", "))
+            (all, Size::Thread(t)) => {
+                let tap = Tap { diameter: t.diameter, pitch: t.pitch, lead: 0.0, tip: 0.0, forming: false };
+                let share = |d: &f64| {
+                    format!("{} gives {:.0} % of the thread", short(*d), tap.thread_share(*d) * 100.0)
+                };
+                format!("; {}", all.iter().map(share).collect::<Vec<_>>().join(", "))
             }
             (all, _) => {
-                let all: Vec<String> = all.iter().map(|d| share(*d)).collect();
+                let all: Vec<String> = all.iter().map(|d| short(*d)).collect();
                 format!("; the nearest {} {}", if all.len() > 1 { "are" } else { "is" }, all.join(" and "))
             }
         };
+        let add = "add one to a tool file, or as [[tool]] to the job";
         let cure = match (size, pilot, above.or(below)) {
-            (Size::Plain(_), ..) | (_, Some(_), _) | (.., None) => "add one".to_owned(),
-            (.., Some(d)) => format!("add one, or write pilot = {}", short(d)),
+            (Size::Plain(_), ..) | (_, Some(_), _) | (.., None) => add.to_owned(),
+            (.., Some(d)) => format!("{add}, or write pilot = {}", short(d)),
         };
         let mut error = self.missing(&format!("no drill {wanted} for {}", size.word()), &cure);
         error.0.message += &near;
@@ -201,9 +196,9 @@ impl<'a> Shelf<'a> {
     }
 }
 
-/// A number with the digits that it needs, at most three decimals.
-pub(super) fn short(value: f64) -> String {
-    format!("{}", (value * 1e3).round() / 1e3 + 0.0)
+/// A length as a message shows it [mm].
+pub(super) fn short(length: f64) -> String {
+    trimmed(length, 3)
 }
 
 /// The name of a tool for a message.

@@ -5,7 +5,7 @@ mod data;
 mod size;
 mod steps;
 
-use self::choose::Shelf;
+use self::choose::ToolList;
 use self::size::Size;
 use self::steps::{Maker, Named, Step};
 use super::file::{HoleTable, JobFile};
@@ -15,8 +15,8 @@ use crate::base::{Code, Finding, Result};
 use crate::nc::Control;
 use crate::operations::{CalledTool, OperationTable};
 
-/// Puts operations in the place of the holes of all setups; from then on the places of keys are those of the new list. What a
-/// person should know of the choice comes back, each with the key of its setup.
+/// Puts operations in the place of the holes of all setups; from then on the places of keys are those of the new list. Notes about
+/// tools that were chosen come back, each with the key of its operation.
 ///
 /// # Errors
 /// One finding with its key in the text as it was read.
@@ -128,12 +128,12 @@ fn made(
             return Err(undefined(called, key).into());
         }
     }
-    let shelf = Shelf { tools: shop.usable(file), place: shop.place() };
+    let list = ToolList { tools: shop.usable(file), place: shop.place() };
     let mut maker =
-        Maker { hole, size, top: hole.top.unwrap_or(top), control, shelf: &shelf, named, notes: Vec::new() };
+        Maker { hole, size, top: hole.top.unwrap_or(top), control, tools: &list, named, notes: Vec::new() };
     let steps = maker.steps()?;
     for step in &steps {
-        let tool = shelf.tools.iter().find(|tool| tool.number == step.tool);
+        let tool = list.tools.iter().find(|tool| tool.number == step.tool);
         data::there(step, tool.copied(), file.material.as_deref())?;
     }
     let notes = maker.notes.iter().map(|note| Finding::note(Code::TOOL_CHOSEN, note.clone()).key("size"));

@@ -5,7 +5,7 @@ use crate::base::{Code, Finding, Result};
 use crate::job::file::HoleSize;
 use crate::threading::ThreadSize;
 
-/// What a hole is to be.
+/// A size as its maker reads it.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Size {
     /// Drilled to a diameter [mm].

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use super::choose::{Shelf, short, title};
+use super::choose::{ToolList, short, title};
 use super::size::{SAME, Size};
 use crate::base::bounded::{MAX_LENGTH, length, positive};
 use crate::base::{Code, Finding, Result};
@@ -59,9 +59,9 @@ pub(super) struct Maker<'a> {
     /// Height from which depths count [mm].
     pub(super) top: f64,
     pub(super) control: Control,
-    pub(super) shelf: &'a Shelf<'a>,
+    pub(super) tools: &'a ToolList<'a>,
     pub(super) named: Named<'a>,
-    /// What a person should know of the choice.
+    /// Notes about tools that were chosen.
     pub(super) notes: Vec<String>,
 }
 
@@ -87,7 +87,7 @@ impl<'a> Maker<'a> {
         };
         let drill = match self.named.drill {
             Some(drill) => drill,
-            None => self.shelf.drill(self.core(finisher.as_ref()), &self.size, hole.pilot, drilled)?,
+            None => self.tools.drill(self.core(finisher.as_ref()), &self.size, hole.pilot, drilled)?,
         };
         let mut steps = Vec::with_capacity(3);
         if hole.spot {
@@ -147,7 +147,7 @@ impl<'a> Maker<'a> {
             (Size::Plain(_), _) => Ok(None),
             (Size::Fit(..), Some(tool)) => Ok(Some(Finisher::Reamer(tool))),
             (Size::Fit(diameter, fit), None) => {
-                let (tool, says_fit) = self.shelf.reamer(*diameter, fit)?;
+                let (tool, says_fit) = self.tools.reamer(*diameter, fit)?;
                 if !says_fit {
                     let title = title(tool);
                     self.notes.push(format!(
@@ -162,20 +162,20 @@ impl<'a> Maker<'a> {
             }
             (Size::Thread(_), Some(tool)) => Ok(Some(Finisher::Tap(tool))),
             (Size::Thread(thread), None) => {
-                let tap = self.shelf.tap(thread.diameter, thread.pitch);
+                let tap = self.tools.tap(thread.diameter, thread.pitch);
                 let tap = tap.filter(|_| self.control.has_rigid_tapping());
-                let mill = || self.shelf.thread_mill(thread.diameter, thread.pitch);
+                let mill = || self.tools.thread_mill(thread.diameter, thread.pitch);
                 match tap.map(Finisher::Tap).or_else(|| mill().map(Finisher::ThreadMill)) {
                     Some(found) => Ok(Some(found)),
                     None if self.control.has_rigid_tapping() => {
                         let what = format!("no tap {} and no thread mill for it", self.size.word());
-                        Err(self.shelf.missing(&what, "add one"))
+                        Err(self.tools.missing(&what, "add one"))
                     }
                     None => {
                         let what = format!("no thread mill for {}", self.size.word());
                         let title = self.control.title();
                         let help = format!("add one: {title} has no synchronised spindle and cannot tap");
-                        Err(self.shelf.missing(&what, &help))
+                        Err(self.tools.missing(&what, &help))
                     }
                 }
             }
@@ -223,8 +223,8 @@ impl<'a> Maker<'a> {
         let chamfer = self.hole.chamfer.unwrap_or(CHAMFER);
         let wanted = self.size.diameter() + 2.0 * chamfer;
         let (tool, reached) = match self.named.spot {
-            Some(tool) => (tool, Shelf::spot_within(tool, wanted)),
-            None => self.shelf.spot(wanted)?,
+            Some(tool) => (tool, ToolList::spot_within(tool, wanted)),
+            None => self.tools.spot(wanted)?,
         };
         if reached < wanted - 1e-9 {
             let title = title(tool);

@@ -6,7 +6,7 @@ use crate::job::file::{PresetTable, ToolTable};
 use crate::operations::{CuttingKeys, OperationTable, plain_name};
 
 /// Gives an operation without a speed that of the preset of its tool for a material; what it was given, in words, and the preset.
-/// Which of several is meant cannot be known: none is taken, and the operation misses its speed.
+/// Several presets that differ leave it open which is meant: they are refused, with their names.
 pub(super) fn take_data<'t>(
     operation: &mut OperationTable,
     tool: &'t ToolTable,

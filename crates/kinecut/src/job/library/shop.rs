@@ -345,7 +345,10 @@ impl Shop {
             None => String::new(),
         };
         let message = format!("{} from the preset {} of T{number}{of}", taken.join(", "), preset.material);
-        self.data.push(Finding::note(Code::TOOL_CHOSEN, message).key(key));
+        // Once for all operations with the tool.
+        if self.data.iter().all(|note| note.message != message) {
+            self.data.push(Finding::note(Code::TOOL_CHOSEN, message).key(key));
+        }
         Ok(())
     }
 

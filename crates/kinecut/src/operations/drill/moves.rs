@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use super::{DrillOperation, PeckName, PeckTable, PlannedHole};
 use crate::base::Result;
-use crate::drilling::{Zone, ZoneStage};
+use crate::drilling::{DrillMethod, Zone, ZoneStage};
 use crate::geom::Line;
 use crate::nc::Control;
 use crate::operations::Pen;
@@ -92,8 +92,10 @@ impl HolePen<'_, '_> {
         let t = &drill.table;
         let (Some(first), Some(last)) = (zones.first(), zones.last()) else { return Ok(()) };
         let (start, bottom) = (first.from, last.to);
+        // A reamer that leaves in a rapid move scores the wall: it comes out at its feed, which the cycles of drilling do not.
+        let reams = drill.method == DrillMethod::Reaming;
         let one_feed = zones.iter().all(|z| z.feed == first.feed);
-        if one_feed && t.peck.is_none() && t.cycles {
+        if !reams && one_feed && t.peck.is_none() && t.cycles {
             let cycle = Cycle::Drill { reference: start, bottom, retract: self.clearance, dwell: t.dwell };
             return self.cycle(cycle, first.feed);
         }
@@ -136,6 +138,10 @@ impl HolePen<'_, '_> {
         }
         if t.dwell > 0.0 {
             self.pen.program.push_dwell(t.dwell, self.pen.state, self.pen.origin);
+        }
+        if reams {
+            let speed = self.speed(drill.feed.steady);
+            self.to(start, speed, Role::Lead);
         }
         self.rapid(self.clearance);
         Ok(())

@@ -40,6 +40,8 @@ pub struct PlannedEdge {
     pub plan: ContourPlan,
     /// The burrs that it takes off, where it goes by them.
     pub(super) burrs: Option<FoundBurrs>,
+    /// Whether its setup has operations besides it and the face, which may cut the same edges.
+    among_others: bool,
 }
 
 /// Plans a break; `make` gives the plan of its kind.
@@ -69,7 +71,7 @@ pub(crate) fn planned<P>(
     let mut findings = plan.findings.clone();
     findings.retain(|f| f.code != Code::CORNERS_STAY);
     findings.extend(warning(&plan.uncut, &of.cut));
-    let planned = PlannedEdge { of: of.clone(), spec, plan, burrs };
+    let planned = PlannedEdge { of: of.clone(), spec, plan, burrs, among_others: setting.others > 1 };
     if let Some(reason) = planned.cuts_nothing() {
         return Ok(Attempt::LeftOut(Box::new(reason)));
     }
@@ -277,10 +279,11 @@ impl PlannedEdge {
             left.push(
                 "edges of the face beside its pieces; heights of burrs, which are not simulated".to_owned(),
             );
-            left.push(
-                "whether operations before or after it cut these edges away, or leave burrs of their own"
-                    .to_owned(),
-            );
+            if self.among_others {
+                let what =
+                    "whether operations before or after it cut these edges away, or leave burrs of their own";
+                left.push(what.to_owned());
+            }
         }
         let unchecked = (!left.is_empty()).then(|| format!("{name}: {}", left.join("; ")));
         Judged { unchecked, ..Judged::default() }

@@ -96,7 +96,7 @@ pub(super) fn plan_face(face: &Arc<FaceOperation>, setting: &Setting<'_>) -> Res
     let rapid = setting.machine.and_then(|m| m.dynamics.rapid);
     let (plan, findings) = facing::plan_face(&spec(face, setting.compare, rapid), setting.progress)?;
     let planned = planned(face, setting.number, plan);
-    if face.table.turn == TurnName::Part && !setting.alone {
+    if face.table.turn == TurnName::Part && setting.others > 0 {
         return Err(Error::from(
             Finding::error(
                 crate::base::Code::JOB_SHAPE,

@@ -98,7 +98,7 @@ fn names(outcome: &Outcome) -> Vec<String> {
     outcome.job.setups[0].operations.iter().map(|o| o.name()).collect()
 }
 
-/// What a person has to act on.
+/// Findings beside the notes about chosen tools.
 fn findings(outcome: &Outcome) -> Vec<&Finding> {
     outcome.verdict.found.iter().filter(|f| f.code != Code::TOOL_CHOSEN).collect()
 }
@@ -135,7 +135,6 @@ fn holes_become_spots_drills_and_what_brings_them_to_size() {
                 "tap M8x1.25, 2 holes"
             ]
         );
-        // Each tool is changed in once.
         assert!(outcome.verdict.is_safe(), "{control}: {:?}", outcome.verdict.found);
         assert!(findings(&outcome).is_empty(), "{control}: {:?}", findings(&outcome));
     }
@@ -174,6 +173,24 @@ fn the_drilling_knows_the_spot_and_the_depth_counts_from_the_milled_face() {
     let plan: serde_json::Value = serde_json::from_str(&kinecut::job::plan_json(&lower)).unwrap();
     let zero = plan["setups"][0]["drillings"][1]["holes"][0]["zero"].as_f64();
     assert!(zero.is_none_or(|zero| (zero + 2.0).abs() < 1e-9), "{zero:?}");
+}
+
+#[test]
+fn a_reamer_leaves_at_feed_and_no_rapid_move_ends_in_a_spot() {
+    let outcome = done("fanuc", "", HOLES);
+    let text = &outcome.setups[0].posted.text;
+    let from = text.find("(REAMING 8").unwrap();
+    let reaming: Vec<&str> = text[from..].lines().take_while(|l| !l.starts_with("G53")).collect();
+    let down = reaming.iter().rposition(|l| l.starts_with("Z-")).unwrap();
+    // Up at the feed of the steady stretch, mm a revolution.
+    let up = reaming[down + 1];
+    assert!(up.starts_with('Z') && !up.starts_with("Z-") && up.ends_with(" F0.16"), "{reaming:?}");
+    assert!(reaming[down + 2].starts_with("G0 Z"), "{reaming:?}");
+    // 2 mm over the face in Z 0, for all that the spot is deeper.
+    let from = text.find("(DRILLING 6.6").unwrap();
+    let downs = text[from..].lines().take_while(|l| !l.starts_with("M5")).filter(|l| l.starts_with("G0 Z"));
+    let lowest = downs.filter_map(|l| l[4..].parse::<f64>().ok()).fold(f64::INFINITY, f64::min);
+    assert_eq!(lowest, 2.0);
 }
 
 #[test]

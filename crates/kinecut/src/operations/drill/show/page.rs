@@ -196,6 +196,9 @@ fn are_alike(a: &DrilledHole, b: &DrilledHole) -> bool {
         && near(a.spec.entry.slope(), b.spec.entry.slope())
         && a.spec.end.exit().map(std::mem::discriminant) == b.spec.end.exit().map(std::mem::discriminant)
         && codes(p) == codes(q)
+        && a.spec.pre_hole == b.spec.pre_hole
+        && a.spec.bores == b.spec.bores
+        && a.spec.mouth == b.spec.mouth
         && a.paper == b.paper
 }
 
