@@ -211,6 +211,28 @@ fn tools_can_be_named_and_spots_left_out() {
     assert_eq!(plan["setups"][0]["threads"][0]["depth"].as_f64(), Some(20.0));
 }
 
+/// Of drills as near to the usual diameter the wider is taken, of those alike the shortest that reaches, for a hole through the longest.
+#[test]
+fn the_drill_that_suits_best_is_taken() {
+    let drill = |number: u32, diameter: f64, flutes: f64| {
+        format!(
+            "[[tool]]\nnumber = {number}\ntype = \"drill\"\ndiameter = {diameter}\nflute_length = {flutes}\nstickout = 80\n\
+             gauge_length = 160\npreset = [{{ material = \"C45\", cutting_speed = 20, feed_per_rev = 0.1 }}]\n"
+        )
+    };
+    let more =
+        [drill(21, 6.7, 60.0), drill(22, 6.8, 25.0), drill(23, 6.8, 28.0), drill(24, 6.8, 70.0)].concat();
+    let taken = |depth: &str| {
+        let hole = format!(
+            "[[setup.operation]]\ntype = \"hole\"\nsize = \"M8\"\nspot = false\npoints = [[0, 0]]\n{depth}"
+        );
+        let outcome = done("fanuc", &more, &hole);
+        outcome.job.setups[0].operations[1].milling().tool.number.0
+    };
+    // Drilled to 15 with 10 of thread, 19 with 14: the flutes reach a diameter farther.
+    assert_eq!([taken("depth = 10\n"), taken("depth = 14\n"), taken("")], [22, 23, 24]);
+}
+
 #[test]
 fn what_is_missing_is_said_with_what_is_there() {
     let hole = |rest: &str| format!("[[setup.operation]]\ntype = \"hole\"\npoints = [[0, 0]]\n{rest}\n");
