@@ -74,9 +74,9 @@ impl Walker<'_> {
     pub(super) fn pass(&mut self, start: DVec2, heading: f64, most: usize) -> Way {
         let step = step_of(self.radius);
         let sharpest = -2.0 * (0.5 * step / (RIGHT_TURN * self.radius)).asin();
-        let (start, heading) = (point_on_grid(start), on_grid(heading));
+        // The start itself stays: the way to it ends there.
         let mut way = Way { points: vec![start], ..Way::default() };
-        let (mut at, mut heading, mut bend) = (start, heading, 0.0_f64);
+        let (mut at, mut heading, mut bend) = (start, on_grid(heading), 0.0_f64);
         let mut air = 0.0;
         let mut solid = 1;
         // Steps in the air, swept only when the pass goes on: its end in the air is not run.
