@@ -1,5 +1,5 @@
 //! Planners of kinecut: bores and pockets by involutes ([`holes`]), [`drilling`] through any surface, [`facing`] with the
-//! least burr, milled threads ([`threading`]), and the time along a chain of curves ([`motion`]).
+//! least burr, milled threads ([`threading`]), cutting data ([`cutting`]), and the time along a chain of curves ([`motion`]).
 //!
 //! A part of `kinecut`, which shows all of its layers under one name.
 
@@ -9,6 +9,7 @@ pub use kinecut_nc::{nc, program, trace};
 
 pub mod clearing;
 pub mod contouring;
+pub mod cutting;
 pub mod drilling;
 pub mod facing;
 pub mod holes;

@@ -40,7 +40,7 @@
 //!
 //! Layers, lowest first; each imports only those above it in this list:
 //! [`base`], [`num`], [`geom`], [`tool`], [`page`], [`machine`], [`program`], [`trace`], [`nc`], [`motion`], [`sweep`],
-//! [`contact`], [`stock`], [`holes`], [`drilling`], [`facing`], [`threading`], [`operations`], [`job`], [`verbs`].
+//! [`contact`], [`stock`], [`holes`], [`drilling`], [`facing`], [`threading`], [`cutting`], [`operations`], [`job`], [`verbs`].
 //!
 //! Features: `jobs` (all; the default), `plan`, `stock`, `nc`. Without any, geometry and machines alone.
 //!
@@ -55,7 +55,7 @@ pub use kinecut_machine::machine;
 pub use kinecut_nc::{nc, program, trace};
 #[cfg(feature = "plan")]
 #[doc(inline)]
-pub use kinecut_plan::{clearing, contouring, drilling, facing, holes, motion, threading};
+pub use kinecut_plan::{clearing, contouring, cutting, drilling, facing, holes, motion, threading};
 #[cfg(feature = "stock")]
 #[doc(inline)]
 pub use kinecut_stock::{contact, stock, sweep};

@@ -6,6 +6,7 @@ pub(crate) mod check;
 mod closer;
 mod contacts;
 pub mod contour;
+mod cutting;
 pub(crate) mod engagement;
 pub(crate) mod external;
 pub(crate) mod facets;
@@ -56,6 +57,7 @@ pub use budget::Budget;
 pub use check::{
     Design, Job, JobProgram, JobSetup, Region, Subprogram, Uncertainty, check, program_text, subprograms,
 };
+pub use cutting::{DataOrigin, SpeedLimit, TakenData, TakenNumber};
 pub use engagement::{Engagement, engagement_json};
 pub use external::{
     Carried, CarriedStock, CarriedTool, ExternalProgram, GivenFile, GivenJob, GivenStock, ProgramWants,

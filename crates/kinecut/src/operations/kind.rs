@@ -13,6 +13,7 @@ use super::{
     Around, CalledTool, MadeMouth, MadePlane, Milling, Pen, PlaneTable, PostedPlan, RoundHole, Setting,
 };
 use crate::base::{Finding, Result};
+use crate::cutting::StartCut;
 use crate::drilling::FeedChoice;
 use crate::page::Section;
 use crate::program::Setup;
@@ -68,6 +69,8 @@ pub(crate) struct CuttingKeys<'a> {
     pub(crate) feed: Option<FeedKeys<'a>>,
     /// `feed_per_rev` of a drill.
     pub(crate) per_rev: Option<&'a mut Option<FeedChoice>>,
+    /// The cut for which values to start with are wanted.
+    pub(crate) cut: StartCut,
 }
 
 /// Keys of the feed of an operation.

@@ -13,7 +13,7 @@ const LAYERS: &[(&str, &[&[&str]])] = &[
     ("kinecut-stock", &[&["sweep"], &["contact", "stock"]]),
     (
         "kinecut-plan",
-        &[&["motion"], &["holes", "drilling", "facing"], &["contouring", "clearing", "threading"]],
+        &[&["motion", "cutting"], &["holes", "drilling", "facing"], &["contouring", "clearing", "threading"]],
     ),
     ("kinecut", &[&["page"], &["operations"], &["job"], &["verbs"]]),
 ];

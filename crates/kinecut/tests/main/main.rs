@@ -24,6 +24,7 @@ mod trace;
 mod nc;
 
 // What is planned.
+mod cutting;
 mod drilling;
 mod facing;
 mod holes;

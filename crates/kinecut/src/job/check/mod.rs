@@ -27,6 +27,7 @@ use glam::DVec3;
 
 use feed_limit::feed_limit;
 
+use super::cutting::TakenData;
 use super::file::{DrilledTable, JobFile, MachineEntry, StockTable};
 use crate::base::bounded::{MAX_LENGTH, length, positive, text};
 use crate::base::{Code, Finding, Loader, Result};
@@ -80,6 +81,10 @@ pub struct Job {
     pub part_surface: PartSurface,
     /// Clampings, in order.
     pub setups: Vec<JobSetup>,
+    /// The material of the part as the job names it.
+    pub material: Option<String>,
+    /// Speeds and feeds that operations were given.
+    pub cutting: Vec<TakenData>,
     /// Whether other ways than the one asked for are planned too, each with its price.
     pub compare: bool,
 }
@@ -162,8 +167,10 @@ pub fn check(file: &JobFile, name: &str, loader: &dyn Loader) -> Result<Job> {
     let said = (orientation(file.post.orientation, control)?, control);
     let fixtures = fixture::fixtures(&file.fixtures, file.setups.len(), loader)?;
     let mut setups = Vec::with_capacity(file.setups.len());
+    let mut cutting = file.cutting.clone();
     for (i, table) in file.setups.iter().enumerate() {
-        let mut setup = setup::setup(i, table, &tools, (&stock, &drilled), (machine.as_ref(), said), loader)
+        let around = (machine.as_ref(), said);
+        let mut setup = setup::setup(i, table, &mut cutting, &tools, (&stock, &drilled), around, loader)
             .map_err(|e| e.under(&format!("setup[{i}]")))?;
         let work = setup.clamping.work();
         let there = fixtures.iter().flat_map(|fixture| fixture.in_setup(i, &work));
@@ -190,6 +197,8 @@ pub fn check(file: &JobFile, name: &str, loader: &dyn Loader) -> Result<Job> {
         playback: false,
         part_surface: PartSurface::Full,
         setups,
+        material: file.material.clone(),
+        cutting,
         compare: false,
     })
 }

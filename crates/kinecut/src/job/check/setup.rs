@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 
 use glam::{DMat3, DVec3};
 
+use super::super::cutting::{TakenData, within_limit};
 use super::super::file::SetupTable;
 use super::{JobSetup, program};
 use crate::base::bounded::{MAX_LENGTH, length};
@@ -20,6 +21,7 @@ use crate::tool::Tool;
 pub(super) fn setup(
     index: usize,
     t: &SetupTable,
+    cutting: &mut [TakenData],
     tools: &[Tool],
     (stock, drilled): (&Solid, &[Drilled]),
     (machine, post): (Option<&Machine>, (OrientationName, Control)),
@@ -62,7 +64,9 @@ pub(super) fn setup(
     let complete = |table: &PlaneTable| plane(table, &part_in_work, &bounds, machine);
     let operations = t.operations.iter().enumerate().map(|(i, operation)| {
         let around = Around { before: &t.operations[..i], ..around };
-        operation.check(&around, complete).map_err(|e| e.under(&format!("operation[{i}]")))
+        let taken = cutting.iter_mut().find(|taken| taken.operation == (index, i));
+        within_limit(operation, &|table| table.check(&around, complete), machine, taken)
+            .map_err(|e| e.under(&format!("operation[{i}]")))
     });
     let mut work_offsets = BTreeMap::from([(offset, work_on_table)]);
     for (name, zero) in &t.offsets {

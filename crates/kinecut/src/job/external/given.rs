@@ -352,6 +352,8 @@ pub fn given_alone(program: GivenFile<'_>, wants: &ProgramWants, needs_stock: bo
         material: None,
         libraries: None,
         tool_files: Vec::new(),
+
+        cutting: Vec::new(),
         design: None,
         stock,
         drilled: Vec::new(),

@@ -26,6 +26,7 @@ use std::collections::BTreeMap;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use super::cutting::TakenData;
 use crate::operations::{FeedsName, OperationTable, OrientationName};
 use crate::tool::Holder;
 
@@ -39,7 +40,8 @@ pub struct JobFile {
     /// Title of the job in program and report.
     #[serde(default)]
     pub title: Option<String>,
-    /// The material of the part: "C45". Operations without a speed take that of their tool's preset for it.
+    /// The material of the part: "C45", "1.0503", "AISI 1045". Operations without speed and feed take those of their tool's preset
+    /// for it, else values to start with.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub material: Option<String>,
     /// Files of tools: "shop.toml", or a list of them. TOML with the tools and holders of a job, the tool table of LinuxCNC
@@ -71,6 +73,9 @@ pub struct JobFile {
     /// All files from which the tools of `libraries` were read.
     #[serde(skip)]
     pub tool_files: Vec<String>,
+    /// Speeds and feeds that operations were given.
+    #[serde(skip)]
+    pub cutting: Vec<TakenData>,
     /// Clamps, vises and what else stands around the part.
     #[serde(default, rename = "fixture", skip_serializing_if = "Vec::is_empty")]
     pub fixtures: Vec<FixtureTable>,

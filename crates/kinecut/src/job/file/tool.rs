@@ -36,6 +36,16 @@ pub enum ToolType {
     ThreadMill,
 }
 
+/// Materials of the edges of tools.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum EdgeName {
+    /// Cemented carbide.
+    Carbide,
+    /// High-speed steel.
+    Hss,
+}
+
 /// A tool.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -92,6 +102,10 @@ pub struct ToolTable {
     pub neck_length: Option<f64>,
     /// Height of the cutting part above the tip.
     pub flute_length: f64,
+    /// Material of its edges, "carbide" or "hss", for values to start with; default carbide for mills, HSS for drills, reamers and
+    /// taps.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub material: Option<EdgeName>,
     /// Number of teeth; default 2.
     #[serde(default)]
     pub teeth: Option<u32>,
@@ -203,6 +217,7 @@ impl ToolTable {
             tip_length: None,
             forming: None,
             flute_length: 0.0,
+            material: None,
             teeth: None,
             tooth_angles: None,
             runout: None,

@@ -1,7 +1,7 @@
 //! Holes by their size: the operations that make them, with tools that are taken by their diameters.
 
 mod choose;
-mod data;
+mod material;
 mod size;
 mod steps;
 
@@ -132,10 +132,7 @@ fn made(
     let mut maker =
         Maker { hole, size, top: hole.top.unwrap_or(top), control, tools: &list, named, notes: Vec::new() };
     let steps = maker.steps()?;
-    for step in &steps {
-        let tool = list.tools.iter().find(|tool| tool.number == step.tool);
-        data::there(step, tool.copied(), file.material.as_deref())?;
-    }
+    material::known(file.material.as_deref())?;
     let notes = maker.notes.iter().map(|note| Finding::note(Code::TOOL_CHOSEN, note.clone()).key("size"));
     Ok((steps, notes.collect()))
 }

@@ -13,7 +13,6 @@ mod freecad;
 mod fusion;
 mod own;
 mod package;
-mod preset;
 mod program;
 mod quantity;
 mod read;

@@ -2,10 +2,10 @@
 
 use std::collections::BTreeSet;
 
-use super::preset::take_data;
 use super::program::{called_numbers, without_comments};
 use super::{Library, LibraryTool, read_library};
 use crate::base::{Code, Error, FileKind, Finding, Loader, Location, Result, Sources};
+use crate::job::cutting::take_data;
 use crate::job::file::{JobFile, ToolTable};
 use crate::job::places::Places;
 use crate::nc::Control;
@@ -32,8 +32,6 @@ pub(in crate::job) struct Shop {
     replaced: BTreeSet<u32>,
     /// Numbers that a program calls and several tools of files have: none of them was taken.
     open: BTreeSet<u32>,
-    /// Cutting data that were taken, in words.
-    data: Vec<Finding>,
 }
 
 impl Shop {
@@ -75,7 +73,7 @@ impl Shop {
                 let called = operation.called().clone();
                 if let Some(number) = self.call(file, places, &called).map_err(|e| e.under(&key))? {
                     *operation.called() = CalledTool::Number(number);
-                    self.choose_data(file, operation, number, &key).map_err(|e| e.under(&key))?;
+                    self.choose_data(file, operation, (s, o), number).map_err(|e| e.under(&key))?;
                 }
             }
             let Some(program) = setup.program.as_ref().filter(|_| !self.libraries.is_empty()) else {
@@ -327,28 +325,22 @@ impl Shop {
         finding.help(format!("define it with [[tool]]{place}{help}"))
     }
 
-    /// Gives an operation without a speed that of the preset of its tool for the material of the job.
+    /// Gives an operation the cutting data that it lacks, for the material of the job.
     fn choose_data(
-        &mut self,
-        file: &JobFile,
+        &self,
+        file: &mut JobFile,
         operation: &mut OperationTable,
+        at: (usize, usize),
         number: u32,
-        key: &str,
     ) -> Result<()> {
         let Some(material) = &file.material else { return Ok(()) };
         let Some((index, tool)) = file.tools.iter().enumerate().find(|(_, t)| t.number == number) else {
             return Ok(());
         };
-        let Some((taken, preset)) = take_data(operation, tool, material)? else { return Ok(()) };
-        let of = match index.checked_sub(self.own).and_then(|i| self.taken.get(i)) {
-            Some(&(k, ..)) => format!(" of `{}`", self.libraries[k].file),
-            None => String::new(),
-        };
-        let message = format!("{} from the preset {} of T{number}{of}", taken.join(", "), preset.material);
-        // Once for all operations with the tool.
-        if self.data.iter().all(|note| note.message != message) {
-            self.data.push(Finding::note(Code::TOOL_CHOSEN, message).key(key));
-        }
+        let of = index.checked_sub(self.own).and_then(|i| self.taken.get(i));
+        let of = of.map(|&(k, ..)| self.libraries[k].file.as_str());
+        let taken = take_data(operation, at, (tool, of), material)?;
+        file.cutting.extend(taken);
         Ok(())
     }
 
@@ -382,7 +374,6 @@ impl Shop {
                 notes.push(Finding::doubt(Code::TOOL_ASSUMED, message).help(help).at(place()));
             }
         }
-        notes.extend(self.data.iter().cloned());
         notes
     }
 }

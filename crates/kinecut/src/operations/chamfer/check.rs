@@ -6,6 +6,7 @@ use super::ChamferTable;
 use super::plan::PlannedChamfer;
 use crate::base::{Code, Finding, Result};
 use crate::contouring::EdgeBreak;
+use crate::cutting::StartCut;
 use crate::operations::edge::{self, EdgeOperation, edge_keys, v_cutter};
 use crate::operations::kind::{self, Attempt};
 use crate::operations::named::NamedOutline;
@@ -71,6 +72,7 @@ impl kind::Table for ChamferTable {
             cutting_speed: &mut self.cutting_speed,
             feed,
             per_rev: None,
+            cut: StartCut::Edge,
         })
     }
 

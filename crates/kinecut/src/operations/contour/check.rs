@@ -7,6 +7,7 @@ use super::{ContourEntry, ContourTable, TabsTable};
 use crate::base::bounded::{MAX_LENGTH, length, positive};
 use crate::base::{Code, Finding, Result};
 use crate::contouring::{ContourSide, Tabs};
+use crate::cutting::StartCut;
 use crate::geom::Outline;
 use crate::operations::kind::{self, Attempt};
 use crate::operations::named::NamedOutline;
@@ -120,6 +121,7 @@ impl kind::Table for ContourTable {
             cutting_speed: &mut self.cutting_speed,
             feed,
             per_rev: None,
+            cut: StartCut::Slot,
         })
     }
 

@@ -6,6 +6,7 @@ use super::DeburrTable;
 use super::plan::PlannedDeburr;
 use crate::base::{Code, Finding, Result};
 use crate::contouring::EdgeBreak;
+use crate::cutting::StartCut;
 use crate::operations::edge::{self, EdgeOperation, ball, edge_keys, v_cutter};
 use crate::operations::kind::{self, Attempt};
 use crate::operations::named::NamedOutline;
@@ -73,6 +74,7 @@ impl kind::Table for DeburrTable {
             cutting_speed: &mut self.cutting_speed,
             feed,
             per_rev: None,
+            cut: StartCut::Edge,
         })
     }
 

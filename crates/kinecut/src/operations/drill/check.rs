@@ -7,6 +7,7 @@ use super::plan::{PlannedDrilling, planned};
 use super::{DrillTable, ExitTable, FaceTable, SurfaceName};
 use crate::base::bounded::{MAX_LENGTH, bounded, length, positive};
 use crate::base::{Code, Error, Finding, Loader, Result};
+use crate::cutting::StartCut;
 use crate::drilling::{DrillMethod, FeedChoice};
 use crate::geom::{Mesh, load_mesh};
 use crate::operations::kind::{self, Attempt};
@@ -93,11 +94,17 @@ impl kind::Table for DrillTable {
     }
 
     fn data(&mut self) -> Option<CuttingKeys<'_>> {
+        let cut = match self.method {
+            DrillMethod::Centring | DrillMethod::Countersinking => StartCut::Spot,
+            DrillMethod::Reaming => StartCut::Ream,
+            _ => StartCut::Drill,
+        };
         Some(CuttingKeys {
             speed: &mut self.speed,
             cutting_speed: &mut self.cutting_speed,
             feed: None,
             per_rev: Some(&mut self.feed_per_rev),
+            cut,
         })
     }
 

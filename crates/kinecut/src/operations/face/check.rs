@@ -8,6 +8,7 @@ use super::{FacingTable, PsiSide, top_outline};
 use crate::base::bounded::{MAX_LENGTH, bounded, length, positive};
 use crate::base::unit::in_degrees;
 use crate::base::{Code, Finding, Loader, Result};
+use crate::cutting::StartCut;
 use crate::facing::{BadSet, FaceCase, Thresholds};
 use crate::geom::{Outline, OutlineRead};
 use crate::operations::kind::{self, Attempt};
@@ -109,6 +110,7 @@ impl kind::Table for FacingTable {
             cutting_speed: &mut self.cutting_speed,
             feed,
             per_rev: None,
+            cut: StartCut::Face,
         })
     }
 

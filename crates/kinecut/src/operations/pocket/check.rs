@@ -8,6 +8,7 @@ use crate::base::bounded::{MAX_LENGTH, length, positive};
 use crate::base::{Code, Finding, Result};
 use crate::clearing::{CentreLine, PocketSpec, SlotSpec};
 use crate::contouring::{ContourLoops, ContourSide};
+use crate::cutting::StartCut;
 use crate::geom::{Outline, OutlineRead};
 use crate::holes::CutterData;
 use crate::operations::kind::{self, Attempt};
@@ -143,12 +144,14 @@ impl kind::Table for PocketTable {
     }
 
     fn data(&mut self) -> Option<CuttingKeys<'_>> {
+        let cut = StartCut::Side(self.engagement.unwrap_or(USUAL_ENGAGEMENT).to_radians());
         let feed = Some(FeedKeys { feed: &mut self.feed, per_tooth: &mut self.feed_per_tooth });
         Some(CuttingKeys {
             speed: &mut self.speed,
             cutting_speed: &mut self.cutting_speed,
             feed,
             per_rev: None,
+            cut,
         })
     }
 

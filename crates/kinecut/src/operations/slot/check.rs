@@ -6,6 +6,7 @@ use super::SlotTable;
 use super::plan::PlannedSlot;
 use crate::base::Result;
 use crate::contouring::{ContourLoops, ContourSide};
+use crate::cutting::StartCut;
 use crate::geom::OutlineRead;
 use crate::operations::kind::{self, Attempt};
 use crate::operations::named::NamedOutline;
@@ -70,12 +71,14 @@ impl kind::Table for SlotTable {
     }
 
     fn data(&mut self) -> Option<CuttingKeys<'_>> {
+        let cut = self.engagement.map_or(StartCut::Slot, |angle| StartCut::Side(angle.to_radians()));
         let feed = Some(FeedKeys { feed: &mut self.feed, per_tooth: &mut self.feed_per_tooth });
         Some(CuttingKeys {
             speed: &mut self.speed,
             cutting_speed: &mut self.cutting_speed,
             feed,
             per_rev: None,
+            cut,
         })
     }
 

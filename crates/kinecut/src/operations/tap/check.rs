@@ -6,6 +6,7 @@ use super::TapTable;
 use super::plan::{PlannedTapping, planned};
 use crate::base::bounded::{MAX_LENGTH, length, positive};
 use crate::base::{Code, Finding, Result};
+use crate::cutting::StartCut;
 use crate::operations::kind::{self, Attempt};
 use crate::operations::places::{HolePlace, places};
 use crate::operations::thread_depth::thread_depth;
@@ -109,6 +110,7 @@ impl kind::Table for TapTable {
             cutting_speed: &mut self.cutting_speed,
             feed: None,
             per_rev: None,
+            cut: StartCut::Tap,
         })
     }
 

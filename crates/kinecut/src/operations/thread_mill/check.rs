@@ -6,6 +6,7 @@ use super::ThreadMillTable;
 use super::plan::{PlannedThreadMilling, planned};
 use crate::base::bounded::{MAX_LENGTH, bounded, length, positive};
 use crate::base::{Code, Finding, Result};
+use crate::cutting::StartCut;
 use crate::operations::kind::{self, Attempt};
 use crate::operations::places::{HolePlace, places};
 use crate::operations::thread_depth::thread_depth;
@@ -105,6 +106,7 @@ impl kind::Table for ThreadMillTable {
             cutting_speed: &mut self.cutting_speed,
             feed,
             per_rev: None,
+            cut: StartCut::ThreadMill,
         })
     }
 

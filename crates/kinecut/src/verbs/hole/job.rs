@@ -47,6 +47,8 @@ pub(crate) fn job_file(table: &HoleTable, stock: StockTable, setup: SetupTable) 
         material: None,
         libraries: None,
         tool_files: Vec::new(),
+
+        cutting: Vec::new(),
         design: None,
         stock,
         drilled: Vec::new(),

@@ -1,0 +1,71 @@
+//! Values to start with for a tool of a job.
+
+use crate::base::{Code, Finding};
+use crate::cutting::{EdgeMaterial, Material, StartCut, StartData};
+use crate::job::file::{EdgeName, ToolTable, ToolType};
+
+/// Least likeness of a name that is proposed.
+const ALIKE: f64 = 0.7;
+/// Most names that are proposed.
+const PROPOSED: usize = 3;
+
+/// Values to start with, and the material of the edges where the tool does not say it.
+pub(super) fn start_of(
+    material: &Material,
+    cut: StartCut,
+    tool: &ToolTable,
+) -> Option<(StartData, Option<&'static str>)> {
+    let is_mill = !matches!(tool.kind, ToolType::Drill | ToolType::Tap);
+    let edge = match tool.material {
+        Some(EdgeName::Carbide) => EdgeMaterial::Carbide,
+        Some(EdgeName::Hss) => EdgeMaterial::Hss,
+        // The lower speed of the two, but for what is mostly of carbide.
+        None if is_mill => EdgeMaterial::Carbide,
+        None => EdgeMaterial::Hss,
+    };
+    let cut = match (tool.kind, cut) {
+        (ToolType::FaceMill, _) => StartCut::Face,
+        (_, StartCut::Face) => StartCut::Slot,
+        (_, cut) => cut,
+    };
+    let diameter = match (tool.kind, tool.half_angle) {
+        (ToolType::Tapered, Some(half)) => tool.diameter + 2.0 * tool.flute_length * half.to_radians().tan(),
+        _ => tool.diameter,
+    };
+    let data = material.start(cut, edge, diameter, tool.stickout)?;
+    Some((data, tool.material.is_none().then_some(edge.name())))
+}
+
+/// The error of an operation that lacks `lack` where nothing has it: neither a preset nor a row of values to start with.
+pub(super) fn none_there(lack: &str, tool: &ToolTable, material: &str) -> Finding {
+    let shown = material.escape_debug();
+    let number = tool.number;
+    let (why, first) = match Material::of(material) {
+        Some(_) => (format!("there are no values to start with for {shown}"), String::new()),
+        None => {
+            let near = near(material);
+            let first = if near.is_empty() { String::new() } else { format!("did you mean {near}? or ") };
+            (format!("the material `{shown}` is not known"), first)
+        }
+    };
+    let message = format!("the operation needs {lack}: T{number} has no preset for {shown}, and {why}");
+    let give = match lack {
+        "a feed" => "give feed_per_tooth or feed_per_rev (mm)",
+        _ => "give cutting_speed (m/min) or speed (rev/min)",
+    };
+    let help = format!("{first}{give}, or T{number} a [[tool.preset]] for this material");
+    Finding::error(Code::JOB_SHAPE, message).help(help)
+}
+
+/// Names of materials like a name.
+fn near(name: &str) -> String {
+    let plain = name.to_lowercase();
+    let all = Material::all().iter().filter(|m| m.has_start());
+    let like = |m: &Material| {
+        m.names().map(|other| strsim::jaro_winkler(&plain, &other.to_lowercase())).fold(0.0, f64::max)
+    };
+    let mut names: Vec<(f64, &str)> = all.map(|m| (like(m), m.name)).filter(|(a, _)| *a > ALIKE).collect();
+    names.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(b.1)));
+    let names: Vec<String> = names.iter().take(PROPOSED).map(|(_, name)| format!("`{name}`")).collect();
+    names.join(" or ")
+}
