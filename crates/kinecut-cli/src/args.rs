@@ -164,6 +164,8 @@ pub(crate) enum SchemaName {
     Machine,
     /// Tools and holders in a file of their own
     Tools,
+    /// Cutting data of a shop in a file of their own
+    Cutting,
     /// A surface by its generating lines
     Surface,
     /// A tool of any form of revolution: shape, shank, holder
@@ -182,6 +184,7 @@ impl SchemaName {
             SchemaName::Grazing => grazing_schema(),
             SchemaName::Machine => job::file::machine_schema(),
             SchemaName::Tools => job::file::tools_schema(),
+            SchemaName::Cutting => job::file::cutting_schema(),
             SchemaName::Surface => job::file::surface_schema(),
             SchemaName::Contour => job::file::contour_schema(),
         })

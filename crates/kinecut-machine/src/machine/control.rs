@@ -10,6 +10,10 @@ pub struct MotionControl {
     pub max_feed: Option<f64>,
     /// Largest speed of the spindle [rad/s].
     pub max_speed: Option<f64>,
+    /// Power of the spindle's motor that lasts (W).
+    pub spindle_power: Option<f64>,
+    /// Torque of the spindle that lasts (N m).
+    pub spindle_torque: Option<f64>,
     /// The control's way of running along a path.
     pub interpolator: Option<Interpolator>,
     /// Distance by which the control may leave the programmed path to smooth corners and steps of curvature [mm]; zero: it
@@ -33,6 +37,8 @@ impl MotionControl {
         MotionControl {
             max_feed: self.max_feed.or(before.max_feed),
             max_speed: self.max_speed.or(before.max_speed),
+            spindle_power: self.spindle_power.or(before.spindle_power),
+            spindle_torque: self.spindle_torque.or(before.spindle_torque),
             interpolator: self.interpolator.or(before.interpolator),
             tolerance: self.tolerance.or(before.tolerance),
             turn_tolerance: self.turn_tolerance.or(before.turn_tolerance),
@@ -46,12 +52,14 @@ impl MotionControl {
     /// Checks its numbers, and that none of them lacks the value that gives it a meaning.
     ///
     /// # Errors
-    /// `KC0703`, with the key in a machine file: a feed, a speed or a bandwidth that is not positive, another number that is negative or
+    /// `KC0703`, with the key in a machine file: a feed, a speed, a power, a torque or a bandwidth that is not positive, another number that is negative or
     /// not finite, `spindle_ramp` without `max_speed`, `junction_deviation` with another interpolator.
     pub fn check(&self) -> Result<()> {
         for (name, value) in [
             ("max_feed", self.max_feed),
             ("max_speed", self.max_speed),
+            ("spindle_power", self.spindle_power),
+            ("spindle_torque", self.spindle_torque),
             ("servo_bandwidth", self.servo_bandwidth),
         ] {
             positive("dynamics", name, value)?;

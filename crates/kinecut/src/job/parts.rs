@@ -35,6 +35,9 @@ pub fn parts(file: &JobFile, loader: &dyn Loader) -> Result<Vec<Subject>> {
     for name in &file.tool_files {
         parts.push(bytes("tools", name)?);
     }
+    if let Some(name) = &file.cutting {
+        parts.push(bytes("cutting data", name)?);
+    }
     if let StockTable::Mesh(name) = &file.stock {
         parts.push(bytes("stock", name)?);
     }

@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 
 use serde::Serialize;
 
+use super::cutting::{CuttingJson, cutting_json};
 use super::outcome::Outcome;
 use super::{ReadBack, json_text};
 use crate::geom::{Curve, CurveKind, SpiralLaw};
@@ -26,6 +27,9 @@ struct Plan<'a> {
     removed_volume: f64,
     /// The true removed volume is no farther off than this.
     removed_volume_bound: f64,
+    /// Speeds and feeds that operations were given, with their origins.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    cutting: Vec<CuttingJson>,
     bores: Vec<BoreFigures>,
 }
 
@@ -126,6 +130,7 @@ pub fn plan_json(outcome: &Outcome) -> String {
         stock_volume: outcome.simulation.raw.value,
         removed_volume: outcome.removed.value,
         removed_volume_bound: outcome.removed.bound,
+        cutting: cutting_json(&outcome.job),
         bores: outcome.deviation.bores.iter().map(figures).collect(),
     })
 }

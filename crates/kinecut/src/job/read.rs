@@ -8,6 +8,7 @@ use serde::de::DeserializeOwned;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue, Deserializer};
 
+use super::cutting::ShopTable;
 use super::file::{HoleTable, JobFile, MachineEntry, MachineTable};
 use super::holes::expand;
 use super::lacking::{Keys, Lacking, is_missing, missing};
@@ -84,7 +85,8 @@ impl JobText {
         };
         let mut shop = Shop::read(sources, &mut file, &places, loader)?;
         let chosen = expand(&mut file, &mut places, &mut shop).map_err(|e| places.locate(sources, e))?;
-        shop.fill(&mut file, &mut places, loader).map_err(|e| places.locate(sources, e))?;
+        let table = ShopTable::read(sources, &file, &places, loader)?;
+        shop.fill(&mut file, &mut places, &table, loader).map_err(|e| places.locate(sources, e))?;
         Ok(JobText { file, id, places, shop, chosen })
     }
 

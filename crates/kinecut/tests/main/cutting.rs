@@ -82,10 +82,10 @@ fn chips_are_those_of_the_reference() {
 #[test]
 fn the_largest_chip_is_the_way_between_two_teeth() {
     // The thickness along the radius between the circles of two teeth, one feed apart.
-    let mut random = Random::new(71);
+    let mut random = Random(71);
     for _ in 0..200 {
-        let (d, fz) = (random.within(3.0, 60.0), random.within(0.01, 0.3));
-        let width = random.within(0.02 * d, d);
+        let (d, fz) = (random.between(3.0, 60.0), random.between(0.01, 0.3));
+        let width = random.between(0.02 * d, d);
         let engagement = MilledChip::of(fz, width, d).engagement;
         let r = 0.5 * d;
         let thickness = |phi: f64| {
@@ -236,4 +236,52 @@ fn start_values_follow_their_rows() {
         }
     }
     assert!(Material::of("S235").unwrap().start(StartCut::Slot, EdgeMaterial::Carbide, 10.0, None).is_none());
+}
+
+/// The materials as a table of the manual.
+fn table() -> String {
+    let number = |v: f64| format!("{v:.3}").trim_end_matches('0').trim_end_matches('.').to_owned();
+    let mut text = String::from(
+        "| material | also | kc1.1 (N/mm2), mc | carbide mill: full width / narrow | feed per tooth | HSS drill | feed per revolution | carbide drill | tap | reamer |\n|---|---|---|---|---|---|---|---|---|---|\n",
+    );
+    for material in Material::all() {
+        let force = material.force.map_or("not known".to_owned(), |force| {
+            let of = if material.force_is_checked { "" } else { " (not compared)" };
+            format!("{}, {}{of}", number(force.kc11), number(force.mc))
+        });
+        let start = |cut, edge| material.start(cut, edge, 10.0, None);
+        let speed = |cut, edge| start(cut, edge).map_or(String::new(), |data| number(data.cutting_speed));
+        let share = |cut, edge| {
+            start(cut, edge).and_then(|data| data.plain_feed).map_or(String::new(), |f| number(f / 10.0))
+        };
+        let mill = match start(StartCut::Slot, EdgeMaterial::Carbide) {
+            Some(_) => format!(
+                "{} / {}",
+                speed(StartCut::Slot, EdgeMaterial::Carbide),
+                speed(StartCut::Side(0.3), EdgeMaterial::Carbide)
+            ),
+            None => String::new(),
+        };
+        let cells = [
+            material.name.to_owned(),
+            material.aliases.join(", "),
+            force,
+            mill,
+            share(StartCut::Slot, EdgeMaterial::Carbide),
+            speed(StartCut::Drill, EdgeMaterial::Hss),
+            share(StartCut::Drill, EdgeMaterial::Hss),
+            speed(StartCut::Drill, EdgeMaterial::Carbide),
+            speed(StartCut::Tap, EdgeMaterial::Hss),
+            speed(StartCut::Ream, EdgeMaterial::Hss),
+        ];
+        text.push_str(&format!("| {} |\n", cells.join(" | ")));
+    }
+    text
+}
+
+#[test]
+fn the_manual_has_the_materials() {
+    let page = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/cutting-data.md");
+    let text = std::fs::read_to_string(page).unwrap();
+    assert!(text.contains(&table()), "docs/cutting-data.md should have\n{}", table());
 }

@@ -30,6 +30,8 @@ pub(crate) fn control(t: &DynamicsTable) -> Result<MotionControl> {
     Ok(MotionControl {
         max_feed: limit("max_feed", t.max_feed, "mm/min", 1.0 / 60.0)?,
         max_speed: limit("max_speed", t.max_speed, "rev/min", TAU / 60.0)?,
+        spindle_power: limit("spindle_power", t.spindle_power, "kW", 1000.0)?,
+        spindle_torque: limit("spindle_torque", t.spindle_torque, "N m", 1.0)?,
         interpolator: t.interpolator,
         tolerance: up_to("tolerance", t.tolerance, MOST_TOLERANCE, "mm")?,
         turn_tolerance: up_to("turn_tolerance", t.turn_tolerance, MOST_TURN, "deg")?.map(f64::to_radians),

@@ -167,7 +167,7 @@ pub fn check(file: &JobFile, name: &str, loader: &dyn Loader) -> Result<Job> {
     let said = (orientation(file.post.orientation, control)?, control);
     let fixtures = fixture::fixtures(&file.fixtures, file.setups.len(), loader)?;
     let mut setups = Vec::with_capacity(file.setups.len());
-    let mut cutting = file.cutting.clone();
+    let mut cutting = file.taken.clone();
     for (i, table) in file.setups.iter().enumerate() {
         let around = (machine.as_ref(), said);
         let mut setup = setup::setup(i, table, &mut cutting, &tools, (&stock, &drilled), around, loader)

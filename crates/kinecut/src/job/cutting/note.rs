@@ -25,6 +25,11 @@ pub(in crate::job) fn notes(all: &[TakenData], machine_has_limit: bool) -> Vec<F
             let of = file.as_ref().map(|file| format!(" of `{file}`")).unwrap_or_default();
             add(format!("{} from the preset {material} of T{}{of}", words.join(", "), taken.tool), None);
         }
+        for number in numbers() {
+            if let DataOrigin::Table { file, line } = &number.origin {
+                add(format!("{number} of T{} from line {line} of `{file}`", taken.tool), None);
+            }
+        }
         let of_start = || numbers().filter(|n| matches!(n.origin, DataOrigin::Start { .. }));
         if let Some(DataOrigin::Start { row, assumed }) = of_start().next().map(|n| &n.origin) {
             let words = of_start().map(|n| match n.way() {

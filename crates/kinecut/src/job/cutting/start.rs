@@ -15,19 +15,8 @@ pub(super) fn start_of(
     cut: StartCut,
     tool: &ToolTable,
 ) -> Option<(StartData, Option<&'static str>)> {
-    let is_mill = !matches!(tool.kind, ToolType::Drill | ToolType::Tap);
-    let edge = match tool.material {
-        Some(EdgeName::Carbide) => EdgeMaterial::Carbide,
-        Some(EdgeName::Hss) => EdgeMaterial::Hss,
-        // The lower speed of the two, but for what is mostly of carbide.
-        None if is_mill => EdgeMaterial::Carbide,
-        None => EdgeMaterial::Hss,
-    };
-    let cut = match (tool.kind, cut) {
-        (ToolType::FaceMill, _) => StartCut::Face,
-        (_, StartCut::Face) => StartCut::Slot,
-        (_, cut) => cut,
-    };
+    let edge = edge_of(tool);
+    let cut = cut_of(tool.kind, cut);
     let diameter = match (tool.kind, tool.half_angle) {
         (ToolType::Tapered, Some(half)) => tool.diameter + 2.0 * tool.flute_length * half.to_radians().tan(),
         _ => tool.diameter,
@@ -36,8 +25,28 @@ pub(super) fn start_of(
     Some((data, tool.material.is_none().then_some(edge.name())))
 }
 
+/// The material of a tool's edges: what it says, else the lower speed of the two, but for what is mostly of carbide.
+pub(super) fn edge_of(tool: &ToolTable) -> EdgeMaterial {
+    let is_mill = !matches!(tool.kind, ToolType::Drill | ToolType::Tap);
+    match tool.material {
+        Some(EdgeName::Carbide) => EdgeMaterial::Carbide,
+        Some(EdgeName::Hss) => EdgeMaterial::Hss,
+        None if is_mill => EdgeMaterial::Carbide,
+        None => EdgeMaterial::Hss,
+    }
+}
+
+/// The cut of a kind of tool: a face mill cuts as one wherever it is used, and an end mill on a face as in its full width.
+pub(super) fn cut_of(kind: ToolType, cut: StartCut) -> StartCut {
+    match (kind, cut) {
+        (ToolType::FaceMill, _) => StartCut::Face,
+        (_, StartCut::Face) => StartCut::Slot,
+        (_, cut) => cut,
+    }
+}
+
 /// The error of an operation that lacks `lack` where nothing has it: neither a preset nor a row of values to start with.
-pub(super) fn none_there(lack: &str, tool: &ToolTable, material: &str) -> Finding {
+pub(super) fn none_there(lack: &str, tool: &ToolTable, material: &str, table: Option<&str>) -> Finding {
     let shown = material.escape_debug();
     let number = tool.number;
     let (why, first) = match Material::of(material) {
@@ -48,7 +57,8 @@ pub(super) fn none_there(lack: &str, tool: &ToolTable, material: &str) -> Findin
             (format!("the material `{shown}` is not known"), first)
         }
     };
-    let message = format!("the operation needs {lack}: T{number} has no preset for {shown}, and {why}");
+    let row = table.map(|file| format!(" `{file}` has no row for it,")).unwrap_or_default();
+    let message = format!("the operation needs {lack}: T{number} has no preset for {shown},{row} and {why}");
     let give = match lack {
         "a feed" => "give feed_per_tooth or feed_per_rev (mm)",
         _ => "give cutting_speed (m/min) or speed (rev/min)",

@@ -1,12 +1,13 @@
 //! Numbers given to an operation that lacks them.
 
 use super::preset::preset_of;
+use super::shop_table::{Cut, ShopTable};
 use super::start::{none_there, start_of};
 use super::taken::{DataOrigin, TakenData, TakenNumber};
 use crate::base::Result;
 use crate::cutting::{Material, StartData};
 use crate::drilling::FeedChoice;
-use crate::job::file::{PresetTable, ToolTable};
+use crate::job::file::{CuttingRow, PresetTable, ToolTable};
 use crate::operations::{CuttingKeys, OperationTable};
 
 /// The feed that an operation lacks.
@@ -17,7 +18,8 @@ enum Lack {
     PerRev,
 }
 
-/// Gives an operation the speed and the feed that it lacks: each of the preset of its tool for a material, else a value to start with.
+/// Gives an operation the speed and the feed that it lacks: each of the preset of its tool for a material, else of the shop's
+/// table, else a value to start with.
 /// `operation`: setup and operation, by index; `file`: that of the tool.
 ///
 /// # Errors
@@ -26,7 +28,7 @@ pub(in crate::job) fn take_data(
     operation: &mut OperationTable,
     at: (usize, usize),
     (tool, file): (&ToolTable, Option<&str>),
-    material: &str,
+    (material, table): (&str, &ShopTable),
 ) -> Result<Option<TakenData>> {
     let Some(keys) = operation.data() else { return Ok(None) };
     let needs_speed = keys.speed.is_none() && keys.cutting_speed.is_none();
@@ -49,6 +51,12 @@ pub(in crate::job) fn take_data(
         let origin = preset.map(origin)?;
         Some(TakenNumber { key, value, unit, origin, plain: value, changes: Vec::new() })
     };
+    let cut = Cut { material, tool, cut: keys.cut };
+    let of_table = |key, unit, number: fn(&CuttingRow) -> Option<f64>| {
+        let (value, file, line) = table.find(cut, number)?;
+        let origin = DataOrigin::Table { file: file.to_owned(), line };
+        Some(TakenNumber { key, value, unit, origin, plain: value, changes: Vec::new() })
+    };
     let of_start = |key, value: f64, plain: f64, unit, with_changes: bool| {
         let (data, assumed) = start.as_ref()?;
         let origin = DataOrigin::Start { row: data.row.clone(), assumed: *assumed };
@@ -66,7 +74,9 @@ pub(in crate::job) fn take_data(
             let v = data?.cutting_speed;
             of_start("cutting_speed", v, v, "m/min", false)
         };
-        Some(own.or_else(started).ok_or_else(|| none_there("a speed", tool, material))?)
+        let tabled = || of_table("cutting_speed", "m/min", |row| row.cutting_speed);
+        let found = own.or_else(tabled).or_else(started);
+        Some(found.ok_or_else(|| none_there("a speed", tool, material, table.name()))?)
     } else {
         None
     };
@@ -81,10 +91,9 @@ pub(in crate::job) fn take_data(
         Lack::PerRev => {
             let own = preset.and_then(|p| p.feed_per_rev);
             let own = own.and_then(|f| of_preset("feed_per_rev", f, "mm"));
-            Some(
-                own.or_else(|| started("feed_per_rev"))
-                    .ok_or_else(|| none_there("a feed", tool, material))?,
-            )
+            let tabled = || of_table("feed_per_rev", "mm", |row| row.feed_per_rev);
+            let feed = own.or_else(tabled).or_else(|| started("feed_per_rev"));
+            Some(feed.ok_or_else(|| none_there("a feed", tool, material, table.name()))?)
         }
         Lack::PerTooth => {
             let own = preset.and_then(|p| match (p.feed_per_tooth, p.feed) {
@@ -92,8 +101,9 @@ pub(in crate::job) fn take_data(
                 (None, Some(f)) if speed_is_of_preset => of_preset("feed", f, "mm/min"),
                 _ => None,
             });
-            let feed = own.or_else(|| started("feed_per_tooth"));
-            Some(feed.ok_or_else(|| none_there("a feed", tool, material))?)
+            let tabled = || of_table("feed_per_tooth", "mm", |row| row.feed_per_tooth);
+            let feed = own.or_else(tabled).or_else(|| started("feed_per_tooth"));
+            Some(feed.ok_or_else(|| none_there("a feed", tool, material, table.name()))?)
         }
     };
     fill(keys, speed.as_ref(), feed.as_ref());

@@ -47,6 +47,13 @@ pub enum DataOrigin {
         /// The file.
         file: Option<String>,
     },
+    /// A row of the shop's own table.
+    Table {
+        /// The file.
+        file: String,
+        /// The line of the row, from 1.
+        line: u32,
+    },
     /// A value to start with.
     Start {
         /// Its row: "C45, carbide, full width".

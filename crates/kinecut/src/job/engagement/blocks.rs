@@ -6,8 +6,9 @@ use super::super::json_text;
 use super::super::outcome::Outcome;
 use super::super::setup_outcome::SetupOutcome;
 use super::course::{Chips, rates};
+use super::load::Loads;
 use crate::stock::cut::{EngagedStretch, MoveEngagement};
-use crate::tool::{Tool, ToolNumber};
+use crate::tool::ToolNumber;
 use crate::trace::{Segment, SegmentPace};
 
 /// Engagement of a tool in a block at feed.
@@ -38,20 +39,28 @@ pub(crate) struct Block {
     /// Greatest thickness of a chip [mm]; nothing where spindle or feed is not known, and of taps.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) chip: Option<f64>,
+    /// Greatest power at the edges (kW) after Kienzle with sharp edges; nothing where the force of the material, spindle or feed is
+    /// not known.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) power: Option<f64>,
+    /// Greatest torque (N m), as the power.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) torque: Option<f64>,
 }
 
 impl Block {
     /// A segment at feed by itself, in the block of a line.
     fn of(
+        outcome: &Outcome,
         done: &SetupOutcome,
         line: u32,
         segment: &Segment,
         moved: &MoveEngagement,
-        tools: &[Tool],
     ) -> Block {
         let time = segment.duration.filter(|t| *t > 0.0);
         let greatest = |of: fn(&EngagedStretch) -> f64| moved.stretches.iter().map(of).fold(0.0, f64::max);
-        let chips = Chips::of(done, segment, tools);
+        let chips = Chips::of(done, segment, &outcome.job.tools);
+        let load = Loads::of(outcome, done, segment).map(|loads| loads.greatest(moved));
         let length = segment.curve.length();
         Block {
             line,
@@ -65,6 +74,8 @@ impl Block {
             width: greatest(|s| s.width),
             rate: time.map(|time| rates(moved).into_iter().fold(0.0, f64::max) / time),
             chip: chips.map(|chips| chips.thickest(greatest(|s| s.advance))),
+            power: load.map(|load| load.power / 1000.0),
+            torque: load.map(|load| load.torque),
         }
     }
 
@@ -80,6 +91,8 @@ impl Block {
         self.width = self.width.max(other.width);
         self.rate = greater(self.rate, other.rate);
         self.chip = greater(self.chip, other.chip);
+        self.power = greater(self.power, other.power);
+        self.torque = greater(self.torque, other.torque);
     }
 }
 
@@ -94,7 +107,7 @@ pub(crate) fn blocks(outcome: &Outcome, setup: usize) -> Vec<Block> {
         let (Some(line), SegmentPace::Feed(_), false) = (line, segment.motion, segment.alternative) else {
             continue;
         };
-        let block = Block::of(done, line + 1, segment, moved, &outcome.job.tools);
+        let block = Block::of(outcome, done, line + 1, segment, moved);
         match blocks.last_mut() {
             Some(known) if last_item == Some(segment.item) && known.line == block.line => known.join(&block),
             _ => blocks.push(block),

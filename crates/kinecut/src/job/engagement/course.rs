@@ -5,6 +5,7 @@ use std::f64::consts::TAU;
 
 use super::super::outcome::Outcome;
 use super::super::setup_outcome::SetupOutcome;
+use super::load::Loads;
 use crate::stock::cut::MoveEngagement;
 use crate::tool::{Cutter, Tool};
 use crate::trace::{Segment, SegmentPace};
@@ -20,6 +21,8 @@ pub(crate) struct Course {
     pub(crate) rate: Option<f64>,
     /// Greatest thickness of a chip [mm]; nothing where spindle or feed is not known, and of taps.
     pub(crate) chip: Option<f64>,
+    /// Power at the edges (kW); nothing where the force of the material, spindle or feed is not known.
+    pub(crate) power: Option<f64>,
 }
 
 /// The thickest chip of a tool by its way into the material, which is given in mm by fraction of a segment.
@@ -82,11 +85,13 @@ pub(crate) fn course(outcome: &Outcome, setup: usize, begins: &[f64], first_line
         }
         let programmed = segment.duration.filter(|t| *t > 0.0);
         let chips = Chips::of(done, segment, &outcome.job.tools);
+        let loads = Loads::of(outcome, done, segment);
         course.extend(moved.stretches.iter().zip(rates(moved)).map(|(s, rate)| Course {
             time: [s.from, s.to].map(|t| begin + t * time),
             arc: s.arc.to_degrees(),
             rate: programmed.map(|time| rate / time),
             chip: chips.as_ref().map(|chips| chips.thickest(s.advance)),
+            power: loads.as_ref().map(|loads| loads.on(s, rate).power / 1000.0),
         }));
     }
     course.sort_by(|a, b| a.time[0].total_cmp(&b.time[0]));

@@ -2,6 +2,7 @@
 
 mod blocks;
 mod course;
+mod load;
 
 use super::check::Job;
 use super::closer::Story;
@@ -14,6 +15,7 @@ use crate::stock::cut::{MoveEngagement, adjust_volumes, engagements};
 pub use blocks::engagement_json;
 pub(crate) use blocks::{Block, blocks};
 pub(crate) use course::{Chips, Course, course};
+pub(crate) use load::{Loads, force_of};
 
 /// Moves below which engagement is measured unasked.
 const FEW: u64 = 20_000;

@@ -353,7 +353,8 @@ pub fn given_alone(program: GivenFile<'_>, wants: &ProgramWants, needs_stock: bo
         libraries: None,
         tool_files: Vec::new(),
 
-        cutting: Vec::new(),
+        cutting: None,
+        taken: Vec::new(),
         design: None,
         stock,
         drilled: Vec::new(),

@@ -146,6 +146,12 @@ pub struct DynamicsTable {
     /// Largest speed of the spindle, rev/min.
     #[serde(default)]
     pub max_speed: Option<f64>,
+    /// Power of the spindle's motor that lasts (S1), kW: what the cuts need is compared with it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub spindle_power: Option<f64>,
+    /// Torque of the spindle that lasts (S1), N m.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub spindle_torque: Option<f64>,
     /// How the control runs along a path: "jerk-limited", "trapezoid", "exact-stop", "junction-deviation" (Grbl) or "linuxcnc"
     /// (its planner as it comes, without S-curves).
     #[serde(default, skip_serializing_if = "Option::is_none")]

@@ -5,6 +5,7 @@
 
 mod body;
 mod contour;
+mod cutting;
 mod fixture;
 mod hole;
 mod machine;
@@ -14,6 +15,7 @@ mod tools;
 
 pub use body::*;
 pub use contour::*;
+pub use cutting::*;
 pub use fixture::*;
 pub use hole::*;
 pub use machine::*;
@@ -48,6 +50,9 @@ pub struct JobFile {
     /// (.tbl), Fusion .json and .tools, FreeCAD .fctb and .fctl. A tool of the job is taken before one of the same number.
     #[serde(default, rename = "tools", skip_serializing_if = "Option::is_none")]
     pub libraries: Option<ToolFiles>,
+    /// File of the shop's own cutting data, TOML with `[[cutting]]`: "cutting.toml". They go before values to start with.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub cutting: Option<String>,
     /// The wanted part, to compare the cut part with.
     #[serde(default)]
     pub design: Option<DesignTable>,
@@ -75,7 +80,7 @@ pub struct JobFile {
     pub tool_files: Vec<String>,
     /// Speeds and feeds that operations were given.
     #[serde(skip)]
-    pub cutting: Vec<TakenData>,
+    pub taken: Vec<TakenData>,
     /// Clamps, vises and what else stands around the part.
     #[serde(default, rename = "fixture", skip_serializing_if = "Vec::is_empty")]
     pub fixtures: Vec<FixtureTable>,
@@ -363,6 +368,11 @@ pub fn surface_schema() -> serde_json::Value {
 /// The JSON Schema of tools in a file of their own.
 pub fn tools_schema() -> serde_json::Value {
     schemars::schema_for!(ToolLibraryTable).to_value()
+}
+
+/// The JSON Schema of the cutting data of a shop in a file of their own.
+pub fn cutting_schema() -> serde_json::Value {
+    schemars::schema_for!(CuttingFileTable).to_value()
 }
 
 /// The JSON Schema of a tool of revolution in a file of its own.

@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use super::program::{called_numbers, without_comments};
 use super::{Library, LibraryTool, read_library};
 use crate::base::{Code, Error, FileKind, Finding, Loader, Location, Result, Sources};
-use crate::job::cutting::take_data;
+use crate::job::cutting::{ShopTable, take_data};
 use crate::job::file::{JobFile, ToolTable};
 use crate::job::places::Places;
 use crate::nc::Control;
@@ -64,6 +64,7 @@ impl Shop {
         &mut self,
         file: &mut JobFile,
         places: &mut Places,
+        table: &ShopTable,
         loader: &dyn Loader,
     ) -> Result<()> {
         let mut setups = std::mem::take(&mut file.setups);
@@ -73,7 +74,7 @@ impl Shop {
                 let called = operation.called().clone();
                 if let Some(number) = self.call(file, places, &called).map_err(|e| e.under(&key))? {
                     *operation.called() = CalledTool::Number(number);
-                    self.choose_data(file, operation, (s, o), number).map_err(|e| e.under(&key))?;
+                    self.choose_data(file, operation, (s, o), number, table).map_err(|e| e.under(&key))?;
                 }
             }
             let Some(program) = setup.program.as_ref().filter(|_| !self.libraries.is_empty()) else {
@@ -332,6 +333,7 @@ impl Shop {
         operation: &mut OperationTable,
         at: (usize, usize),
         number: u32,
+        table: &ShopTable,
     ) -> Result<()> {
         let Some(material) = &file.material else { return Ok(()) };
         let Some((index, tool)) = file.tools.iter().enumerate().find(|(_, t)| t.number == number) else {
@@ -339,8 +341,8 @@ impl Shop {
         };
         let of = index.checked_sub(self.own).and_then(|i| self.taken.get(i));
         let of = of.map(|&(k, ..)| self.libraries[k].file.as_str());
-        let taken = take_data(operation, at, (tool, of), material)?;
-        file.cutting.extend(taken);
+        let taken = take_data(operation, at, (tool, of), (material, table))?;
+        file.taken.extend(taken);
         Ok(())
     }
 

@@ -29,6 +29,8 @@ pub fn machine_toml(machine: &Machine) -> String {
         ("jerk", d.jerk, 1e-3),
         ("max_feed", control.max_feed, 60.0),
         ("max_speed", control.max_speed, 60.0 / std::f64::consts::TAU),
+        ("spindle_power", control.spindle_power, 1e-3),
+        ("spindle_torque", control.spindle_torque, 1.0),
         ("tolerance", control.tolerance, 1.0),
         ("turn_tolerance", control.turn_tolerance, 1f64.to_degrees()),
         ("junction_deviation", control.junction_deviation, 1.0),

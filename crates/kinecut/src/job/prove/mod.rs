@@ -16,6 +16,7 @@ mod dwell;
 mod edge;
 mod feed;
 mod inclined_entry;
+mod load;
 mod outline;
 mod reach;
 mod removal;
@@ -135,6 +136,7 @@ const RULES: &[Rule] = &[
     spindle::spindle,
     feed::feed,
     cutting_data::cutting_data,
+    load::load,
     carried::carried,
     dwell::dwell,
     change::change,

@@ -1,6 +1,7 @@
 //! Section of a report on the engagement of the tools: the greatest of each tool, and its course over the time of the program.
 
 use super::EngagedRun;
+use crate::cutting::{FORCE_SPREAD, Material, TAPPING_SPREAD};
 use crate::job::engagement::{Block, Chips, Course, blocks, course};
 use crate::job::{Engagement, Outcome, SetupOutcome};
 use crate::page::{Cell, Chart, Follows, Row, Section, Table, fixed};
@@ -37,7 +38,12 @@ pub(super) fn section(outcome: &Outcome, begins: &[f64], first_lines: &[u32]) ->
         section =
             section.with(chart("Thickness of the chip", ("greatest", "mm"), |c| c.chip.unwrap_or(f64::NAN)));
     }
-    Some(section.with(notes(all).into_iter().fold(table(outcome, &blocks), Table::note)))
+    let mut conditions: Vec<String> = notes(all).to_vec();
+    if course.iter().any(|c| c.power.is_some_and(|power| power > 0.0)) {
+        section = section.with(chart("Power of the cut", ("power", "kW"), |c| c.power.unwrap_or(f64::NAN)));
+        conditions.extend(load_note(outcome));
+    }
+    Some(section.with(conditions.into_iter().fold(table(outcome, &blocks), Table::note)))
 }
 
 /// Conditions of the values.
@@ -56,6 +62,21 @@ fn notes(all: &Engagement) -> [String; 3] {
             "The volumes of the moves, rapid ones too, added up to {share:.1} % of what is gone from the stock, and are adjusted to it."
         ),
     ]
+}
+
+/// Conditions of power and torque.
+fn load_note(outcome: &Outcome) -> Option<String> {
+    let material = Material::of(outcome.job.material.as_deref()?)?;
+    let force = material.force?;
+    let of = if material.force_is_checked { "" } else { ", a value of handbooks that was not compared" };
+    Some(format!(
+        "Power and torque at the edges, without the losses of the machine: Kienzle at the mean chip, {} with kc1.1 {} N/mm\u{b2} and mc {}{of}; sharp edges, \u{b1}{:.0} % (taps \u{b1}{:.0} %). A worn edge needs 30 to 50 % more.",
+        material.name,
+        force.kc11,
+        force.mc,
+        100.0 * FORCE_SPREAD,
+        100.0 * TAPPING_SPREAD,
+    ))
 }
 
 /// The course along a segment at feed for the 3-D view, from its beginning to its end; nothing of one that is in air.
@@ -146,6 +167,7 @@ fn table(outcome: &Outcome, blocks: &[(u32, &Block)]) -> Table {
             numbers.push(number);
         }
     }
+    let has_load = blocks.iter().any(|(_, b)| b.power.is_some());
     let rows = numbers.into_iter().map(|number| {
         let own = || blocks.iter().filter(move |(_, b)| b.tool == Some(number));
         let most = |of: fn(&Block) -> f64| own().map(|(_, b)| of(b)).fold(0.0, f64::max);
@@ -157,7 +179,7 @@ fn table(outcome: &Outcome, blocks: &[(u32, &Block)]) -> Table {
         let chip = known(|b| b.chip).map(|chip| format!("{} ({teeth})", fixed(chip, 3)));
         let rate = known(|b| b.rate).map(|rate| fixed(rate * PER_MINUTE, 1));
         let air = 100.0 * sum(|b| b.air) / sum(|b| b.length).max(f64::MIN_POSITIVE);
-        let cells = [
+        let mut cells = vec![
             format!("{number} {name}").trim_end().to_owned(),
             fixed(most(|b| b.arc), 0),
             fixed(most(|b| b.depth), 2),
@@ -167,7 +189,11 @@ fn table(outcome: &Outcome, blocks: &[(u32, &Block)]) -> Table {
             fixed(sum(|b| b.removed) / 1000.0, 2),
             fixed(air, 0),
         ];
-        let row = Row::new(cells.map(Cell::new).to_vec());
+        if has_load {
+            cells.push(words(known(|b| b.power).map(|power| fixed(power, 2))));
+            cells.push(words(known(|b| b.torque).map(|torque| fixed(torque, 1))));
+        }
+        let row = Row::new(cells.into_iter().map(Cell::new).collect());
         let greatest = own().max_by(|(_, a), (_, b)| a.arc.total_cmp(&b.arc));
         match greatest {
             Some((line, _)) => row.at(*line),
@@ -175,7 +201,8 @@ fn table(outcome: &Outcome, blocks: &[(u32, &Block)]) -> Table {
         }
     });
     let columns = "Tool; Arc [\u{b0}]; Depth [mm]; Width [mm]; Chip [mm] (teeth); Rate [cm\u{b3}/min]; Removed [cm\u{b3}]; In air [%]";
-    Table::new("Greatest engagement of each tool", columns).rows(rows)
+    let columns = if has_load { format!("{columns}; Power [kW]; Torque [N m]") } else { columns.to_owned() };
+    Table::new("Greatest engagement of each tool", &columns).rows(rows)
 }
 
 #[cfg(test)]

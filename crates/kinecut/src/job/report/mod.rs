@@ -13,6 +13,7 @@
 //! ```
 
 mod before_run;
+mod cutting;
 mod design;
 mod deviation;
 mod encode;

@@ -1,7 +1,7 @@
 //! The report of a job's outcome: what every job has. Each operation adds its own section.
 
 use super::model::{PartView, ProgramPart, ProgramView, Report, ReportVerdict, ToolView};
-use super::{PathPiece, PathRole, before_run, design, engagement, fixtures, machine};
+use super::{PathPiece, PathRole, before_run, cutting, design, engagement, fixtures, machine};
 use crate::base::at_most;
 use crate::geom::ProfileElement;
 use crate::job::feeds::lowered_words;
@@ -69,6 +69,7 @@ fn with(outcome: &Outcome, page: bool) -> Report {
     let setups = first_lines.iter().enumerate();
     let shown: Vec<_> = setups.flat_map(|(i, first)| outcome.shown(i, &begins, *first)).collect();
     report.sections = OperationPlan::sections(&shown);
+    report.sections.extend(cutting::section(outcome));
     report.sections.extend(engagement::section(outcome, &begins, &first_lines));
     report.sections.extend(design::section(outcome, &first_lines));
     report.sections.extend(design::rest(outcome));

@@ -48,7 +48,8 @@ pub(crate) fn job_file(table: &HoleTable, stock: StockTable, setup: SetupTable) 
         libraries: None,
         tool_files: Vec::new(),
 
-        cutting: Vec::new(),
+        cutting: None,
+        taken: Vec::new(),
         design: None,
         stock,
         drilled: Vec::new(),

@@ -4,6 +4,7 @@ mod budget;
 mod chamfer;
 mod claims;
 mod contour;
+mod cutting;
 mod deburr;
 mod design;
 mod engagement;

@@ -67,7 +67,8 @@ fn with_dynamics(keys: &str) -> String {
 
 /// All values of control, spindle and tool change.
 const CONTROL: &str = "max_feed = 6000, max_speed = 12000, interpolator = \"junction-deviation\", tolerance = 0.02, \
-                       turn_tolerance = 0.1, junction_deviation = 0.01, servo_bandwidth = 25, tool_change = 4.5, spindle_ramp = 1.5";
+                       turn_tolerance = 0.1, junction_deviation = 0.01, servo_bandwidth = 25, tool_change = 4.5, spindle_ramp = 1.5, \
+                       spindle_power = 7.5, spindle_torque = 48";
 
 #[test]
 fn every_key_of_control_and_spindle_arrives_in_its_unit() {
@@ -79,6 +80,8 @@ fn every_key_of_control_and_spindle_arrives_in_its_unit() {
     let expected = MotionControl {
         max_feed: Some(100.0),
         max_speed: control.max_speed,
+        spindle_power: Some(7500.0),
+        spindle_torque: Some(48.0),
         interpolator: Some(Interpolator::JunctionDeviation),
         tolerance: Some(0.02),
         turn_tolerance: control.turn_tolerance,

@@ -1,0 +1,196 @@
+//! The load of a tool along the program: power and torque of what it takes from the simulated stock, after Kienzle.
+
+use std::f64::consts::TAU;
+
+use super::super::setup_outcome::SetupOutcome;
+use super::course::rates;
+use crate::cutting::{CuttingForce, CuttingLoad, Material, TappingCut};
+use crate::job::Outcome;
+use crate::stock::cut::{EngagedStretch, MoveEngagement};
+use crate::tool::{Cutter, Tool};
+use crate::trace::Segment;
+
+/// Stretches of an edge along which its contact is summed up.
+const PARTS: u32 = 32;
+
+/// A tool in a segment at feed, with the force of the material.
+pub(crate) struct Loads<'a> {
+    tool: &'a Tool,
+    force: CuttingForce,
+    /// Speed of the spindle (rad/s).
+    speed: f64,
+    /// Time of the segment at the programmed feed [s].
+    time: f64,
+}
+
+/// The force of the material of a job, where it is known.
+pub(crate) fn force_of(material: Option<&str>) -> Option<CuttingForce> {
+    material.and_then(Material::of).and_then(|known| known.force)
+}
+
+impl Loads<'_> {
+    /// Of a segment; `None` where material, spindle or feed is not known.
+    pub(crate) fn of<'a>(outcome: &'a Outcome, done: &SetupOutcome, segment: &Segment) -> Option<Loads<'a>> {
+        Loads::with(&outcome.job.tools, force_of(outcome.job.material.as_deref())?, done, segment)
+    }
+
+    /// The same with a force.
+    pub(crate) fn with<'a>(
+        tools: &'a [Tool],
+        force: CuttingForce,
+        done: &SetupOutcome,
+        segment: &Segment,
+    ) -> Option<Loads<'a>> {
+        let tool = tools.iter().find(|t| Some(t.number) == segment.tool)?;
+        let speed = done.program.state(segment.item as usize).spindle.rate();
+        let time = segment.duration.filter(|t| *t > 0.0)?;
+        // Forming takes no chips: its torque is not known.
+        let forms = matches!(tool.cutter, Cutter::Tap(tap) if tap.forming);
+        (speed > 0.0 && !forms).then_some(Loads { tool, force, speed, time })
+    }
+
+    /// On a stretch; `rate`: volume by fraction of the segment [mm3], a mean over stretches beside it.
+    pub(crate) fn on(&self, stretch: &EngagedStretch, rate: f64) -> CuttingLoad {
+        if !(rate > 0.0) {
+            return CuttingLoad::default();
+        }
+        if let Cutter::Tap(tap) = self.tool.cutter {
+            let cut = TappingCut {
+                diameter: tap.diameter,
+                pitch: tap.pitch,
+                flutes: self.tool.teeth,
+                lead: tap.lead.max(1.0),
+                speed: self.speed,
+            };
+            return cut.load(&self.force);
+        }
+        let power = self.force.at(self.chip(stretch, rate)) * rate / self.time / 1000.0;
+        CuttingLoad { power, torque: power / self.speed, force: 0.0 }
+    }
+
+    /// The greatest power and the greatest torque in a segment.
+    pub(crate) fn greatest(&self, moved: &MoveEngagement) -> CuttingLoad {
+        let all = moved.stretches.iter().zip(rates(moved)).map(|(stretch, rate)| self.on(stretch, rate));
+        all.fold(CuttingLoad::default(), |a, b| CuttingLoad {
+            power: a.power.max(b.power),
+            torque: a.torque.max(b.torque),
+            force: a.force.max(b.force),
+        })
+    }
+
+    /// Mean thickness of the chip [mm]: the volume of a tooth's cut over the area on which it cuts, and never more than the thickest
+    /// one.
+    fn chip(&self, stretch: &EngagedStretch, rate: f64) -> f64 {
+        let turns = self.speed * self.time / TAU;
+        let teeth = f64::from(self.tool.teeth.max(1));
+        let thickest = stretch.advance / turns / teeth;
+        // The lips of a drill cut with one thickness.
+        if thickest > 0.0 && matches!(self.tool.cutter, Cutter::Drill { .. }) {
+            return thickest;
+        }
+        let area = stretch.arc * edge(&self.tool.cutter, stretch.depth);
+        let mean = rate / (turns * teeth * area);
+        match (thickest > 0.0, mean.is_finite() && mean > 0.0) {
+            (true, true) => mean.min(thickest),
+            (true, false) => thickest,
+            (false, true) => mean,
+            // A cut of which nothing is known but its volume: that of a thin chip.
+            (false, false) => THIN,
+        }
+    }
+}
+
+/// Thickness of a chip of which nothing is known [mm].
+const THIN: f64 = 0.01;
+
+/// The sum of an edge's pieces up to a height [mm] over its end, each by its distance from the axis [mm2].
+fn edge(cutter: &Cutter, height: f64) -> f64 {
+    let mut sum = 0.0;
+    let mut before = (0.0, radius(cutter, 0.0));
+    for i in 1..=PARTS {
+        // Dense where the end is round.
+        let share = f64::from(i) / f64::from(PARTS);
+        let z = height * share * share;
+        let r = radius(cutter, z);
+        sum += (z - before.0).hypot(r - before.1) * 0.5 * (r + before.1);
+        before = (z, r);
+    }
+    sum
+}
+
+/// Distance of the edge from the axis at a height over the end [mm].
+fn radius(cutter: &Cutter, z: f64) -> f64 {
+    let round = |corner: f64| {
+        let z = z.min(corner);
+        (z * (2.0 * corner - z)).sqrt()
+    };
+    match *cutter {
+        Cutter::BallNose { diameter } => round(0.5 * diameter),
+        Cutter::BullNose { diameter, corner_radius } => 0.5 * diameter - corner_radius + round(corner_radius),
+        Cutter::Tapered { tip_diameter, half_angle } => 0.5 * tip_diameter + z * half_angle.tan(),
+        Cutter::EndMill { diameter } | Cutter::Drill { diameter, .. } => 0.5 * diameter,
+        Cutter::Tap(ref tap) => 0.5 * tap.diameter,
+        Cutter::ThreadMill(ref mill) => 0.5 * mill.diameter,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::cutting::MillingCut;
+    use crate::tool::{ToolLimits, ToolNumber, ToothSpacing};
+
+    fn tool(cutter: Cutter, teeth: u32) -> Tool {
+        Tool {
+            number: ToolNumber(1),
+            name: String::new(),
+            cutter,
+            teeth,
+            spacing: ToothSpacing::default(),
+            flute_length: 30.0,
+            stickout: 30.0,
+            shank_diameter: 10.0,
+            holder: None,
+            centre_cutting: true,
+            max_ramp_angle: None,
+            gauge_length: None,
+            limits: ToolLimits::default(),
+        }
+    }
+
+    #[test]
+    fn a_side_cut_has_the_load_of_the_formula() {
+        let force = CuttingForce { kc11: 2110.0, mc: 0.17 };
+        let speed = 4000.0 * TAU / 60.0;
+        for width in [0.5, 1.0, 3.0, 5.0, 8.0, 10.0] {
+            let cut = MillingCut { diameter: 10.0, teeth: 4, speed, feed: 1600.0 / 60.0, depth: 7.0, width };
+            let (tool, time) = (tool(Cutter::EndMill { diameter: 10.0 }, 4), 30.0 / cut.feed);
+            let loads = Loads { tool: &tool, force, speed, time };
+            let chip = cut.chip();
+            let stretch = EngagedStretch {
+                from: 0.0,
+                to: 1.0,
+                removed: cut.rate() * time,
+                arc: chip.engagement,
+                depth: cut.depth,
+                width,
+                advance: 30.0 * chip.engagement.min(0.25 * TAU).sin(),
+            };
+            let (found, wanted) = (loads.on(&stretch, stretch.removed), cut.load(&force));
+            assert!((found.power / wanted.power - 1.0).abs() < 1e-9, "{width}: {found:?} {wanted:?}");
+            assert!((found.torque / wanted.torque - 1.0).abs() < 1e-9);
+        }
+    }
+
+    #[test]
+    fn an_edge_is_as_long_as_its_form() {
+        // Area of a zone of a sphere over a full turn: 2 pi r h.
+        for h in [0.2, 1.0, 3.0, 5.0] {
+            let zone = TAU * edge(&Cutter::BallNose { diameter: 10.0 }, h);
+            assert!((zone / (TAU * 5.0 * h) - 1.0).abs() < 2e-3, "{h}: {zone}");
+        }
+        let cone = Cutter::Tapered { tip_diameter: 0.0, half_angle: TAU / 8.0 };
+        assert!((edge(&cone, 4.0) - 8.0 * 2f64.sqrt()).abs() < 1e-9);
+        assert!((edge(&Cutter::EndMill { diameter: 8.0 }, 5.0) - 20.0).abs() < 1e-9);
+    }
+}

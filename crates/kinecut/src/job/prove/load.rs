@@ -1,0 +1,72 @@
+//! Cuts that need nearly all of the spindle, or more than it has.
+
+use super::Simulated;
+use super::work::Work;
+use crate::base::{Code, Finding};
+use crate::cutting::{CuttingLoad, FORCE_SPREAD};
+use crate::job::engagement::{Loads, force_of};
+use crate::page::fixed;
+
+/// Share of the motor's power that arrives at the tool.
+const EFFICIENCY: f64 = 0.8;
+/// Share of a limit from which on a cut is near it.
+const NEAR: f64 = 0.8;
+
+/// A warning for each piece of work and each limit: at the block that needs most.
+pub(super) fn load(simulated: &Simulated<'_>) -> Vec<Finding> {
+    simulated.works.iter().flat_map(|work| one(simulated, work)).collect()
+}
+
+fn one(simulated: &Simulated<'_>, work: &Work<'_>) -> Vec<Finding> {
+    let job = simulated.job;
+    let (Some(force), Some(machine), Some(engagement)) =
+        (force_of(job.material.as_deref()), &job.machine, &simulated.simulation.engagement)
+    else {
+        return Vec::new();
+    };
+    let control = &machine.control;
+    if control.spindle_power.is_none() && control.spindle_torque.is_none() {
+        return Vec::new();
+    }
+    let done = &simulated.setups[work.setup];
+    let loads: Vec<(u32, CuttingLoad)> = work
+        .feeds()
+        .filter_map(|d| {
+            let loads = Loads::with(&job.tools, force, done, d.segment)?;
+            let moved = engagement.moves[work.setup].get(d.index)?;
+            Some((d.segment.item, loads.greatest(moved)))
+        })
+        .collect();
+    let worst = |of: fn(&CuttingLoad) -> f64| {
+        loads.iter().map(|(item, load)| (*item, of(load))).max_by(|a, b| a.1.total_cmp(&b.1))
+    };
+    let limits = [
+        ("power", "kW", 1e-3, control.spindle_power, worst(|load| load.power / EFFICIENCY)),
+        ("torque", "N m", 1.0, control.spindle_torque, worst(|load| load.torque)),
+    ];
+    let mut found = Vec::new();
+    for (what, unit, factor, limit, worst) in limits {
+        let (Some(limit), Some((item, needed))) = (limit, worst) else { continue };
+        if needed <= NEAR * limit {
+            continue;
+        }
+        let word = if needed > limit { "more than the" } else { "nearly all of the" };
+        let turns = done.program.state(item as usize).spindle.rate() * 60.0 / std::f64::consts::TAU;
+        let message = format!(
+            "a cut of {} needs {word} {what} of the spindle, within {:.0} %, at {turns:.0} rev/min",
+            work.tool.number,
+            100.0 * FORCE_SPREAD
+        );
+        let finding = Finding::warning(Code::CUTTING_LOAD, message)
+            .value(rounded(needed * factor), unit)
+            .bound(rounded(limit * factor), &format!("{unit}, `spindle_{what}` of the machine"))
+            .help("take a smaller depth, engagement or feed");
+        found.push(simulated.at(work.setup, item, finding));
+    }
+    found
+}
+
+/// One decimal.
+fn rounded(value: f64) -> f64 {
+    fixed(value, 1).parse().unwrap_or(value)
+}
