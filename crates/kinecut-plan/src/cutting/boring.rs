@@ -28,7 +28,7 @@ impl DrillingCut {
         0.125 * self.diameter * self.diameter * self.feed * self.speed
     }
 
-    /// Its load: torque `kc f D^2 / 8`; the force is the thrust of the lips, `kc f D / 2 sin(s / 2)`. What the chisel edge adds,
+    /// Its load: torque `kc f D^2 / 8`; the force is the thrust of the lips, `kc f D / 4 sin(s / 2)`. What the chisel edge adds,
     /// which may be as much again, is not in it.
     ///
     /// ```
@@ -42,7 +42,7 @@ impl DrillingCut {
     pub fn load(&self, force: &CuttingForce) -> CuttingLoad {
         let kc = force.at(self.chip());
         let torque = kc * self.feed * self.diameter * self.diameter / 8000.0;
-        let thrust = 0.5 * kc * self.feed * self.diameter * (0.5 * self.point).sin();
+        let thrust = 0.25 * kc * self.feed * self.diameter * (0.5 * self.point).sin();
         CuttingLoad { torque, power: torque * self.speed, force: thrust }
     }
 }

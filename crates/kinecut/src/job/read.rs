@@ -257,6 +257,8 @@ enum Entry {
 
 /// The name of holes by their size in the job file.
 const HOLE: &str = "hole";
+/// The name of spots: drilling by the method `centring`.
+const SPOT: &str = "spot";
 
 fn entry_or_lack(
     sources: &Sources,
@@ -270,7 +272,10 @@ fn entry_or_lack(
     let fail = |message: String, range: &Range<usize>| {
         Err(Finding::error(Code::JOB_SHAPE, message)
             .at(sources.locate(span(id, range)))
-            .help(format!("write type = \"{}\" or \"{HOLE}\"", OperationTable::NAMES.join("\" or \"")))
+            .help(format!(
+                "write type = \"{}\" or \"{SPOT}\" or \"{HOLE}\"",
+                OperationTable::NAMES.join("\" or \"")
+            ))
             .into())
     };
     let Some(kind) = kind else { return fail("an operation has no type".to_owned(), &range) };
@@ -279,7 +284,13 @@ fn entry_or_lack(
             let hole: Option<HoleTable> = decode_or_lack(sources, id, table, lacking)?;
             Ok(hole.map(|hole| Entry::Hole(Box::new(hole))))
         }
-        Some(name) => match OperationTable::of_kind(name, InText { sources, id, table, lacking }) {
+        Some(SPOT) if table.get_ref().contains_key("method") => {
+            fail("a spot has no method: it is drilling with method = \"centring\"".to_owned(), &kind.span())
+        }
+        Some(name) => match OperationTable::of_kind(
+            if name == SPOT { as_drilling(&mut table, &kind.span()) } else { name },
+            InText { sources, id, table, lacking },
+        ) {
             Some(Ok(operation)) => Ok(Some(Entry::Operation(Box::new(operation)))),
             Some(Err(None)) => Ok(None),
             Some(Err(Some(error))) => Err(error),
@@ -287,6 +298,13 @@ fn entry_or_lack(
         },
         None => fail("the type of an operation must be a text".to_owned(), &kind.span()),
     }
+}
+
+/// Makes the table of a spot one of drilling; the name of that kind.
+fn as_drilling(table: &mut Spanned<DeTable<'_>>, at: &Range<usize>) -> &'static str {
+    let method = DeValue::String("centring".into());
+    table.get_mut().insert(Spanned::new(at.clone(), "method".into()), Spanned::new(at.clone(), method));
+    "drill"
 }
 
 /// A table of a text.

@@ -13,7 +13,6 @@ use crate::trace::{Trace, trace, travel_findings};
 
 use super::check::{Job, check};
 use super::contacts;
-use super::cutting;
 use super::external::{GivenJob, external_setup};
 use super::facets::facets_note;
 use super::following::{LinePlaces, line_place, trace_options};
@@ -74,10 +73,8 @@ pub fn run_with(
     }];
     inputs.extend(parts(&job_text.file, loader)?);
     inputs.extend(design);
-    let has_limit = job.machine.as_ref().is_some_and(|m| m.control.max_speed.is_some());
-    let about_data = cutting::notes(&job.cutting, has_limit).into_iter();
     let mut notes = job_text.notes(&sources);
-    notes.extend(about_data.map(|note| *locate(note.into()).0));
+    notes.extend(job.data_notes().into_iter().map(|note| *locate(note.into()).0));
     run_checked(name, job, (inputs, notes), &locate, progress)
 }
 

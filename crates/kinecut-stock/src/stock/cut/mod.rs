@@ -36,6 +36,7 @@ mod edge;
 mod effect;
 mod engaged;
 mod face;
+mod fixed_way;
 mod followed;
 mod hollow;
 mod in_order;

@@ -6,6 +6,7 @@ use glam::DVec3;
 
 use super::Stance;
 use super::body::{ConvexPart, Foot, RevolvedParts, bounds};
+use super::fixed_way::FixedWay;
 use super::leaning::{Pose, PoseSpan, spans};
 use super::list::CutList;
 use crate::base::Result;
@@ -36,6 +37,8 @@ pub(super) struct ToolWay<'a> {
     reach: f64,
     /// Travel of the tool in a stretch that is not straight [mm].
     travel: f64,
+    /// The way, where the moment at which the tool comes to a point has a closed form.
+    fixed: Option<FixedWay>,
 }
 
 /// A stretch of the way.
@@ -92,13 +95,19 @@ impl<'a> ToolWay<'a> {
     fn new(motion: Cow<'a, ToolMotion>, body: &'a RevolvedParts) -> ToolWay<'a> {
         let thinnest = body.parts.iter().map(|part| part.r1).fold(f64::INFINITY, f64::min);
         let travel = (TRAVEL * thinnest).max(LEAST_TRAVEL);
-        ToolWay { motion, body, reach: body.radius + body.top.max(-body.bottom), travel }
+        let fixed = FixedWay::of(&motion);
+        ToolWay { motion, body, reach: body.radius + body.top.max(-body.bottom), travel, fixed }
     }
 
     /// Length of the way of the point that goes farthest [mm], about.
     pub(super) fn length(&self) -> f64 {
         let speed = |k: u32| self.motion.speed((f64::from(k) + 0.5) / f64::from(SPEEDS), self.reach);
         (0..SPEEDS).map(speed).sum::<f64>() / f64::from(SPEEDS)
+    }
+
+    /// Whether [`ToolWay::coming`] needs no stretches.
+    pub(super) fn is_closed(&self) -> bool {
+        self.fixed.is_some()
     }
 
     /// The stretches in order that may reach into a box.
@@ -125,6 +134,24 @@ impl<'a> ToolWay<'a> {
     /// The tool as it first comes to a point in some stretches, or as it comes nearest to it; `short`: part of a stretch up to which the
     /// moment is looked for.
     pub(super) fn coming<'s>(
+        &self,
+        near: impl Iterator<Item = &'s WaySpan>,
+        point: DVec3,
+        short: f64,
+    ) -> Option<Coming> {
+        let Some(fixed) = &self.fixed else { return self.coming_on(near, point, short) };
+        match fixed.first(&self.body.parts, point, ROUNDING) {
+            Some((t, part)) => Some(Coming { pose: fixed.pose(t), at: t, span: 1.0, part }),
+            // Beside the tool by more than rounding: as it comes nearest.
+            None => {
+                let own = self.near(Aabb { min: point, max: point }.grown(SLACK));
+                self.coming_on(own.iter(), point, short)
+            }
+        }
+    }
+
+    /// The same by looking along stretches.
+    fn coming_on<'s>(
         &self,
         near: impl Iterator<Item = &'s WaySpan>,
         point: DVec3,

@@ -109,6 +109,12 @@ impl Deref for JobSetup {
 }
 
 impl Job {
+    /// Notes about speeds and feeds that operations were given, each with the key of its operation.
+    pub fn data_notes(&self) -> Vec<Finding> {
+        let has_limit = self.machine.as_ref().is_some_and(|m| m.control.max_speed.is_some());
+        super::cutting::notes(&self.cutting, has_limit)
+    }
+
     /// The operation of a number, over all setups.
     pub fn operation(&self, number: u32) -> Option<&Operation> {
         self.setups.iter().flat_map(|s| &s.operations).nth(number as usize)

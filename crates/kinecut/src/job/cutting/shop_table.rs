@@ -7,7 +7,7 @@ use crate::job::places::{Places, parse};
 use crate::job::read::decode;
 use crate::operations::plain_name;
 
-use super::start::{cut_of, edge_of};
+use super::start::{cut_of, edge_of, largest};
 
 /// Most rows of a file: more than a shop has.
 const MOST_ROWS: usize = 100_000;
@@ -94,9 +94,8 @@ fn fits(row: &CuttingRow, of: Cut<'_>) -> bool {
         Some(EdgeName::Carbide) => edge_of(of.tool) == EdgeMaterial::Carbide,
         Some(EdgeName::Hss) => edge_of(of.tool) == EdgeMaterial::Hss,
     };
-    let wide = row
-        .diameter
-        .is_none_or(|[least, most]| of.tool.diameter >= least - SAME && of.tool.diameter <= most + SAME);
+    let diameter = largest(of.tool);
+    let wide = row.diameter.is_none_or(|[least, most]| diameter >= least - SAME && diameter <= most + SAME);
     // An angle counts for end mills alone.
     let engaged = row.tool != CuttingTool::EndMill || arc <= row.engagement.unwrap_or(180.0) + SAME;
     same(&row.material) && row.tool == tool_of(cut) && edge && wide && engaged

@@ -6,6 +6,8 @@ use crate::job::file::{EdgeName, ToolTable, ToolType};
 
 /// Least likeness of a name that is proposed.
 const ALIKE: f64 = 0.7;
+/// Engagement from which on a cutter cuts in its full width [rad].
+const WHOLE: f64 = std::f64::consts::PI - 1e-3;
 /// Most names that are proposed.
 const PROPOSED: usize = 3;
 
@@ -17,12 +19,16 @@ pub(super) fn start_of(
 ) -> Option<(StartData, Option<&'static str>)> {
     let edge = edge_of(tool);
     let cut = cut_of(tool.kind, cut);
-    let diameter = match (tool.kind, tool.half_angle) {
+    let data = material.start(cut, edge, largest(tool), tool.stickout)?;
+    Some((data, tool.material.is_none().then_some(edge.name())))
+}
+
+/// The largest diameter of a tool [mm].
+pub(super) fn largest(tool: &ToolTable) -> f64 {
+    match (tool.kind, tool.half_angle) {
         (ToolType::Tapered, Some(half)) => tool.diameter + 2.0 * tool.flute_length * half.to_radians().tan(),
         _ => tool.diameter,
-    };
-    let data = material.start(cut, edge, diameter, tool.stickout)?;
-    Some((data, tool.material.is_none().then_some(edge.name())))
+    }
 }
 
 /// The material of a tool's edges: what it says, else the lower speed of the two, but for what is mostly of carbide.
@@ -41,6 +47,7 @@ pub(super) fn cut_of(kind: ToolType, cut: StartCut) -> StartCut {
     match (kind, cut) {
         (ToolType::FaceMill, _) => StartCut::Face,
         (_, StartCut::Face) => StartCut::Slot,
+        (_, StartCut::Side(arc)) if arc >= WHOLE => StartCut::Slot,
         (_, cut) => cut,
     }
 }

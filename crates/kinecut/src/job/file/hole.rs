@@ -6,6 +6,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Deserializer, Serialize, de};
 
 use crate::operations::CalledTool;
+use crate::operations::drill::DrillTable;
 use crate::operations::places::PatternTable;
 use crate::program::Coolant;
 
@@ -117,6 +118,16 @@ impl<'de> Deserialize<'de> for HoleSize {
     }
 }
 
+/// A spot as an entry of a setup's operations.
+#[derive(JsonSchema)]
+#[serde(tag = "type")]
+#[allow(dead_code, reason = "the schema of a job")]
+pub(crate) enum SpotEntry {
+    /// Spots for the drills that follow: `drill` with the method `centring`.
+    #[serde(rename = "spot")]
+    Spot(Box<DrillTable>),
+}
+
 /// A hole as an entry of a setup's operations.
 #[derive(JsonSchema)]
 #[serde(tag = "type")]
@@ -134,6 +145,8 @@ pub(crate) enum HoleEntry {
 pub(crate) enum OperationEntry {
     /// An operation.
     Operation(crate::operations::OperationTable),
+    /// Spots.
+    Spot(SpotEntry),
     /// Holes, which become operations.
     Hole(HoleEntry),
 }

@@ -60,7 +60,10 @@ fn one(simulated: &Simulated<'_>, work: &Work<'_>) -> Vec<Finding> {
         let finding = Finding::warning(Code::CUTTING_LOAD, message)
             .value(rounded(needed * factor), unit)
             .bound(rounded(limit * factor), &format!("{unit}, `spindle_{what}` of the machine"))
-            .help("take a smaller depth, engagement or feed");
+            .help(format!(
+                "take a smaller depth, engagement or feed: {:.2} of the depth leaves a fifth in hand",
+                (NEAR * limit / needed * 100.0).floor() / 100.0
+            ));
         found.push(simulated.at(work.setup, item, finding));
     }
     found

@@ -20,6 +20,7 @@ mod load;
 mod outline;
 mod reach;
 mod removal;
+mod rubs;
 mod sideways;
 mod spindle;
 mod text;
@@ -137,6 +138,7 @@ const RULES: &[Rule] = &[
     feed::feed,
     cutting_data::cutting_data,
     load::load,
+    rubs::rubs,
     carried::carried,
     dwell::dwell,
     change::change,

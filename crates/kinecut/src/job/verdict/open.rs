@@ -7,6 +7,7 @@ use super::super::contacts::machine::MachineContacts;
 use super::super::setup_outcome::SetupOutcome;
 use super::super::simulate::Simulation;
 use super::{Heading, UncheckedList};
+use crate::job::engagement::force_of;
 use crate::tool::ToolNumber;
 use crate::trace::StandKind;
 
@@ -40,11 +41,28 @@ pub(in crate::job) fn not_checked(
     }
     tools(job, setups, &mut list);
     travel(job, &mut list);
+    load(job, simulation, &mut list);
     not_compared(job, setups, &mut list);
     for done in setups {
         program(done, &mut list);
     }
     list
+}
+
+/// Power and torque, where the machine says what its spindle has.
+fn load(job: &Job, simulation: &Simulation, list: &mut UncheckedList) {
+    let Some(machine) = &job.machine else { return };
+    if machine.control.spindle_power.is_none() && machine.control.spindle_torque.is_none() {
+        return;
+    }
+    if force_of(job.material.as_deref()).is_none() {
+        let what = "what the cuts need of the spindle: the job has no material whose cutting force is known";
+        list.add(Heading::Tools, what);
+    } else if simulation.engagement.is_none() {
+        let what =
+            "what the cuts need of the spindle: engagement was not measured (simulate.engagement = true)";
+        list.add(Heading::Tools, what);
+    }
 }
 
 /// Clamps, fixtures and the machine's own bodies.

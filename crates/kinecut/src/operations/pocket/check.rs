@@ -21,7 +21,7 @@ use crate::operations::{
 use crate::tool::{Cutter, Hand};
 
 /// Engagement where the job does not say it [deg].
-const USUAL_ENGAGEMENT: f64 = 60.0;
+pub(crate) const USUAL_ENGAGEMENT: f64 = 60.0;
 /// Angle of the helix where neither the job nor the tool says one [deg].
 const USUAL_HELIX: f64 = 3.0;
 /// Share of the feed at which the cutter goes down, and by which it goes faster through what is cleared.

@@ -7,8 +7,8 @@ mod plan;
 mod section;
 mod table;
 
-pub(crate) use check::checked;
 pub use check::{CentredSlot, PocketOperation};
+pub(crate) use check::{USUAL_ENGAGEMENT, checked};
 pub(crate) use json::PocketJson;
 pub use plan::PlannedPocket;
 pub(crate) use plan::planned;

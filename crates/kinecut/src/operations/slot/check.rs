@@ -11,7 +11,7 @@ use crate::geom::OutlineRead;
 use crate::operations::kind::{self, Attempt};
 use crate::operations::named::NamedOutline;
 use crate::operations::outlines::OutlineKeys;
-use crate::operations::pocket::{CentredSlot, PocketOperation, checked, planned};
+use crate::operations::pocket::{CentredSlot, PocketOperation, USUAL_ENGAGEMENT, checked, planned};
 use crate::operations::{Around, CalledTool, CuttingKeys, FeedKeys, Milling, PlaneTable, Setting};
 use crate::page::trimmed;
 
@@ -71,7 +71,7 @@ impl kind::Table for SlotTable {
     }
 
     fn data(&mut self) -> Option<CuttingKeys<'_>> {
-        let cut = self.engagement.map_or(StartCut::Slot, |angle| StartCut::Side(angle.to_radians()));
+        let cut = StartCut::Side(self.engagement.unwrap_or(USUAL_ENGAGEMENT).to_radians());
         let feed = Some(FeedKeys { feed: &mut self.feed, per_tooth: &mut self.feed_per_tooth });
         Some(CuttingKeys {
             speed: &mut self.speed,

@@ -68,7 +68,7 @@ const C45: &str = "material = \"C45\"";
 
 fn slot(rest: &str) -> String {
     format!(
-        "[[setup.operation]]\ntype = \"slot\"\ntool = 1\nline = [[-25, 0], [25, 0]]\nwidth = 10\ndepth = 4\nstepdown = 4\n{rest}\n"
+        "[[setup.operation]]\ntype = \"slot\"\ntool = 1\nline = [[-25, 0], [25, 0]]\nwidth = 10\nengagement = 180\ndepth = 4\nstepdown = 4\n{rest}\n"
     )
 }
 
@@ -206,7 +206,7 @@ fn materials_that_are_not_known_are_refused_where_a_number_is_lacking() {
         error.message.contains("T1 has no preset for C46, and the material `C46` is not known"),
         "{error}"
     );
-    assert!(error.help.as_deref().unwrap().contains("did you mean `C45`"), "{error}");
+    assert!(error.help.contains("did you mean `C45`"), "{error}");
     let error = refused("material = \"S235\"", &slot(""));
     assert!(error.message.contains("no values to start with for S235"), "{error}");
     assert!(error.place.is_some());
@@ -231,9 +231,18 @@ fn by_integral(per_tooth: f64, depth: f64, diameter: f64, teeth: f64, turns: f64
     work * teeth * turns / 1e6
 }
 
+/// A program by another hand that cuts a slot 4 mm deep right through the block, in the full width of T1.
+fn slotted(material: &str, machine: &str, feed: f64) -> Outcome {
+    let program =
+        format!("G21 G17 G90 G54\nT1 M6\nG43 H1\nS3000 M3\nG0 X-50 Y0\nG0 Z-4\nG1 X50 F{feed}\nG0 Z20\nM2\n");
+    let loader = MemoryLoader::default().with("P.ngc", program);
+    run("job.toml", &job(material, machine, "program = { file = \"P.ngc\" }"), &loader, &Silent)
+        .unwrap_or_else(|e| panic!("{e}"))
+}
+
 #[test]
 fn the_simulated_cut_has_the_power_of_its_integral() {
-    let outcome = done(C45, "", &slot("speed = 3000\nfeed = 600"));
+    let outcome = slotted(C45, "", 600.0);
     let wanted = by_integral(0.05, 4.0, 10.0, 4.0, 50.0);
     let json: Value = serde_json::from_str(&engagement_json(&outcome).unwrap()).unwrap();
     let blocks = json["setups"][0]["blocks"].as_array().unwrap();
@@ -248,7 +257,7 @@ fn the_simulated_cut_has_the_power_of_its_integral() {
     let torque = pass["torque"].as_f64().unwrap();
     assert!((torque - 1000.0 * power / (50.0 * TAU)).abs() < 1e-6 * torque);
     // Without a material nothing is said.
-    let outcome = done("", "", &slot("speed = 3000\nfeed = 600"));
+    let outcome = slotted("", "", 600.0);
     assert!(!engagement_json(&outcome).unwrap().contains("power"));
     // A drill in the solid: its torque is kc f D^2 / 8000 at the chip of its lips.
     let outcome = done(C45, "", &drill("speed = 900\nfeed_per_rev = { steady = 0.16 }"));
@@ -268,7 +277,7 @@ fn a_cut_that_needs_more_than_the_spindle_has_is_a_warning() {
         )
     };
     let of = |power: f64, torque: f64| -> Vec<Finding> {
-        let outcome = done(C45, &machine(power, torque), &slot("speed = 3000\nfeed = 600"));
+        let outcome = slotted(C45, &machine(power, torque), 600.0);
         outcome.verdict.found.iter().filter(|f| f.code == Code::CUTTING_LOAD).cloned().collect()
     };
     let wanted = by_integral(0.05, 4.0, 10.0, 4.0, 50.0);
@@ -286,8 +295,27 @@ fn a_cut_that_needs_more_than_the_spindle_has_is_a_warning() {
     let found = of(10.0, 0.9 * 1000.0 * wanted / (50.0 * TAU));
     assert!(found.len() == 1 && found[0].message.contains("more than the torque"), "{found:?}");
     // A speed at which nothing is known of the force: POM.
-    let outcome = done("material = \"POM\"", &machine(0.01, 0.1), &slot("speed = 3000\nfeed = 600"));
+    let outcome = slotted("material = \"POM\"", &machine(0.01, 0.1), 600.0);
     assert!(outcome.verdict.found.iter().all(|f| f.code != Code::CUTTING_LOAD));
+    let said = "what the cuts need of the spindle: the job has no material whose cutting force is known";
+    assert!(
+        outcome.verdict.not_checked.iter().any(|line| line.contains(said)),
+        "{:?}",
+        outcome.verdict.not_checked
+    );
+}
+
+#[test]
+fn a_cutter_with_chips_thinner_than_its_edge_rubs() {
+    let of = |feed: f64| -> Vec<Finding> {
+        let outcome = done(C45, "", &slot(&format!("speed = 3000\nfeed = {feed}")));
+        outcome.verdict.found.iter().filter(|f| f.code == Code::EDGE_RUBS).cloned().collect()
+    };
+    // 12 000 teeth a minute: 2 and 4 um.
+    let found = of(24.0);
+    assert_eq!(found.len(), 1, "{found:?}");
+    assert!((found[0].value.as_ref().unwrap().value - 0.002).abs() < 2e-4, "{}", found[0]);
+    assert!(of(48.0).is_empty());
 }
 
 /// The cutting data of a shop.

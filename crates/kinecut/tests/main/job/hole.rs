@@ -264,10 +264,10 @@ fn what_is_missing_is_said_with_what_is_there() {
     let error = run("job.toml", &text, &MemoryLoader::default(), &Silent).map(|_| ()).unwrap_err().0;
     assert!(error.message.contains("the job has no material"), "{error:?}");
     let text =
-        job("fanuc", "", &hole("size = 12")).replace("material = \"C45\"\npost", "material = \"POM\"\npost");
+        job("fanuc", "", &hole("size = 12")).replace("material = \"C45\"\npost", "material = \"S235\"\npost");
     let error = run("job.toml", &text, &MemoryLoader::default(), &Silent).map(|_| ()).unwrap_err().0;
     assert!(
-        error.message.contains("T1 `spot drill 90` has no cutting_speed and feed_per_rev for POM"),
+        error.message.contains("T1 has no preset for S235, and there are no values to start with for S235"),
         "{error:?}"
     );
 }
@@ -286,4 +286,20 @@ fn places_are_those_of_the_text() {
     let error = refused(&off);
     let line = job("fanuc", "", &off).lines().position(|l| l.contains("[90, 10]")).unwrap() + 1;
     assert_eq!(error.place.as_ref().map(|p| p.line as usize), Some(line), "{error:?}");
+}
+
+#[test]
+fn a_spot_is_drilling_by_centring() {
+    let spot = |kind: &str| {
+        format!(
+            "[[setup.operation]]\n{kind}\ntool = 1\npoints = [[10, 5], [-20, 0]]\nreach_diameter = 7\nspeed = 900\nfeed_per_rev = {{ steady = 0.1 }}\ntop = 0\n"
+        )
+    };
+    let text = |kind: &str| done("linuxcnc", "", &spot(kind)).setups[0].posted.text.clone();
+    let plain = text("type = \"spot\"");
+    assert_eq!(plain, text("type = \"drill\"\nmethod = \"centring\""));
+    let error = refused(&spot("type = \"spot\"\nmethod = \"reaming\""));
+    assert!(error.message.contains("a spot has no method") && error.place.is_some(), "{error}");
+    let error = refused("[[setup.operation]]\ntype = \"spot\"\n");
+    assert!(error.message.contains("`tool` is missing"), "{error}");
 }

@@ -191,7 +191,7 @@ fn of_tile(
     for own in taken.chunk_by(|a, b| a.cut == b.cut) {
         let index = move_of(own[0].cut);
         let Some((way, parts)) = &ways[index] else { continue };
-        let near = way.near(bounds_of(grid, lines, own));
+        let near = if way.is_closed() { Vec::new() } else { way.near(bounds_of(grid, lines, own)) };
         let mut nearer: Vec<&WaySpan> = Vec::new();
         for stretch in own {
             let [low, high] = stretch.points(grid.axis, lines);

@@ -76,7 +76,8 @@ fn read_with(text: &str, loader: &dyn Loader) -> Result<Read, Error> {
     let id = sources.add("job.toml", text);
     let text = JobText::read(&mut sources, id, loader)?;
     let job = check(&text.file, "job", loader).map_err(|e| text.locate(&sources, e))?;
-    let notes = text.notes(&sources);
+    let mut notes = text.notes(&sources);
+    notes.extend(job.data_notes().into_iter().map(|note| *text.locate(&sources, note.into()).0));
     Ok(Read { job, text, notes })
 }
 
@@ -267,7 +268,7 @@ fn an_operation_without_a_speed_takes_the_preset_of_the_material() {
     assert!((spindle(&said) - 3000.0).abs() < 1e-6 && said.notes.is_empty());
     let feed = with("C45", "feed = 200").unwrap();
     assert!(feed.notes[0].message.starts_with("cutting_speed 150 m/min from"), "{}", feed.notes[0].message);
-    for (material, data) in [("Ti6Al4V", ""), ("", "")] {
+    for (material, data) in [("S235", ""), ("", "")] {
         let error = with(material, data).map(|_| ()).unwrap_err();
         assert!(error.to_string().contains("needs a speed"), "{error}");
     }
