@@ -66,6 +66,7 @@ pub enum DrillPoint {
     Rounded {
         /// Radius of the lips about a point of the axis; at least that of the drill.
         #[serde(rename = "lip_radius")]
+        #[schemars(example = 10)]
         radius: f64,
     },
     /// Twist drill with a radius between lip and margin.
@@ -75,6 +76,7 @@ pub enum DrillPoint {
         angle: f64,
         /// Radius between lip and margin.
         #[serde(rename = "corner_radius")]
+        #[schemars(example = 1)]
         radius: f64,
     },
     /// Twist drill with its web ground flat.
@@ -83,6 +85,7 @@ pub enum DrillPoint {
         #[serde(rename = "point_angle", default = "degrees::<118>", with = "Deg")]
         angle: f64,
         /// Half the width of the flat.
+        #[schemars(example = 0.5)]
         flat: f64,
     },
     /// Twist drill with a slot across its chisel edge, where nothing cuts.
@@ -91,12 +94,14 @@ pub enum DrillPoint {
         #[serde(rename = "point_angle", default = "degrees::<118>", with = "Deg")]
         angle: f64,
         /// Half the width of the slot.
+        #[schemars(example = 0.5)]
         slot: f64,
     },
     /// Annular drill: a core stays.
     Annular {
         /// Diameter of the core.
         #[serde(rename = "core_diameter")]
+        #[schemars(example = 16)]
         core: f64,
     },
     /// Flat: indexable insert drill, flat-bottom drill, counterbore.
@@ -104,9 +109,11 @@ pub enum DrillPoint {
     /// Cannon drill: one lip that passes the axis.
     Cannon {
         /// Distance by which the lip passes the axis.
+        #[schemars(example = 0.5)]
         overlap: f64,
-        /// Angle of the lip, counted from the axis.
+        /// Angle of the lip, counted from the axis; degrees in a file.
         #[serde(with = "Deg")]
+        #[schemars(example = 70)]
         edge_angle: f64,
     },
     /// Gun drill: its apex lies off the axis.
@@ -135,8 +142,9 @@ pub enum DrillPoint {
     },
     /// Countersink, core drill, reamer: a cone on a nose that does not cut.
     Cone {
-        /// Full angle of the cone.
+        /// Full angle of the cone; degrees in a file.
         #[serde(rename = "cone_angle", with = "Deg")]
+        #[schemars(example = 90)]
         angle: f64,
         /// Diameter of the nose; default 0: sharp.
         #[serde(rename = "nose_diameter", default)]
@@ -145,8 +153,10 @@ pub enum DrillPoint {
     /// Centre drill: a pilot, then a cone.
     Centre {
         /// Diameter of the pilot.
+        #[schemars(example = 3.15)]
         pilot_diameter: f64,
         /// Height above the tip at which the cone begins.
+        #[schemars(example = 4)]
         pilot_length: f64,
         /// Point angle of the pilot; default 120 degrees.
         #[serde(rename = "point_angle", default = "degrees::<120>", with = "Deg")]
@@ -170,8 +180,10 @@ pub enum DrillPoint {
 #[serde(deny_unknown_fields)]
 pub struct StepStage {
     /// Diameter.
+    #[schemars(example = 6.6)]
     pub diameter: f64,
     /// Height above the tip at which the shoulder to the next diameter begins.
+    #[schemars(example = 15)]
     pub length: f64,
     /// Full angle of that shoulder; default 180 degrees: flat.
     #[serde(rename = "shoulder_angle", default = "degrees::<180>", with = "Deg")]

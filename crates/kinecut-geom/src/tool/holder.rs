@@ -11,8 +11,10 @@ use crate::geom::{Profile, ProfileElement};
 #[serde(deny_unknown_fields)]
 pub struct HolderSegment {
     /// Height.
+    #[schemars(example = 30)]
     pub height: f64,
     /// Diameter at the lower end.
+    #[schemars(example = 50)]
     pub lower_diameter: f64,
     /// Diameter at the upper end; default: as below.
     #[serde(default)]
@@ -31,6 +33,7 @@ impl HolderSegment {
 #[serde(deny_unknown_fields)]
 pub struct Holder {
     /// Name by which tools call it.
+    #[schemars(example = &"ER32")]
     pub name: String,
     /// Segments, from the face upwards.
     pub segments: Vec<HolderSegment>,

@@ -75,12 +75,13 @@ pub enum SpindleSpeed {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct FeedChoice {
-    /// Going in; default: recommended for the surface.
+    /// Going in, mm/rev; default: recommended for the surface.
     #[serde(default)]
     pub entry: Option<f64>,
-    /// In full material.
+    /// In full material, mm/rev.
+    #[schemars(example = 0.2)]
     pub steady: f64,
-    /// Coming out; default: recommended for the surface.
+    /// Coming out, mm/rev; default: recommended for the surface.
     #[serde(default)]
     pub exit: Option<f64>,
 }

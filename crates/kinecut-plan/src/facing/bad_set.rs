@@ -31,11 +31,13 @@ pub struct BadSet {
 pub struct BadPart {
     /// Exit angles above this, degrees in a file,
     #[serde(with = "Deg")]
+    #[schemars(example = 0)]
     pub from: f64,
     /// and below this are bad, degrees in a file.
     #[serde(with = "Deg")]
+    #[schemars(example = 60)]
     pub to: f64,
-    /// Cost of a millimetre of edge there; default 1.
+    /// Weight: the cost of a millimetre of edge there; default 1.
     #[serde(default = "one")]
     pub weight: f64,
 }

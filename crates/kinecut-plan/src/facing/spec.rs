@@ -21,6 +21,7 @@ pub enum PlacementChoice {
     Given {
         /// Angle by which the part is turned under the feed, counter-clockwise; degrees in a file.
         #[serde(with = "Deg")]
+        #[schemars(example = 15)]
         angle: f64,
         /// Ordinate of the line of the cutter's centre in coordinates of the work offset, the part turned about its zero;
         /// default: over the middle of the part.
@@ -39,9 +40,9 @@ pub enum PassesChoice {
     /// One straight pass, or where the part is too wide for it as few rows as cover it.
     Fewest,
     /// This many parallel rows, their offsets and directions optimised.
-    Rows(u32),
+    Rows(#[schemars(example = 3)] u32),
     /// Along the outline, the cutter's centre this far outside the edge [mm] (negative: inside), then rings inwards.
-    Frames(f64),
+    Frames(#[schemars(example = 20)] f64),
     /// The way with the least bad length; the faster of two equal ones.
     LeastBurr,
     /// The fastest way.

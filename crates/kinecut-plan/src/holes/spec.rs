@@ -60,13 +60,16 @@ pub enum Entry {
     /// Down a helix.
     Helix {
         /// Radius of the tool centre's helix; below the cutter's radius no core is left.
+        #[schemars(example = 4)]
         radius: f64,
         /// Depth of one turn.
+        #[schemars(example = 1)]
         pitch: f64,
     },
     /// Into a hole that is there.
     PreDrilled {
         /// Diameter of the hole about the bore's centre.
+        #[schemars(example = 20)]
         diameter: f64,
     },
 }
@@ -90,6 +93,7 @@ pub struct Rough {
     pub allowance: f64,
     /// Feed; mm/min in a file.
     #[serde(with = "MmPerMin")]
+    #[schemars(example = 600)]
     pub feed: f64,
     /// Feed of plunge and helix, mm/min in a file; default: a quarter of the feed.
     #[serde(default, with = "MmPerMin::<Option<f64>>")]

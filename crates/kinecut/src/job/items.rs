@@ -12,6 +12,7 @@ use serde_json::{Value, json};
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
+use super::lacking::with_lines_of_whole;
 use super::places::Places;
 use super::read::{FromToml, decode, text_tables};
 use super::renamed::{self, without_old_names};
@@ -43,7 +44,10 @@ impl<T: DeserializeOwned + Clone> TextItems<T> {
     ///
     /// # Errors
     /// `KC0101` for a text that is neither. What is wrong with one item stands in its place.
-    pub fn read(name: &str, text: impl Into<String>, list: &'static str) -> Result<TextItems<T>> {
+    pub fn read(name: &str, text: impl Into<String>, list: &'static str) -> Result<TextItems<T>>
+    where
+        T: JsonSchema,
+    {
         TextItems::read_named(name, text.into(), &[list], |sources, id, table| decode(sources, id, table))
     }
 
@@ -193,6 +197,7 @@ impl ItemText {
             let [bytes, lines] = self.before;
             (place.start, place.end, place.line) =
                 (place.start + bytes, place.end + bytes, place.line + lines);
+            error.0.help = with_lines_of_whole(&error.0.help, lines);
         }
         error
     }
@@ -315,7 +320,7 @@ mod tests {
 
     use super::*;
 
-    #[derive(Clone, Debug, Deserialize)]
+    #[derive(Clone, Debug, Deserialize, schemars::JsonSchema)]
     #[serde(deny_unknown_fields)]
     #[allow(dead_code, reason = "read, and not looked at")]
     struct Hole {
@@ -323,14 +328,14 @@ mod tests {
         operation: Operation,
     }
 
-    #[derive(Clone, Debug, Deserialize)]
+    #[derive(Clone, Debug, Deserialize, schemars::JsonSchema)]
     #[serde(deny_unknown_fields)]
     #[allow(dead_code, reason = "read, and not looked at")]
     struct Tool {
         diameter: f64,
     }
 
-    #[derive(Clone, Debug, Deserialize)]
+    #[derive(Clone, Debug, Deserialize, schemars::JsonSchema)]
     #[serde(deny_unknown_fields)]
     #[allow(dead_code, reason = "read, and not looked at")]
     struct Operation {

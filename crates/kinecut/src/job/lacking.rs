@@ -1,111 +1,121 @@
-//! Keys that the tables of a file must have and lack, all of them at once.
+//! Keys that the tables of a file must have and lack, all of them at once, each with its unit and an example.
 
-use std::collections::BTreeMap;
+use std::collections::BTreeSet;
 use std::ops::Range;
 
-use schemars::JsonSchema;
-use schemars::generate::SchemaGenerator;
-use serde_json::Value;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
+use super::forms::{Form, Kind, Unit};
 use super::places::span;
 use super::renamed::old_name;
+use super::unknown::is_near;
 use crate::base::{Code, Error, FileId, Finding, Sources};
 
 /// Beginning of serde's message about a key that a table lacks.
 const MISSING: &str = "missing field ";
-/// Keys of which a message says what they are.
+/// Keys of a table, and tables, of which a message says what is to be written.
 const DESCRIBED: usize = 12;
-
-/// The keys of a table, with those of the tables in it.
-#[derive(Clone, Debug)]
-pub(super) struct Keys {
-    range: Range<usize>,
-    keys: BTreeMap<String, Vec<Keys>>,
-}
 
 /// A table that lacks keys.
 #[derive(Clone, Debug)]
 pub(super) struct Lacking {
+    /// Its place.
+    pub(super) range: Range<usize>,
+    /// Each key, and what to write.
+    pub(super) keys: Vec<(String, String)>,
+}
+
+/// The tables of a text that lack keys, in the order of the text.
+pub(super) fn lacking<'v>(table: &'v DeTable<'v>, range: Range<usize>, form: Form<'_>) -> Vec<Lacking> {
+    let mut found = Vec::new();
+    look(table, range, form, true, &mut found);
+    found.sort_by_key(|l| l.range.start);
+    found
+}
+
+fn look<'v>(
+    table: &'v DeTable<'v>,
     range: Range<usize>,
-    /// Each key, and what it is.
-    keys: Vec<(String, String)>,
-}
-
-impl Keys {
-    /// Of a table.
-    pub(super) fn of(table: &Spanned<DeTable<'_>>) -> Keys {
-        Keys::of_table(table.get_ref(), table.span())
+    form: Form<'_>,
+    is_whole: bool,
+    found: &mut Vec<Lacking>,
+) {
+    let has = |key: &str| table.contains_key(key);
+    let lacks = form.required().filter(|key| !has(key) && !old_name(key).is_some_and(has));
+    let unknown: Vec<&str> = table.keys().map(|key| -> &str { key.get_ref() }).collect();
+    let unknown: Vec<&str> = unknown.into_iter().filter(|key| form.key(key).is_none()).collect();
+    let one = |key: &str| {
+        let write = in_words(key, form.key(key)?, is_whole);
+        // A key of a wrong name is not known either.
+        let meant = unknown.iter().find(|u| is_near(u, key) && old_name(key).is_none_or(|old| old != **u));
+        Some((key.to_owned(), meant.map_or(write.clone(), |u| write + &in_place_of(u))))
+    };
+    let keys: Vec<(String, String)> = lacks.filter_map(one).collect();
+    if !keys.is_empty() {
+        found.push(Lacking { range, keys });
     }
-
-    fn of_table(table: &DeTable<'_>, range: Range<usize>) -> Keys {
-        let one = |value: &Spanned<DeValue<'_>>, at: Range<usize>| {
-            value.get_ref().as_table().map(|table| Keys::of_table(table, at))
-        };
-        let within = |key: Range<usize>, value: &Spanned<DeValue<'_>>| match value.get_ref().as_array() {
-            Some(array) => array.iter().filter_map(|v| one(v, v.span())).collect(),
-            None => one(value, key).into_iter().collect(),
-        };
-        let keys = table.iter().map(|(key, value)| (key.get_ref().to_string(), within(key.span(), value)));
-        Keys { range, keys: keys.collect() }
-    }
-
-    /// The tables that lack keys of a type, in the order of the text.
-    pub(super) fn lacking<T: JsonSchema>(&self) -> Vec<Lacking> {
-        let schema = SchemaGenerator::default().into_root_schema_for::<T>();
-        let mut found = Vec::new();
-        self.look(schema.as_value(), schema.as_value(), &mut found);
-        found.sort_by_key(|l| l.range.start);
-        found
-    }
-
-    fn look(&self, schema: &Value, root: &Value, found: &mut Vec<Lacking>) {
-        let schema = resolved(schema, root);
-        let properties = &schema["properties"];
-        let required = schema["required"].as_array().into_iter().flatten().filter_map(Value::as_str);
-        let has = |key: &str| self.keys.contains_key(key);
-        let lacks = required.filter(|key| !has(key) && !old_name(key).is_some_and(has));
-        let keys: Vec<(String, String)> =
-            lacks.map(|key| (key.to_owned(), first_words(&properties[key], root))).collect();
-        if !keys.is_empty() {
-            found.push(Lacking { range: self.range.clone(), keys });
-        }
-        for (key, tables) in &self.keys {
-            let of = resolved(&properties[key], root);
-            let of = if of["items"].is_object() { &of["items"] } else { of };
-            tables.iter().for_each(|table| table.look(of, root, found));
+    for (key, value) in table.iter() {
+        if let Some(of) = form.key(key.get_ref()) {
+            look_into(value, key.span(), of, found);
         }
     }
 }
 
-/// The schema to which another refers, or the only one beside null.
-fn resolved<'a>(schema: &'a Value, root: &'a Value) -> &'a Value {
-    let mut at = schema;
-    // References do not go in circles without a key between them.
-    for _ in 0..8 {
-        if let Some(name) = at["$ref"].as_str().and_then(|r| r.strip_prefix("#/$defs/")) {
-            at = &root["$defs"][name];
-        } else if let Some(any) = at["anyOf"].as_array() {
-            let mut real = any.iter().filter(|s| s["type"] != "null");
-            match (real.next(), real.next()) {
-                (Some(one), None) => at = one,
-                _ => break,
-            }
-        } else {
-            break;
+fn look_into<'v>(
+    value: &'v Spanned<DeValue<'v>>,
+    range: Range<usize>,
+    form: Form<'_>,
+    found: &mut Vec<Lacking>,
+) {
+    let Some(form) = form.meant(value) else { return };
+    match value.get_ref() {
+        DeValue::Table(table) => look(table, range, form, false, found),
+        DeValue::Array(list) if form.kind() == Kind::List => {
+            list.iter().for_each(|item| look_into(item, item.span(), form.item(), found));
         }
+        _ => {}
     }
-    at
 }
 
-/// The first sentence of what a key is.
-fn first_words(schema: &Value, root: &Value) -> String {
-    let own = schema["description"].as_str();
-    let text = own.or_else(|| resolved(schema, root)["description"].as_str()).unwrap_or_default();
-    let line = text.split("\n\n").next().unwrap_or_default().replace('\n', " ");
-    let end = line.find(['.', ';']).unwrap_or(line.len());
-    line[..end].trim().to_owned()
+/// An example of a key, with its unit and what it is: "flute_length = 22 (mm, height of the cutting part above the tip)".
+fn in_words(key: &str, form: Form<'_>, is_whole: bool) -> String {
+    let is_list = form.kind() == Kind::List && form.item().kind() == Kind::Table;
+    let example = match form.example() {
+        // The tables of a whole file have headers.
+        Some(_) if is_whole && is_list => {
+            let rows = form.item().example_rows().unwrap_or_default();
+            format!("[[{key}]] with {}", rows.join(", "))
+        }
+        Some(example) => format!("{key} = {example}"),
+        None => format!("`{key}`"),
+    };
+    let (unit, named) = match form.unit() {
+        Some(Unit::Of(unit)) => (unit.to_owned(), format!(", {unit}")),
+        Some(Unit::Count) => ("a whole number".to_owned(), String::new()),
+        Some(Unit::Pure) | None => (String::new(), String::new()),
+    };
+    let words = form.first_words();
+    let mut words = if named.is_empty() { words } else { words.replace(&named, "") };
+    words = words.trim_end_matches(" in a file").to_owned();
+    if begins_small(&words) {
+        words[..1].make_ascii_lowercase();
+    }
+    let is_new = words != key.replace('_', " ");
+    let about: Vec<String> = [unit, if is_new { words } else { String::new() }].into();
+    let about: Vec<String> = about.into_iter().filter(|part| !part.is_empty()).collect();
+    if about.is_empty() { example } else { format!("{example} ({})", about.join(", ")) }
+}
+
+/// The end of the words about a key that a table lacks and has most likely under a wrong name.
+pub(super) fn in_place_of(unknown: &str) -> String {
+    format!(", in place of `{unknown}`")
+}
+
+/// Whether a sentence may begin with a small letter: not with that of an axis.
+fn begins_small(words: &str) -> bool {
+    let first = words.split(' ').next().unwrap_or_default();
+    first == "A" || first.len() > 1 && first.is_ascii() && first[1..].chars().all(|c| c.is_ascii_lowercase())
 }
 
 /// Whether an error of serde is about a key that a table lacks.
@@ -116,21 +126,62 @@ pub(super) fn is_missing(message: &str) -> bool {
 /// One error for all tables of a text that lack keys; `None` without any.
 pub(super) fn missing(sources: &Sources, id: FileId, all: &[Lacking]) -> Option<Error> {
     let (first, others) = all.split_first()?;
-    let quoted = |l: &Lacking| {
-        let names: Vec<String> = l.keys.iter().map(|(key, _)| format!("`{key}`")).collect();
-        names.join(", ")
-    };
+    let names: Vec<String> = first.keys.iter().map(|(key, _)| format!("`{key}`")).collect();
     let verb = if first.keys.len() == 1 { "is" } else { "are" };
-    let described = first.keys.iter().take(DESCRIBED).filter(|(_, what)| !what.is_empty());
-    let mut help: Vec<String> = described.map(|(key, what)| format!("{key}: {what}")).collect();
+    let examples: Vec<&str> = first.keys.iter().take(DESCRIBED).map(|(_, write)| write.as_str()).collect();
+    let mut help = vec![format!("for example {}", examples.join("; "))];
+    let said = first.keys.iter().take(DESCRIBED).map(|(_, write)| write.as_str()).collect();
+    help.extend(others_in_words(sources, id, others, "", said));
+    let place = sources.locate(span(id, &first.range));
+    let finding = Finding::error(Code::JOB_SHAPE, format!("{} {verb} missing", in_a_row(&names)));
+    Some(finding.at(place).help(help.join("; ")).into())
+}
+
+/// For each table that lacks keys its line, behind the name of its file, and these; what `said` has is named only.
+pub(super) fn others_in_words<'a>(
+    sources: &Sources,
+    id: FileId,
+    others: &'a [Lacking],
+    file: &str,
+    mut said: BTreeSet<&'a str>,
+) -> Vec<String> {
+    let mut all = Vec::new();
     for other in others.iter().take(DESCRIBED) {
         let place = sources.locate(span(id, &other.range));
-        help.push(format!("line {} lacks {}", place.line, quoted(other)));
+        let keys: Vec<String> = other
+            .keys
+            .iter()
+            .map(|(key, write)| if said.insert(write) { write.clone() } else { format!("`{key}`") })
+            .collect();
+        all.push(format!("{file}line {} lacks {}", place.line, in_a_row(&keys)));
     }
     if others.len() > DESCRIBED {
-        help.push(format!("{} more tables lack keys", others.len() - DESCRIBED));
+        all.push(format!("{file}{} more tables lack keys", others.len() - DESCRIBED));
     }
-    let place = sources.locate(span(id, &first.range));
-    let finding = Finding::error(Code::JOB_SHAPE, format!("{} {verb} missing", quoted(first)));
-    Some(finding.at(place).help(help.join("; ")).into())
+    all
+}
+
+/// A help of a part of a text whose lines are counted in the whole text, `lines` before it.
+pub(super) fn with_lines_of_whole(help: &str, lines: u32) -> String {
+    const LINE: &str = "line ";
+    let mut parts = help.split(LINE);
+    let mut whole = parts.next().unwrap_or_default().to_owned();
+    for part in parts {
+        let digits = part.find(|c: char| !c.is_ascii_digit()).unwrap_or(part.len());
+        let (number, rest) = part.split_at(digits);
+        whole += LINE;
+        match number.parse::<u32>() {
+            Ok(number) if rest.starts_with(" lacks ") => whole += &(number + lines).to_string(),
+            _ => whole += number,
+        }
+        whole += rest;
+    }
+    whole
+}
+
+fn in_a_row(all: &[String]) -> String {
+    match all.split_last() {
+        Some((last, rest)) if !rest.is_empty() => format!("{} and {last}", rest.join(", ")),
+        _ => all.concat(),
+    }
 }

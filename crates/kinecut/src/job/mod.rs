@@ -13,6 +13,7 @@ pub(crate) mod facets;
 pub(crate) mod feeds;
 pub mod file;
 pub(crate) mod following;
+mod forms;
 pub(crate) mod held_feed;
 mod holes;
 pub mod inspect;
@@ -51,7 +52,9 @@ mod uncertain;
 pub(crate) mod unknown;
 mod verdict;
 mod wants;
+mod wrong_table;
 mod wrong_type;
+mod wrong_value;
 
 pub use budget::Budget;
 pub use check::{

@@ -9,11 +9,11 @@ use toml::Spanned;
 use toml::de::{DeTable, DeValue, Deserializer};
 
 use super::cutting::ShopTable;
-use super::file::{HoleTable, JobFile, MachineEntry, MachineTable};
+use super::file::{HoleTable, JobFile, MachineEntry, MachineTable, OperationEntry};
 use super::holes::expand;
-use super::lacking::{Keys, Lacking, is_missing, missing};
 use super::library::Shop;
-use super::places::{Places, parse, span, toml_error};
+use super::places::{Places, parse, span};
+use super::wrong_table::{too_long, with_other_files, wrong_table};
 use crate::base::{Code, Error, FileId, Finding, Loader, Result, Sources};
 use crate::operations::{Decode, OperationTable};
 
@@ -37,31 +37,33 @@ impl JobText {
     /// `KC0101` for broken TOML, `KC0102` for unknown or missing keys and wrong types, each with its place;
     /// the loader's errors for a machine file.
     pub fn read(sources: &mut Sources, id: FileId, loader: &dyn Loader) -> Result<JobText> {
+        JobText::read_with_files(sources, id, loader).map_err(|e| with_other_files(sources, id, loader, e))
+    }
+
+    fn read_with_files(sources: &mut Sources, id: FileId, loader: &dyn Loader) -> Result<JobText> {
         let text = sources.text(id).to_owned();
         let mut root = parse(sources, id, &text)?;
         let mut places = Places::of(id, &root);
-        let operations = take_operations(root.get_mut());
-        let machine = root.get_mut().remove("machine");
-        let mut lacking = Vec::new();
-        let file: Option<JobFile> = decode_or_lack(sources, id, root, &mut lacking)?;
-        let mut decoded = Vec::with_capacity(operations.len());
-        for tables in operations {
-            let mut own = Vec::with_capacity(tables.len());
-            for table in tables {
-                own.push(entry_or_lack(sources, id, table, &mut lacking)?);
-            }
-            decoded.push(own);
-        }
-        if let Some(error) = missing(sources, id, &lacking) {
+        if let Some(error) = too_long::<JobFile>(sources, id, &root) {
             return Err(error);
         }
-        let Some(mut file) = file else { return Err(Finding::error(Code::JOB_SHAPE, "no job").into()) };
+        let whole = root.span();
+        // Whatever is wrong with a part is said of the whole text, with all that it lacks.
+        let wrong = |e: &toml::de::Error| wrong_table::<JobFile>(sources, id, &whole, e);
+        let operations = take_operations(root.get_mut());
+        let machine = root.get_mut().remove("machine");
+        let mut file = JobFile::deserialize(Deserializer::from(root)).map_err(|e| wrong(&e))?;
+        let mut decoded = Vec::with_capacity(operations.len());
+        for tables in operations {
+            let own: Result<Vec<Entry>> =
+                tables.into_iter().map(|table| entry(sources, id, table, &wrong)).collect();
+            decoded.push(own?);
+        }
         for (setup, own) in file.setups.iter_mut().zip(decoded) {
             for (at, entry) in own.into_iter().enumerate() {
                 match entry {
-                    Some(Entry::Operation(operation)) => setup.operations.push(*operation),
-                    Some(Entry::Hole(hole)) => setup.holes.push((at, *hole)),
-                    None => {}
+                    Entry::Operation(operation) => setup.operations.push(*operation),
+                    Entry::Hole(hole) => setup.holes.push((at, *hole)),
                 }
             }
         }
@@ -79,7 +81,8 @@ impl JobText {
                 Some(MachineEntry::Table(Box::new(table)))
             }
             Some((span, value)) => {
-                let table = decode::<MachineTable>(sources, id, table_of(sources, id, span, value)?)?;
+                let table = table_of(sources, id, span, value)?;
+                let table = MachineTable::deserialize(Deserializer::from(table)).map_err(|e| wrong(&e))?;
                 Some(MachineEntry::Table(Box::new(table)))
             }
         };
@@ -124,7 +127,7 @@ fn in_folder_of(file: &str, table: &mut MachineTable) {
 ///
 /// # Errors
 /// As [`JobText::read`], and those of `check`.
-pub(crate) fn read_table<T: serde::de::DeserializeOwned, U>(
+pub(crate) fn read_table<T: DeserializeOwned + JsonSchema, U>(
     sources: &Sources,
     id: FileId,
     check: impl FnOnce(&T) -> Result<U>,
@@ -164,12 +167,17 @@ pub(crate) fn text_tables<T>(
     Ok((values.into_iter().map(one).collect(), Some(list), places))
 }
 
-pub(crate) fn decode<'de, T: Deserialize<'de>>(
+/// Decodes a table.
+///
+/// # Errors
+/// `KC0102` for what is wrong with it: all keys that it lacks at once.
+pub(crate) fn decode<'de, T: Deserialize<'de> + JsonSchema>(
     sources: &Sources,
     id: FileId,
     table: Spanned<DeTable<'de>>,
 ) -> Result<T> {
-    T::deserialize(Deserializer::from(table)).map_err(|e| toml_error(sources, id, Code::JOB_SHAPE, &e))
+    let range = table.span();
+    T::deserialize(Deserializer::from(table)).map_err(|e| wrong_table::<T>(sources, id, &range, &e))
 }
 
 /// Takes the operations out of their setups: each is decoded for itself, so that errors keep their place.
@@ -205,24 +213,6 @@ fn table_of<'a>(
     }
 }
 
-/// Decodes a table; one that lacks keys comes as `None`, and is added to those that do.
-fn decode_or_lack<T: DeserializeOwned + JsonSchema>(
-    sources: &Sources,
-    id: FileId,
-    table: Spanned<DeTable<'_>>,
-    lacking: &mut Vec<Lacking>,
-) -> Result<Option<T>> {
-    let keys = Keys::of(&table);
-    T::deserialize(Deserializer::from(table)).map(Some).or_else(|e| {
-        let lacks = if is_missing(e.message()) { keys.lacking::<T>() } else { Vec::new() };
-        if lacks.is_empty() {
-            return Err(toml_error(sources, id, Code::JOB_SHAPE, &e));
-        }
-        lacking.extend(lacks);
-        Ok(None)
-    })
-}
-
 /// Decodes an operation.
 ///
 /// # Errors
@@ -232,20 +222,16 @@ pub(crate) fn decode_operation(
     id: FileId,
     value: Spanned<DeValue<'_>>,
 ) -> Result<OperationTable> {
-    let mut lacking = Vec::new();
-    let at = sources.locate(span(id, &value.span()));
-    let entry = entry_or_lack(sources, id, value, &mut lacking)?;
-    if let Some(error) = missing(sources, id, &lacking) {
-        return Err(error);
-    }
-    match entry {
-        Some(Entry::Operation(operation)) => Ok(*operation),
-        Some(Entry::Hole(_)) => {
+    let range = value.span();
+    let wrong = |e: &toml::de::Error| wrong_table::<OperationEntry>(sources, id, &range, e);
+    match entry(sources, id, value, &wrong)? {
+        Entry::Operation(operation) => Ok(*operation),
+        Entry::Hole(_) => {
+            let at = sources.locate(span(id, &range));
             let what = "`hole` becomes several operations, with tools of a job";
             let finding = Finding::error(Code::JOB_SHAPE, what).at(at);
             Err(finding.help("use `kinecut run` on the job, or write an operation").into())
         }
-        None => Err(Finding::error(Code::JOB_SHAPE, "no operation").into()),
     }
 }
 
@@ -260,12 +246,10 @@ const HOLE: &str = "hole";
 /// The name of spots: drilling by the method `centring`.
 const SPOT: &str = "spot";
 
-fn entry_or_lack(
-    sources: &Sources,
-    id: FileId,
-    value: Spanned<DeValue<'_>>,
-    lacking: &mut Vec<Lacking>,
-) -> Result<Option<Entry>> {
+/// The error of a table in the words of its text.
+type Wrong<'a> = &'a dyn Fn(&toml::de::Error) -> Error;
+
+fn entry(sources: &Sources, id: FileId, value: Spanned<DeValue<'_>>, wrong: Wrong<'_>) -> Result<Entry> {
     let range = value.span();
     let mut table = table_of(sources, id, range.clone(), value.into_inner())?;
     let kind = table.get_mut().remove("type");
@@ -280,20 +264,15 @@ fn entry_or_lack(
     };
     let Some(kind) = kind else { return fail("an operation has no type".to_owned(), &range) };
     match kind.get_ref().as_str() {
-        Some(HOLE) => {
-            let hole: Option<HoleTable> = decode_or_lack(sources, id, table, lacking)?;
-            Ok(hole.map(|hole| Entry::Hole(Box::new(hole))))
-        }
+        Some(HOLE) => Ok(Entry::Hole(Box::new(InText { table, wrong }.table()?))),
         Some(SPOT) if table.get_ref().contains_key("method") => {
             fail("a spot has no method: it is drilling with method = \"centring\"".to_owned(), &kind.span())
         }
         Some(name) => match OperationTable::of_kind(
             if name == SPOT { as_drilling(&mut table, &kind.span()) } else { name },
-            InText { sources, id, table, lacking },
+            InText { table, wrong },
         ) {
-            Some(Ok(operation)) => Ok(Some(Entry::Operation(Box::new(operation)))),
-            Some(Err(None)) => Ok(None),
-            Some(Err(Some(error))) => Err(error),
+            Some(operation) => Ok(Entry::Operation(Box::new(operation?))),
             None => fail(format!("unknown operation `{name}`"), &kind.span()),
         },
         None => fail("the type of an operation must be a text".to_owned(), &kind.span()),
@@ -309,17 +288,12 @@ fn as_drilling(table: &mut Spanned<DeTable<'_>>, at: &Range<usize>) -> &'static 
 
 /// A table of a text.
 struct InText<'a, 'de> {
-    sources: &'a Sources,
-    id: FileId,
     table: Spanned<DeTable<'de>>,
-    lacking: &'a mut Vec<Lacking>,
+    wrong: Wrong<'a>,
 }
 
 impl Decode for InText<'_, '_> {
-    fn table<T: DeserializeOwned + JsonSchema>(self) -> std::result::Result<T, Option<Error>> {
-        match decode_or_lack(self.sources, self.id, self.table, self.lacking) {
-            Ok(table) => table.ok_or(None),
-            Err(error) => Err(Some(error)),
-        }
+    fn table<T: DeserializeOwned + JsonSchema>(self) -> Result<T> {
+        T::deserialize(Deserializer::from(self.table)).map_err(|e| (self.wrong)(&e))
     }
 }

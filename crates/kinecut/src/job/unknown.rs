@@ -2,13 +2,21 @@
 
 use std::borrow::Cow;
 
+/// Least likeness of a wrong name to the one that was meant.
+const NEAR: f64 = 0.75;
+
+/// Whether a wrong name is most likely that of a known key.
+pub(super) fn is_near(unknown: &str, known: &str) -> bool {
+    strsim::jaro_winkler(unknown, known) > NEAR
+}
+
 /// "did you mean" for a message of the form "unknown field `x`, expected one of `a`, `b`".
 pub(crate) fn nearest(message: &str) -> Option<String> {
     let mut words = message.split('`').skip(1).step_by(2);
     let unknown = message.starts_with("unknown ").then(|| words.next()).flatten()?;
     let best =
         words.max_by(|a, b| strsim::jaro_winkler(unknown, a).total_cmp(&strsim::jaro_winkler(unknown, b)))?;
-    (strsim::jaro_winkler(unknown, best) > 0.75).then(|| format!("did you mean `{best}`?"))
+    is_near(unknown, best).then(|| format!("did you mean `{best}`?"))
 }
 
 /// A message of TOML in the words of serde: an unknown key of a variant's table has its own there.
@@ -18,13 +26,18 @@ pub(super) fn in_serde_words(message: &str) -> Cow<'_, str> {
         return Cow::Borrowed(message);
     };
     let unknown = unknown.split(", ").next().unwrap_or(unknown);
-    let known: Vec<String> = known.split(", ").map(|key| format!("`{key}`")).collect();
+    Cow::Owned(unknown_field(unknown, &known.split(", ").collect::<Vec<_>>()))
+}
+
+/// A key that is not known, as serde says it.
+pub(super) fn unknown_field(unknown: &str, known: &[&str]) -> String {
+    let known: Vec<String> = known.iter().map(|key| format!("`{key}`")).collect();
     let expected = match &known[..] {
         [one] => one.clone(),
         [one, other] => format!("{one} or {other}"),
         all => format!("one of {}", all.join(", ")),
     };
-    Cow::Owned(format!("unknown field `{unknown}`, expected {expected}"))
+    format!("unknown field `{unknown}`, expected {expected}")
 }
 
 #[cfg(test)]

@@ -27,6 +27,7 @@ pub struct Core {
 #[serde(deny_unknown_fields)]
 pub struct CoreTable {
     /// Diameter.
+    #[schemars(example = 6.8)]
     pub diameter: f64,
     /// Depth below `top` to which it has its diameter; default: through.
     #[serde(default)]

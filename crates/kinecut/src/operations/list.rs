@@ -14,7 +14,7 @@ macro_rules! kinds {
         use self::named::NamedOutline;
         use self::measured::{Loose, Proof, TakenOut};
         use self::wanted::{PlannedOutline, WantedPlane, WantedWall};
-        use crate::base::{Error, Finding, Result};
+        use crate::base::{Finding, Result};
         use crate::page::Section;
         use crate::program::Setup;
 
@@ -45,7 +45,7 @@ macro_rules! kinds {
             pub(crate) fn of_kind<D: Decode>(
                 name: &str,
                 decode: D,
-            ) -> Option<std::result::Result<OperationTable, Option<Error>>> {
+            ) -> Option<Result<OperationTable>> {
                 match name {
                     $($name => Some(decode.table::<$table>().map(|t| OperationTable::$kind(Box::new(t)))),)*
                     _ => None,
@@ -304,8 +304,8 @@ macro_rules! kinds {
             /// The table.
             ///
             /// # Errors
-            /// Those of the text; `None` for a table that lacks keys, which is noted elsewhere.
-            fn table<T: serde::de::DeserializeOwned + JsonSchema>(self) -> std::result::Result<T, Option<Error>>;
+            /// Those of the text.
+            fn table<T: serde::de::DeserializeOwned + JsonSchema>(self) -> Result<T>;
         }
     };
 }

@@ -68,7 +68,7 @@ pub(crate) fn feed_of(
         }
         (None, None) => {
             let finding = Finding::error(Code::JOB_SHAPE, format!("the {noun} needs a feed"));
-            Err(finding.help("give feed (mm/min) or feed_per_tooth (mm)").into())
+            Err(finding.help("give feed = 600 (mm/min) or feed_per_tooth = 0.05 (mm)").into())
         }
     }
 }
@@ -130,7 +130,7 @@ pub(crate) fn spindle(
         }
         (None, None) => {
             let finding = Finding::error(Code::JOB_SHAPE, "the operation needs a speed");
-            Err(finding.help("give cutting_speed (m/min) or speed (rev/min)").into())
+            Err(finding.help("give cutting_speed = 120 (m/min) or speed = 3800 (rev/min)").into())
         }
     }
 }

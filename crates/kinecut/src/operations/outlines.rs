@@ -29,6 +29,7 @@ pub struct OutlineRectangle {
     #[serde(default)]
     pub at: [f64; 2],
     /// Lengths of its sides.
+    #[schemars(example = vec![60, 40])]
     pub size: [f64; 2],
     /// Radius of its corners; default 0.
     #[serde(default)]
@@ -46,6 +47,7 @@ pub struct OutlineCircle {
     #[serde(default)]
     pub at: [f64; 2],
     /// Its diameter.
+    #[schemars(example = 40)]
     pub diameter: f64,
 }
 

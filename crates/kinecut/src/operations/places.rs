@@ -33,10 +33,13 @@ pub enum PatternTable {
 #[serde(deny_unknown_fields)]
 pub struct GridTable {
     /// Place of the first hole.
+    #[schemars(example = vec![0, 0])]
     pub at: [f64; 2],
     /// Distances of columns and rows.
+    #[schemars(example = vec![20, 20])]
     pub step: [f64; 2],
     /// Numbers of columns and rows.
+    #[schemars(example = vec![3, 2])]
     pub count: [u32; 2],
     /// Direction of the rows from X, degrees; default 0.
     #[serde(default)]
@@ -48,10 +51,13 @@ pub struct GridTable {
 #[serde(deny_unknown_fields)]
 pub struct CircleTable {
     /// Centre.
+    #[schemars(example = vec![0, 0])]
     pub at: [f64; 2],
     /// Diameter.
+    #[schemars(example = 60)]
     pub diameter: f64,
     /// Number of holes.
+    #[schemars(example = 6)]
     pub count: u32,
     /// Direction of the first hole from X, degrees; default 0.
     #[serde(default)]
@@ -66,10 +72,13 @@ pub struct CircleTable {
 #[serde(deny_unknown_fields)]
 pub struct LineTable {
     /// Place of the first hole.
+    #[schemars(example = vec![0, 0])]
     pub at: [f64; 2],
     /// Distance of neighbours.
+    #[schemars(example = 20)]
     pub step: f64,
     /// Number of holes.
+    #[schemars(example = 4)]
     pub count: u32,
     /// Direction from X, degrees; default 0.
     #[serde(default)]
@@ -86,7 +95,10 @@ pub(crate) fn places(points: Option<&[[f64; 2]]>, pattern: Option<&PatternTable>
         (None, Some(pattern)) => ("pattern", of_pattern(pattern).map_err(|e| e.under("pattern"))?),
         _ => {
             let finding = Finding::error(Code::JOB_SHAPE, "the holes need `points` or a `pattern`");
-            return Err(finding.help("give one of them").key("points").into());
+            return Err(finding
+                .help("give points = [[0, 0], [40, 0]] (mm), or a pattern")
+                .key("points")
+                .into());
         }
     };
     let count = places.len();

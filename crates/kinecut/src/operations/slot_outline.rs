@@ -20,6 +20,7 @@ pub struct OutlineSlot {
     #[serde(default)]
     pub arc: Option<SlotArc>,
     /// Its width.
+    #[schemars(example = 12)]
     pub width: f64,
 }
 
@@ -31,10 +32,13 @@ pub struct SlotArc {
     #[serde(default)]
     pub centre: [f64; 2],
     /// Radius of the arc, at the middle of the slot.
+    #[schemars(example = 30)]
     pub radius: f64,
     /// Polar angle of the centre of one end, degrees, counter-clockwise from X.
+    #[schemars(example = 0)]
     pub from: f64,
     /// Polar angle of the centre of the other end, degrees; greater than `from`: the arc runs counter-clockwise.
+    #[schemars(example = 90)]
     pub to: f64,
 }
 

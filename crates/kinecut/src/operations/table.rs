@@ -13,8 +13,10 @@ pub struct PlaneTable {
     #[serde(default)]
     pub origin: [f64; 3],
     /// Direction of its X.
+    #[schemars(example = vec![1, 0, 0])]
     pub x: [f64; 3],
     /// Direction of its Z, from the part to the spindle.
+    #[schemars(example = vec![0, 0, 1])]
     pub z: [f64; 3],
     /// Position of the rotary axes, of the two possible: the axis next to the tool positive or negative; default:
     /// the nearer one, as the control chooses.

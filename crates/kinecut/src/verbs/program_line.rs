@@ -17,6 +17,7 @@ use crate::trace::{Segment, trace};
 #[serde(deny_unknown_fields)]
 pub struct ProgramLineTable {
     /// The job file: machine, control, tools, set-ups.
+    #[schemars(example = &"job.toml")]
     pub job: String,
     /// A program of this job's control; default: the one that the job posts.
     #[serde(default)]
@@ -25,6 +26,7 @@ pub struct ProgramLineTable {
     #[serde(default)]
     pub setup: Option<u32>,
     /// Line of the program, from 1. Where it makes several moves, each has its own envelope.
+    #[schemars(example = 12)]
     pub line: u32,
 }
 

@@ -40,13 +40,14 @@ pub struct Apt {
     /// f: height of the corner's centre; default: r.
     #[serde(default)]
     pub centre_height: Option<f64>,
-    /// alpha: angle between a plane across the axis and the lower cone, negative for a hollow end; default 0.
+    /// alpha: angle between a plane across the axis and the lower cone, negative for a hollow end; degrees in a file; default 0.
     #[serde(default, with = "Deg")]
     pub lower_angle: f64,
-    /// beta: angle between the axis and the upper cone, negative when it narrows upwards; default 0.
+    /// beta: angle between the axis and the upper cone, negative when it narrows upwards; degrees in a file; default 0.
     #[serde(default, with = "Deg")]
     pub upper_angle: f64,
     /// h: height of the tool above the origin.
+    #[schemars(example = 30)]
     pub height: f64,
 }
 

@@ -25,6 +25,7 @@ const LARGEST_SNAP: f64 = 1.0;
 #[serde(deny_unknown_fields)]
 pub struct SectionDrawing {
     /// File, in the folder of this one. Layers called `cutting`, `shank` and `holder` say what a part is there for.
+    #[schemars(example = &"tool.dxf")]
     pub file: String,
     /// Axis of the drawing that is the tool's, the tip towards its lower end; default "y".
     #[serde(default)]

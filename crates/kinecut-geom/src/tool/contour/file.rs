@@ -25,6 +25,7 @@ pub struct ContourFile {
 #[serde(deny_unknown_fields)]
 pub struct ElementEntry {
     /// Radius and height at which it ends.
+    #[schemars(example = vec![5, 20])]
     pub to: [f64; 2],
     /// Radius and height of an arc's centre.
     #[serde(default, skip_serializing_if = "Option::is_none")]

@@ -64,10 +64,13 @@ pub enum NumberText {
 #[serde(deny_unknown_fields)]
 pub struct VariableEntry {
     /// Name in the laws.
+    #[schemars(example = &"u")]
     pub name: String,
     /// Least value [mm or rad].
+    #[schemars(example = 0)]
     pub from: NumberText,
     /// Greatest value [mm or rad].
+    #[schemars(example = &"2*pi")]
     pub to: NumberText,
 }
 

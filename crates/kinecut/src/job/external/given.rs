@@ -3,6 +3,7 @@
 
 use std::borrow::Cow;
 
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::super::check::{Job, JobProgram, check};
@@ -140,7 +141,7 @@ impl GivenJob {
 }
 
 /// Tools and holders in a file of their own.
-#[derive(Debug, Deserialize)]
+#[derive(Debug, Deserialize, JsonSchema)]
 struct ToolsFile {
     #[serde(default, rename = "holder")]
     holders: Vec<Holder>,

@@ -14,6 +14,7 @@ pub struct BodyTable {
     pub name: Option<String>,
     /// The link that carries it: an axis by its letter (inclined ones by the digit of the code), "bed", "work" (the
     /// holder of the workpiece) or "spindle" (the holder of the tool).
+    #[schemars(example = &"Z")]
     pub link: String,
     /// A box along the axes of the machine.
     #[serde(default, rename = "box", skip_serializing_if = "Option::is_none")]
@@ -34,12 +35,15 @@ pub struct BodyTable {
 #[serde(deny_unknown_fields)]
 pub struct BodyCylinderTable {
     /// Centre of one end.
+    #[schemars(example = vec![0, 0, 100])]
     pub base: [f64; 3],
     /// Direction from there to the other end; default [0, 0, 1].
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub axis: Option<[f64; 3]>,
     /// Diameter.
+    #[schemars(example = 80)]
     pub diameter: f64,
     /// Length along the axis.
+    #[schemars(example = 200)]
     pub height: f64,
 }

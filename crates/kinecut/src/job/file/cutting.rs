@@ -21,8 +21,10 @@ pub struct CuttingFileTable {
 #[serde(deny_unknown_fields)]
 pub struct CuttingRow {
     /// The material of the part, as `material` of a job names it.
+    #[schemars(example = &"C45")]
     pub material: String,
     /// The kind of the tool.
+    #[schemars(example = &"end-mill")]
     pub tool: CuttingTool,
     /// The material of its edges; default: any.
     #[serde(default, skip_serializing_if = "Option::is_none")]

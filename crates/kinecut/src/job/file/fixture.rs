@@ -11,6 +11,7 @@ use super::{BoxTable, CylinderTable};
 #[serde(deny_unknown_fields)]
 pub struct FixtureTable {
     /// Name, as findings say it.
+    #[schemars(example = &"vise")]
     pub name: String,
     /// Numbers of the setups in which it is there, from 1; default: all.
     #[serde(default)]
@@ -18,7 +19,7 @@ pub struct FixtureTable {
     /// Place of its own zero in the coordinates of the work offset; default: the work zero.
     #[serde(default)]
     pub at: Option<[f64; 3]>,
-    /// Turn about Z through its own zero, against the clock seen from above; default 0.
+    /// Turn about Z through its own zero, degrees, against the clock seen from above; default 0.
     #[serde(default)]
     pub turn: Option<f64>,
     /// Least distance that tools keep from it: nearer is a warning, 0 asks for none. Default 0.5.
@@ -47,12 +48,16 @@ pub struct FixtureTable {
 #[serde(deny_unknown_fields)]
 pub struct ViseTable {
     /// Width of the jaws, along X.
+    #[schemars(example = 150)]
     pub jaw_width: f64,
     /// Distance of the jaws as the part is held.
+    #[schemars(example = 60)]
     pub opening: f64,
     /// Height of the jaws above the part's seat.
+    #[schemars(example = 40)]
     pub jaw_height: f64,
     /// Thickness of a jaw, along Y.
+    #[schemars(example = 30)]
     pub jaw_thickness: f64,
     /// Height of the parallels on which the part lies: so far below its seat is the top of the bed. Default 0.
     #[serde(default)]
@@ -67,10 +72,13 @@ pub struct ViseTable {
 #[serde(deny_unknown_fields)]
 pub struct ClampTable {
     /// Length of the strap, along X.
+    #[schemars(example = 80)]
     pub length: f64,
     /// Width of the strap, along Y.
+    #[schemars(example = 30)]
     pub width: f64,
     /// Thickness of the strap.
+    #[schemars(example = 15)]
     pub thickness: f64,
     /// Distance of the bolt from the tip; default: half of the length.
     #[serde(default)]

@@ -18,6 +18,7 @@ use crate::program::Coolant;
 pub struct HoleTable {
     /// Size: a diameter, 6.6; a diameter with the fit that a reamer makes, "8H7"; a metric thread, "M8" with the coarse pitch
     /// of ISO 261 or "M8x1".
+    #[schemars(example = &"M8")]
     pub size: HoleSize,
     /// Places of the holes, in coordinates of the work offset.
     #[serde(default)]

@@ -38,6 +38,7 @@ use crate::tool::Holder;
 #[serde(deny_unknown_fields)]
 pub struct JobFile {
     /// Version of this file's form: 1.
+    #[schemars(example = 1)]
     pub format: u32,
     /// Title of the job in program and report.
     #[serde(default)]
@@ -94,8 +95,10 @@ pub struct JobFile {
 #[serde(deny_unknown_fields)]
 pub struct DesignTable {
     /// STL file, in part coordinates.
+    #[schemars(example = &"part.stl")]
     pub mesh: String,
     /// Largest allowed distance between cut and wanted surface.
+    #[schemars(example = 0.1)]
     pub tolerance: f64,
     /// Regions of its surface with limits of their own.
     #[serde(default, rename = "region", skip_serializing_if = "Vec::is_empty")]
@@ -107,8 +110,10 @@ pub struct DesignTable {
 #[serde(deny_unknown_fields)]
 pub struct RegionTable {
     /// Name.
+    #[schemars(example = &"pocket")]
     pub name: String,
     /// Points on its faces, one for each: a face goes on as far as its triangles do smoothly.
+    #[schemars(example = vec![[20, 15, -5]])]
     pub at: Vec<[f64; 3]>,
     /// Angle of the normals on both sides of an edge up to which a face goes on, degrees; default 20.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -130,7 +135,7 @@ pub enum StockTable {
     /// A round bar standing along Z.
     Cylinder(CylinderTable),
     /// A closed STL mesh.
-    Mesh(String),
+    Mesh(#[schemars(example = &"part.stl")] String),
 }
 
 /// A block between two corners.
@@ -138,8 +143,10 @@ pub enum StockTable {
 #[serde(deny_unknown_fields)]
 pub struct BoxTable {
     /// Least corner.
+    #[schemars(example = vec![0, 0, -20])]
     pub min: [f64; 3],
     /// Greatest corner.
+    #[schemars(example = vec![100, 60, 0])]
     pub max: [f64; 3],
 }
 
@@ -148,10 +155,13 @@ pub struct BoxTable {
 #[serde(deny_unknown_fields)]
 pub struct CylinderTable {
     /// Centre of the lower face.
+    #[schemars(example = vec![0, 0, -20])]
     pub base: [f64; 3],
     /// Diameter.
+    #[schemars(example = 80)]
     pub diameter: f64,
     /// Height.
+    #[schemars(example = 20)]
     pub height: f64,
 }
 
@@ -160,12 +170,16 @@ pub struct CylinderTable {
 #[serde(deny_unknown_fields)]
 pub struct DrilledTable {
     /// Centre.
+    #[schemars(example = vec![50, 30])]
     pub at: [f64; 2],
     /// Diameter.
+    #[schemars(example = 10)]
     pub diameter: f64,
     /// Height of the hole's upper end.
+    #[schemars(example = 0)]
     pub top: f64,
     /// Height of the hole's flat lower end.
+    #[schemars(example = -20)]
     pub bottom: f64,
 }
 
@@ -174,6 +188,7 @@ pub struct DrilledTable {
 #[serde(deny_unknown_fields)]
 pub struct PostTable {
     /// The control: "sinumerik-840d", "fanuc", "linuxcnc", "grbl" or "heidenhain".
+    #[schemars(example = &"fanuc")]
     pub control: String,
     /// Decimals of coordinates, 3 to 6; default: as usual on the control (FANUC 3, others 4).
     #[serde(default)]
@@ -234,7 +249,7 @@ pub struct SimulateTable {
     /// Distance of the lines of the stock model; default: that of about 2 million lines in the stock.
     #[serde(default)]
     pub step: Option<f64>,
-    /// Largest memory of a run in MB: stock model, moves, surface and comparison; default 4000.
+    /// Largest memory of a run, MB: stock model, moves, surface and comparison; default 4000.
     #[serde(default)]
     pub memory: Option<f64>,
     /// Largest distance of the surface of the cut part, as files and report show it, from the ends of the lines; default: a
@@ -273,7 +288,8 @@ pub struct UncertaintyTable {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct SetupTable {
-    /// Work offset: "G54".
+    /// Work offset.
+    #[schemars(example = &"G54")]
     pub offset: String,
     /// The work zero, in part coordinates; default: the part's zero.
     #[serde(default)]
@@ -345,8 +361,10 @@ impl SetupTable {
 #[serde(deny_unknown_fields)]
 pub struct OrientTable {
     /// Direction of the work offset's X in part coordinates.
+    #[schemars(example = vec![1, 0, 0])]
     pub x: [f64; 3],
     /// Direction of the work offset's Z (towards the spindle) in part coordinates.
+    #[schemars(example = vec![0, 0, 1])]
     pub z: [f64; 3],
 }
 

@@ -12,6 +12,7 @@ use crate::nc::NumberInput;
 #[serde(deny_unknown_fields)]
 pub struct ProgramTable {
     /// The file, in the folder of the job.
+    #[schemars(example = &"O1234.nc")]
     pub file: String,
     /// The control that runs it; default: that of `post`.
     #[serde(default)]

@@ -51,6 +51,7 @@ pub enum EdgeName {
 #[serde(deny_unknown_fields)]
 pub struct ToolTable {
     /// Number on the control.
+    #[schemars(example = 1)]
     pub number: u32,
     /// Name to show.
     #[serde(default)]
@@ -59,6 +60,7 @@ pub struct ToolTable {
     #[serde(rename = "type")]
     pub kind: ToolType,
     /// Diameter (of a tapered cutter: of its flat tip, 0 for a sharp one; of a face mill: at the finished plane).
+    #[schemars(example = 10)]
     pub diameter: f64,
     /// Corner radius of a bull-nose end mill, or of a face mill with an entering angle of 90 degrees.
     #[serde(default)]
@@ -82,7 +84,7 @@ pub struct ToolTable {
     /// Form of a tap's lead (DIN 2197); default "C". Its longest lead is taken: 8, 5.5, 3, 5, 2, 1.5 pitches.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub chamfer: Option<ChamferForm>,
-    /// Length of a tap's lead in pitches, in place of `chamfer`.
+    /// Length of a tap's lead, pitches, in place of `chamfer`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub lead: Option<f64>,
     /// Length of a tap's point below its lead; default 0.
@@ -101,6 +103,7 @@ pub struct ToolTable {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub neck_length: Option<f64>,
     /// Height of the cutting part above the tip.
+    #[schemars(example = 22)]
     pub flute_length: f64,
     /// Material of its edges, "carbide" or "hss", for values to start with; default carbide for mills, HSS for drills, reamers and
     /// taps.
@@ -108,6 +111,7 @@ pub struct ToolTable {
     pub material: Option<EdgeName>,
     /// Number of teeth; default 2.
     #[serde(default)]
+    #[schemars(example = 4)]
     pub teeth: Option<u32>,
     /// Angle of each tooth about the axis, degrees, ascending from 0; default: evenly spaced.
     #[serde(default)]
@@ -153,24 +157,29 @@ pub struct ToolTable {
 #[serde(deny_unknown_fields)]
 pub struct PresetTable {
     /// The material, as `material` of a job names it.
+    #[schemars(example = &"C45")]
     pub material: String,
     /// A word for it: "slotting".
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub name: Option<String>,
     /// Cutting speed, m/min; or give `speed`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(example = 120)]
     pub cutting_speed: Option<f64>,
     /// Spindle speed, rev/min.
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(example = 3800)]
     pub speed: Option<f64>,
     /// Feed per tooth.
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(example = 0.05)]
     pub feed_per_tooth: Option<f64>,
-    /// Feed per revolution.
+    /// Feed per revolution, mm/rev.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub feed_per_rev: Option<f64>,
     /// Feed, mm/min.
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(example = 600)]
     pub feed: Option<f64>,
 }
 
@@ -284,9 +293,10 @@ pub(in crate::job) fn tool(t: &ToolTable, holders: &BTreeMap<&str, &Holder>) -> 
     }
     let diameter = length("diameter", t.diameter, 0.0, 1000.0)?;
     let misfit = |key: &str, wanted: bool, given: bool| match (wanted, given) {
-        (true, false) => Err(Error::from(
-            Finding::error(Code::JOB_SHAPE, format!("a {} needs {key}", kind_name(t.kind))).key("type"),
-        )),
+        (true, false) => {
+            let finding = Finding::error(Code::JOB_SHAPE, format!("a {} needs {key}", kind_name(t.kind)));
+            Err(Error::from(finding.help(needed(key)).key("type")))
+        }
         (false, true) => {
             Err(Finding::error(Code::JOB_SHAPE, format!("a {} has no {key}", kind_name(t.kind)))
                 .key(key)
@@ -374,6 +384,16 @@ pub(in crate::job) fn tool(t: &ToolTable, holders: &BTreeMap<&str, &Holder>) -> 
     Ok(tool)
 }
 
+/// An example of a key that a kind of tool needs.
+fn needed(key: &str) -> &'static str {
+    match key {
+        "corner_radius" => "give corner_radius = 1 (mm)",
+        "half_angle" => "give half_angle = 45 (degrees)",
+        "pitch" => "give pitch = 1.25 (mm)",
+        _ => "",
+    }
+}
+
 /// Hand of the tool, and limits of its speed and feed.
 fn limits(t: &ToolTable) -> Result<ToolLimits> {
     let limit = |key: &str, value: Option<f64>, most: f64, unit: &str, factor: f64| -> Result<Option<f64>> {
@@ -413,7 +433,7 @@ fn thread_mill(t: &ToolTable, diameter: f64) -> Result<ThreadMill> {
         }
         (None, Some(_)) => {
             let finding = Finding::error(Code::JOB_SHAPE, "the neck of a thread mill needs neck_diameter");
-            return Err(finding.help("give its diameter").key("neck_length").into());
+            return Err(finding.help("give neck_diameter = 6 (mm)").key("neck_length").into());
         }
     };
     Ok(ThreadMill {

@@ -46,6 +46,7 @@ pub enum ToolFileEntry {
 #[serde(deny_unknown_fields)]
 pub struct ToolFileTable {
     /// Its name.
+    #[schemars(example = &"shop.toml")]
     pub file: String,
     /// Whether the lengths of a tool table of LinuxCNC are in inches; other files say their units. Default false.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]

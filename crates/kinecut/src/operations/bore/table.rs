@@ -24,13 +24,16 @@ pub struct BoreTable {
     #[serde(default)]
     pub plane: Option<PlaneTable>,
     /// The tool: its number, or its name.
+    #[schemars(example = 1)]
     pub tool: CalledTool,
     /// Centre, in coordinates of the work offset.
+    #[schemars(example = vec![0, 0])]
     pub at: [f64; 2],
     /// Height of the upper rim, in coordinates of the work offset; default 0.
     #[serde(default)]
     pub top: f64,
     /// Diameter of the finished bore; of a conical one at its rim.
+    #[schemars(example = 40)]
     pub diameter: f64,
     /// Diameter at the depth, for a bore that narrows downwards; it is milled in steps, level by level.
     #[serde(default)]
@@ -42,6 +45,7 @@ pub struct BoreTable {
     #[serde(default, alias = "leave_floor")]
     pub stock_to_leave_floor: f64,
     /// Depth below the rim.
+    #[schemars(example = 8)]
     pub depth: f64,
     /// Depth that the tool goes below the bore's depth, for a bore that goes through; default 0.
     #[serde(default)]
@@ -58,6 +62,7 @@ pub struct BoreTable {
     #[serde(default)]
     pub entry: Option<Entry>,
     /// Spindle speed, rev/min.
+    #[schemars(example = 3800)]
     pub speed: f64,
     /// Coolant; default flood.
     #[serde(default)]

@@ -24,6 +24,7 @@ pub struct ChamferTable {
     #[serde(default)]
     pub name: Option<String>,
     /// The tool, a tapered one: its number, or its name.
+    #[schemars(example = 1)]
     pub tool: CalledTool,
     /// Name of a contour or chamfer before it in the setup, whose edge is chamfered: its outline with its place, `side`, `loops`,
     /// `top` and `stock_to_leave`; here `top` may be another, and `loops` fewer; in place of an outline.
@@ -80,6 +81,7 @@ pub struct ChamferTable {
     #[serde(default)]
     pub top: Option<f64>,
     /// Width of the chamfer, seen from above.
+    #[schemars(example = 0.5)]
     pub width: f64,
     /// Depth of the tool's tip below the chamfer, 0.2 at least; default a tenth of the tool's diameter, 0.5 at most.
     #[serde(default)]
@@ -107,15 +109,19 @@ pub struct ChamferTable {
     pub overlap: Option<f64>,
     /// Spindle speed, rev/min; or give `cutting_speed`.
     #[serde(default)]
+    #[schemars(example = 3800)]
     pub speed: Option<f64>,
     /// Cutting speed at the upper edge of the chamfer, m/min.
     #[serde(default)]
+    #[schemars(example = 120)]
     pub cutting_speed: Option<f64>,
     /// Feed along the edge, mm/min; or give `feed_per_tooth`.
     #[serde(default)]
+    #[schemars(example = 600)]
     pub feed: Option<f64>,
     /// Feed per tooth.
     #[serde(default)]
+    #[schemars(example = 0.05)]
     pub feed_per_tooth: Option<f64>,
     /// Feed straight down, mm/min; default: half the feed.
     #[serde(default)]

@@ -23,6 +23,7 @@ pub struct ContourTable {
     #[serde(default)]
     pub name: Option<String>,
     /// The tool, one with a cylindrical edge: its number, or its name.
+    #[schemars(example = 1)]
     pub tool: CalledTool,
     /// The outline as a rectangle; or give `circle`, `polygon`, `slot` or `outline`.
     #[serde(default)]
@@ -65,6 +66,7 @@ pub struct ContourTable {
     #[serde(default)]
     pub top: f64,
     /// Depth below it.
+    #[schemars(example = 8)]
     pub depth: f64,
     /// Depth that the tool goes below `depth`, for a cut that goes through; default 0.
     #[serde(default)]
@@ -100,15 +102,19 @@ pub struct ContourTable {
     pub tabs: Option<TabsTable>,
     /// Spindle speed, rev/min; or give `cutting_speed`.
     #[serde(default)]
+    #[schemars(example = 3800)]
     pub speed: Option<f64>,
     /// Cutting speed, m/min.
     #[serde(default)]
+    #[schemars(example = 120)]
     pub cutting_speed: Option<f64>,
     /// Feed along the contour, mm/min; or give `feed_per_tooth`.
     #[serde(default)]
+    #[schemars(example = 600)]
     pub feed: Option<f64>,
     /// Feed per tooth.
     #[serde(default)]
+    #[schemars(example = 0.05)]
     pub feed_per_tooth: Option<f64>,
     /// Feed straight down and along ramps, mm/min; default: half the feed.
     #[serde(default)]
@@ -131,7 +137,7 @@ pub enum ContourEntry {
     /// Straight down beside the contour; needs a cutter that cuts at its centre.
     Plunge,
     /// Down along the contour, at an angle, degrees.
-    Ramp(f64),
+    Ramp(#[schemars(example = 3)] f64),
 }
 
 /// Tabs that hold the part until it is taken out.
@@ -145,8 +151,10 @@ pub struct TabsTable {
     #[serde(default)]
     pub places: Option<Vec<[f64; 2]>>,
     /// Width of what remains, at its thinnest.
+    #[schemars(example = 6)]
     pub width: f64,
     /// Height over the depth of the contour.
+    #[schemars(example = 2)]
     pub height: f64,
     /// Form: "flat", or "ramp" with ends that rise at 30 degrees beside the width; default flat.
     #[serde(default)]
@@ -169,6 +177,7 @@ pub struct ContourFinishTable {
     pub allowance: f64,
     /// Feed, mm/min; default that of the contour.
     #[serde(default)]
+    #[schemars(example = 600)]
     pub feed: Option<f64>,
     /// Further laps without infeed; default 0.
     #[serde(default)]

@@ -26,6 +26,7 @@ pub struct DeburrTable {
     #[serde(default)]
     pub name: Option<String>,
     /// The tool, a tapered one or a ball-nose end mill: its number, or its name.
+    #[schemars(example = 1)]
     pub tool: CalledTool,
     /// Name of an operation along an outline before it in the setup, whose edge is deburred: its outline with its place, `side`, `loops`,
     /// `top` and `stock_to_leave`; here `top` may be another, and `loops` fewer; in place of an outline.
@@ -110,15 +111,19 @@ pub struct DeburrTable {
     pub overlap: Option<f64>,
     /// Spindle speed, rev/min; or give `cutting_speed`.
     #[serde(default)]
+    #[schemars(example = 3800)]
     pub speed: Option<f64>,
     /// Cutting speed at the upper edge of the break, m/min.
     #[serde(default)]
+    #[schemars(example = 120)]
     pub cutting_speed: Option<f64>,
     /// Feed along the edge, mm/min; or give `feed_per_tooth`.
     #[serde(default)]
+    #[schemars(example = 600)]
     pub feed: Option<f64>,
     /// Feed per tooth.
     #[serde(default)]
+    #[schemars(example = 0.05)]
     pub feed_per_tooth: Option<f64>,
     /// Feed straight down, mm/min; default: half the feed.
     #[serde(default)]

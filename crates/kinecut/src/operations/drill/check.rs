@@ -130,7 +130,7 @@ fn operation(t: &DrillTable, tools: &[Tool], loader: &dyn Loader) -> Result<Dril
     let exact_spindle = spindle(t.speed, t.cutting_speed, about)?;
     let feed = t.feed_per_rev.ok_or_else(|| {
         Finding::error(Code::JOB_SHAPE, "the operation needs a feed")
-            .help("give feed_per_rev = { steady = 0.1 } (mm per revolution)")
+            .help("give feed_per_rev = { steady = 0.1 } (mm/rev)")
             .key("feed_per_rev")
     })?;
     for (key, value) in [("entry", feed.entry), ("exit", feed.exit)] {
@@ -268,7 +268,7 @@ fn pre_hole_numbers(hole: &super::PreHoleTable) -> Result<()> {
     let angle = positive("bottom_angle", hole.bottom_angle.unwrap_or(180.0), 180.0, "deg")?;
     if hole.bottom.is_none() && angle != 180.0 {
         return Err(Finding::error(Code::JOB_SHAPE, "an angle of the bottom needs the bottom")
-            .help("give bottom = ..")
+            .help("give bottom = -20 (mm)")
             .key("bottom_angle")
             .into());
     }

@@ -23,6 +23,7 @@ pub struct DrillTable {
     #[serde(default)]
     pub plane: Option<PlaneTable>,
     /// The tool, a drill: its number, or its name.
+    #[schemars(example = 1)]
     pub tool: CalledTool,
     /// Kind of drilling; default drilling.
     #[serde(default)]
@@ -75,9 +76,11 @@ pub struct DrillTable {
     pub surface_tolerance: f64,
     /// Cutting speed at the largest diameter that cuts, m/min.
     #[serde(default)]
+    #[schemars(example = 120)]
     pub cutting_speed: Option<f64>,
     /// Spindle speed, rev/min.
     #[serde(default)]
+    #[schemars(example = 3800)]
     pub speed: Option<f64>,
     /// Feeds, mm per revolution; default: that of the tool's preset for the material.
     #[serde(default)]
@@ -200,6 +203,7 @@ impl<'de> Deserialize<'de> for ExitTable {
 #[serde(deny_unknown_fields)]
 pub struct PreHoleTable {
     /// Diameter.
+    #[schemars(example = 8)]
     pub diameter: f64,
     /// Its centre, from that of the new hole; default [0, 0].
     #[serde(default)]
@@ -217,8 +221,10 @@ pub struct PreHoleTable {
 #[serde(deny_unknown_fields)]
 pub struct CrossBoreTable {
     /// Diameter.
+    #[schemars(example = 12)]
     pub diameter: f64,
     /// Z of its axis, in coordinates of the work offset.
+    #[schemars(example = -15)]
     pub z: f64,
     /// Distance of the tool axis from its axis; default: from `at` and `direction`.
     #[serde(default)]
@@ -236,6 +242,7 @@ pub struct CrossBoreTable {
 #[serde(deny_unknown_fields)]
 pub struct PeckTable {
     /// Depth of a step.
+    #[schemars(example = 3)]
     pub step: f64,
     /// Motion after each step; default: the chip is broken.
     #[serde(default)]

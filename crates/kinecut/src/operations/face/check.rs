@@ -233,7 +233,7 @@ fn spindle(t: &FacingTable, radius: f64) -> Result<f64> {
             Ok(if rpm >= 1.0 { rpm * TAU / 60.0 } else { rate })
         }
         (None, None) => Err(Finding::error(Code::JOB_SHAPE, "face milling needs a speed")
-            .help("give cutting_speed (m/min) or speed (rev/min)")
+            .help("give cutting_speed = 120 (m/min) or speed = 3800 (rev/min)")
             .into()),
     }
 }
@@ -258,7 +258,7 @@ fn feed(t: &FacingTable, spindle: f64, teeth: u32) -> Result<(f64, f64)> {
             Ok((per_revolution * per_second, per_revolution))
         }
         (None, None) => Err(Finding::error(Code::JOB_SHAPE, "face milling needs a feed")
-            .help("give feed_per_tooth (mm) or feed (mm/min)")
+            .help("give feed_per_tooth = 0.05 (mm) or feed = 600 (mm/min)")
             .into()),
     }
 }

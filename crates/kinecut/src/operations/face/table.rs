@@ -16,9 +16,11 @@ use crate::program::Coolant;
 #[serde(deny_unknown_fields)]
 pub struct FacingTable {
     /// The tool: its number, or its name.
+    #[schemars(example = 1)]
     pub tool: CalledTool,
     /// The edges of the face: a drawing ("cover.dxf", .svg, .json, or the top face of an .stl), "top" for the stock's own
     /// edges at the finished plane, or a table with the loops themselves.
+    #[schemars(example = &"top")]
     pub outline: OutlineEntry,
     /// Unit of the drawing where it does not say: "mm", "cm", "m", "in".
     #[serde(default)]
@@ -39,6 +41,7 @@ pub struct FacingTable {
     #[serde(default)]
     pub top: f64,
     /// Thickness of what is milled off.
+    #[schemars(example = 1)]
     pub depth: f64,
     /// Largest depth of one level; default: all at once.
     #[serde(default, alias = "axial_step")]
@@ -48,18 +51,22 @@ pub struct FacingTable {
     pub tolerance: Option<f64>,
     /// Spindle speed, rev/min; or give `cutting_speed`.
     #[serde(default)]
+    #[schemars(example = 3800)]
     pub speed: Option<f64>,
     /// Cutting speed, m/min.
     #[serde(default)]
+    #[schemars(example = 120)]
     pub cutting_speed: Option<f64>,
     /// Whether the spindle turns counter-clockwise (M4), for a left-hand cutter; default false.
     #[serde(default)]
     pub left_hand: bool,
     /// Feed per tooth; or give `feed`.
     #[serde(default)]
+    #[schemars(example = 0.05)]
     pub feed_per_tooth: Option<f64>,
     /// Feed, mm/min.
     #[serde(default)]
+    #[schemars(example = 600)]
     pub feed: Option<f64>,
     /// Coolant; default flood.
     #[serde(default)]
@@ -67,7 +74,7 @@ pub struct FacingTable {
     /// Exit angles below this leave a primary burr, degrees. Default: from `thresholds` by the depth of the last level.
     #[serde(default)]
     pub exit_angle_min: Option<f64>,
-    /// Thresholds by depth of cut, [depth, degrees] each, straight between them and constant beyond; default
+    /// Thresholds by depth of cut, mm and degrees: [depth, angle] each, straight between them and constant beyond; default
     /// [[0.5, 90], [1, 60]], as Kryzhanivskyi and Kryzhanivska 2011 read them from Chern.
     #[serde(default)]
     pub thresholds: Option<Vec<[f64; 2]>>,

@@ -11,10 +11,13 @@ use crate::program::Coolant;
 #[serde(deny_unknown_fields)]
 pub struct PathTable {
     /// The tool: its number, or its name.
+    #[schemars(example = 1)]
     pub tool: CalledTool,
     /// Spindle speed, rev/min.
+    #[schemars(example = 8000)]
     pub speed: f64,
     /// Feed of the tip, mm/min; a file may give its own.
+    #[schemars(example = 1500)]
     pub feed: f64,
     /// The points: `[x, y, z]`, or `[x, y, z, i, j, k]` with the direction from tip to holder; a point without direction
     /// keeps that of the point before. In coordinates of the work offset. Either this or `file`.

@@ -24,6 +24,7 @@ pub struct PocketTable {
     #[serde(default)]
     pub plane: Option<PlaneTable>,
     /// The tool, one with a cylindrical edge: its number, or its name.
+    #[schemars(example = 1)]
     pub tool: CalledTool,
     /// The pocket as a rectangle; or give `circle`, `polygon`, `slot` or `outline`.
     #[serde(default)]
@@ -59,6 +60,7 @@ pub struct PocketTable {
     #[serde(default)]
     pub top: f64,
     /// Depth below it.
+    #[schemars(example = 8)]
     pub depth: f64,
     /// Depth that the tool goes below `depth`, for a cut that goes through; default 0.
     #[serde(default)]
@@ -91,15 +93,19 @@ pub struct PocketTable {
     pub lead_radius: Option<f64>,
     /// Spindle speed, rev/min; or give `cutting_speed`.
     #[serde(default)]
+    #[schemars(example = 3800)]
     pub speed: Option<f64>,
     /// Cutting speed, m/min.
     #[serde(default)]
+    #[schemars(example = 120)]
     pub cutting_speed: Option<f64>,
     /// Feed of the passes and along the wall, mm/min; or give `feed_per_tooth`.
     #[serde(default)]
+    #[schemars(example = 600)]
     pub feed: Option<f64>,
     /// Feed per tooth.
     #[serde(default)]
+    #[schemars(example = 0.05)]
     pub feed_per_tooth: Option<f64>,
     /// Feed straight down and along the helix, mm/min; default: half the feed.
     #[serde(default)]

@@ -25,18 +25,22 @@ pub struct EllipseTable {
     #[serde(default)]
     pub plane: Option<PlaneTable>,
     /// The tool: its number, or its name.
+    #[schemars(example = 1)]
     pub tool: CalledTool,
     /// Centre, in coordinates of the work offset.
+    #[schemars(example = vec![0, 0])]
     pub at: [f64; 2],
     /// Height of the upper rim, in coordinates of the work offset; default 0.
     #[serde(default)]
     pub top: f64,
     /// Half axes of the finished pocket.
+    #[schemars(example = vec![30, 20])]
     pub half_axes: [f64; 2],
     /// Direction of the first half axis from X, degrees; default 0.
     #[serde(default)]
     pub angle: f64,
     /// Depth below the rim.
+    #[schemars(example = 8)]
     pub depth: f64,
     /// Depth that the tool goes below the pocket's depth, for a pocket that goes through; default 0.
     #[serde(default)]
@@ -60,6 +64,7 @@ pub struct EllipseTable {
     #[serde(default)]
     pub entry: Option<Entry>,
     /// Spindle speed, rev/min.
+    #[schemars(example = 3800)]
     pub speed: f64,
     /// Coolant; default flood.
     #[serde(default)]
@@ -81,6 +86,7 @@ fn fourth() -> ContactName {
 pub struct EllipseFinishTable {
     /// Feed; mm/min in a file.
     #[serde(with = "MmPerMin")]
+    #[schemars(example = 500)]
     pub feed: f64,
     /// Further laps at the wall without infeed; default 0.
     #[serde(default)]

@@ -22,6 +22,7 @@ pub struct SlotTable {
     #[serde(default)]
     pub plane: Option<PlaneTable>,
     /// The tool, one with a cylindrical edge: its number, or its name.
+    #[schemars(example = 1)]
     pub tool: CalledTool,
     /// Centres of its two round ends, in coordinates of the work offset; or give `arc`.
     #[serde(default)]
@@ -30,11 +31,13 @@ pub struct SlotTable {
     #[serde(default)]
     pub arc: Option<SlotArc>,
     /// Its width, that of the cutter or more.
+    #[schemars(example = 12)]
     pub width: f64,
     /// Height of the material's upper face, in coordinates of the work offset; default 0.
     #[serde(default)]
     pub top: f64,
     /// Depth below it.
+    #[schemars(example = 8)]
     pub depth: f64,
     /// Depth that the tool goes below `depth`, for a cut that goes through; default 0.
     #[serde(default)]
@@ -63,15 +66,19 @@ pub struct SlotTable {
     pub lead_radius: Option<f64>,
     /// Spindle speed, rev/min; or give `cutting_speed`.
     #[serde(default)]
+    #[schemars(example = 3800)]
     pub speed: Option<f64>,
     /// Cutting speed, m/min.
     #[serde(default)]
+    #[schemars(example = 120)]
     pub cutting_speed: Option<f64>,
     /// Feed of the loops or passes, and along the wall, mm/min; or give `feed_per_tooth`.
     #[serde(default)]
+    #[schemars(example = 600)]
     pub feed: Option<f64>,
     /// Feed per tooth.
     #[serde(default)]
+    #[schemars(example = 0.05)]
     pub feed_per_tooth: Option<f64>,
     /// Feed straight down, along the helix and the ramp, mm/min; default: half the feed.
     #[serde(default)]

@@ -17,6 +17,7 @@ pub struct TapTable {
     #[serde(default)]
     pub plane: Option<PlaneTable>,
     /// The tool, a tap: its number, or its name.
+    #[schemars(example = 1)]
     pub tool: CalledTool,
     /// Places of the holes, in coordinates of the work offset.
     #[serde(default)]
@@ -35,9 +36,11 @@ pub struct TapTable {
     pub core: Option<CoreTable>,
     /// Cutting speed at the nominal diameter, m/min.
     #[serde(default)]
+    #[schemars(example = 120)]
     pub cutting_speed: Option<f64>,
     /// Spindle speed, rev/min.
     #[serde(default)]
+    #[schemars(example = 3800)]
     pub speed: Option<f64>,
     /// Height above `top` from which feed and spindle run together, at least three pitches; default three pitches.
     #[serde(default)]

@@ -20,6 +20,7 @@ pub struct ThreadMillTable {
     #[serde(default)]
     pub plane: Option<PlaneTable>,
     /// The tool, a thread mill of the thread's pitch: its number, or its name.
+    #[schemars(example = 1)]
     pub tool: CalledTool,
     /// Places of the threads' axes, in coordinates of the work offset.
     #[serde(default)]
@@ -42,7 +43,7 @@ pub struct ThreadMillTable {
     /// Hand of the thread; default "right".
     #[serde(default)]
     pub hand: Hand,
-    /// Taper as 1 in so much on the diameter: 16 for NPT and R; default: of "npt" 16, else none.
+    /// Taper as 1 in so much on the diameter, no unit: 16 for NPT and R; default: of "npt" 16, else none.
     #[serde(default)]
     pub taper: Option<f64>,
     /// Added to the thread's diameters, half of its tolerance for one in the middle of it; negative for a smaller bolt;
@@ -89,15 +90,19 @@ pub struct ThreadMillTable {
     pub tolerance: Option<f64>,
     /// Spindle speed, rev/min; or give `cutting_speed`.
     #[serde(default)]
+    #[schemars(example = 3800)]
     pub speed: Option<f64>,
     /// Cutting speed at the crests of the teeth, m/min.
     #[serde(default)]
+    #[schemars(example = 120)]
     pub cutting_speed: Option<f64>,
     /// Feed of the edge at the major diameter, mm/min; that of the centre follows in each radial pass. Or give `feed_per_tooth`.
     #[serde(default)]
+    #[schemars(example = 600)]
     pub feed: Option<f64>,
     /// Feed per tooth at the major diameter.
     #[serde(default)]
+    #[schemars(example = 0.05)]
     pub feed_per_tooth: Option<f64>,
     /// Height of the moves between threads, above `top`, in coordinates of the work offset; default: the setup's safe height.
     #[serde(default)]

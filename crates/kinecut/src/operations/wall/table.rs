@@ -21,6 +21,7 @@ pub struct FinishTable {
     pub contact: ContactName,
     /// Feed; mm/min in a file.
     #[serde(with = "MmPerMin")]
+    #[schemars(example = 500)]
     pub feed: f64,
     /// Whether the feed is that of the cutter's centre or that of its edge at the wall; default centre.
     #[serde(default)]

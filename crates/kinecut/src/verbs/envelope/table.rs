@@ -50,13 +50,16 @@ pub struct EnvelopeTable {
 #[serde(deny_unknown_fields)]
 pub struct JointsTable {
     /// A machine file (TOML), an INI file of LinuxCNC, or a machine that kinecut knows.
+    #[schemars(example = &"mill.toml")]
     pub machine: String,
     /// Length of the tool from the gauge point, mm; default 0.
     #[serde(default)]
     pub length: Option<f64>,
     /// Positions at the start by letter: mm, degrees; axes that are not named are at zero.
+    #[schemars(example = serde_json::json!({ "X": 0, "C": 0 }))]
     pub from: BTreeMap<String, f64>,
     /// Positions at the end by letter; axes that are not named stay.
+    #[schemars(example = serde_json::json!({ "X": 50, "C": 90 }))]
     pub to: BTreeMap<String, f64>,
     /// Control of the tool centre point: the tip keeps to this curve in workpiece coordinates, and only the rotary axes go
     /// straight from position to position.

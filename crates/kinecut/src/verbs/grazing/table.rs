@@ -43,6 +43,7 @@ pub struct GrazingTable {
 #[serde(deny_unknown_fields)]
 pub struct MomentTable {
     /// The job file: machine, control, tools, set-ups.
+    #[schemars(example = &"job.toml")]
     pub job: String,
     /// A program of this job's control; default: the one that the job posts.
     #[serde(default)]
@@ -51,8 +52,9 @@ pub struct MomentTable {
     #[serde(default)]
     pub setup: Option<u32>,
     /// Line of the program, from 1.
+    #[schemars(example = 12)]
     pub line: u32,
-    /// Part of the way of its move, from 0 to 1; default 0.5.
+    /// Share of the way of its move, from 0 to 1; default 0.5.
     #[serde(default)]
     pub part: Option<f64>,
 }

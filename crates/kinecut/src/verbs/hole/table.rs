@@ -40,16 +40,18 @@ pub struct HoleTable {
 #[serde(deny_unknown_fields)]
 pub struct PartTable {
     /// STL file.
+    #[schemars(example = &"part.stl")]
     pub mesh: String,
     /// A point of the hole's axis, in coordinates of the mesh: the zero of the hole's Z.
+    #[schemars(example = vec![0, 0, 0])]
     pub at: [f64; 3],
-    /// The way of the feed; default [0, 0, -1].
+    /// Direction of the feed; default [0, 0, -1].
     #[serde(default)]
     pub direction: Option<[f64; 3]>,
 }
 
 /// A hole without its operation, which is decoded for itself.
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct HoleHead {
     #[serde(default)]

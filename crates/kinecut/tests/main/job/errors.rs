@@ -173,8 +173,14 @@ fn all_keys_that_are_missing_are_named_at_once() {
     let place = error.place.as_ref().expect("a place");
     assert_eq!((place.file.as_str(), place.line), ("jobs/test.toml", 12));
     let help = &error.help;
-    assert!(help.starts_with("flute_length: "), "{help}");
-    for words in ["line 21 lacks `depth`, `speed`", "line 30 lacks `tool`, `depth`"] {
+    assert!(
+        help.starts_with("for example flute_length = 22 (mm, height of the cutting part above the tip); "),
+        "{help}"
+    );
+    for words in [
+        "line 21 lacks depth = 8 (mm, depth below the rim) and speed = 3800 (rev/min, spindle speed)",
+        "line 30 lacks tool = 1 (the tool, one with a cylindrical edge: its number, or its name) and depth = 8 (mm, depth below it)",
+    ] {
         assert!(help.contains(words), "{help}");
     }
     // In one table: all of them, each with what it is; a key under its old name is there.

@@ -26,6 +26,7 @@ pub struct OutlineFile {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub unit: Option<LengthUnit>,
     /// The loops.
+    #[schemars(example = vec![vec![[0, 0], [40, 0], [40, 20]]])]
     pub loops: Vec<LoopEntry>,
     /// Weight of the edges of a label; edges without one weigh 1.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
@@ -78,10 +79,12 @@ pub enum PointEntry {
 #[serde(deny_unknown_fields)]
 pub struct OutlinePoint {
     /// Coordinate.
+    #[schemars(example = 0)]
     pub x: f64,
     /// Coordinate.
+    #[schemars(example = 0)]
     pub y: f64,
-    /// tan(sweep / 4) of the edge, counter-clockwise positive; default 0, straight.
+    /// tan(sweep / 4) of the edge, no unit, counter-clockwise positive; default 0, straight.
     #[serde(default)]
     pub bulge: f64,
     /// Name of the edge; default that of the loop.

@@ -14,6 +14,7 @@ use crate::sweep::ToolMotion;
 #[serde(deny_unknown_fields)]
 pub struct TipMove {
     /// Start of the tip, mm.
+    #[schemars(example = vec![0, 0, 0])]
     pub from: [f64; 3],
     /// End of a straight line, mm.
     #[serde(default)]
@@ -30,10 +31,10 @@ pub struct TipMove {
     /// Direction of the axis of an arc; default [0, 0, 1].
     #[serde(default)]
     pub about: Option<[f64; 3]>,
-    /// From the tip to the holder; of any length but zero; default [0, 0, 1].
+    /// Direction from the tip to the holder; of any length but zero; default [0, 0, 1].
     #[serde(default)]
     pub axis: Option<[f64; 3]>,
-    /// The same at the end: the tool turns from one to the other in their plane, at a constant rate. Default: it does not
+    /// Direction at the end: the tool turns from one to the other in their plane, at a constant rate. Default: it does not
     /// turn.
     #[serde(default)]
     pub axis_to: Option<[f64; 3]>,

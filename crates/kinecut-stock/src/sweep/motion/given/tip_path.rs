@@ -14,6 +14,7 @@ use crate::geom::{Arc, Curve, Line};
 #[serde(deny_unknown_fields)]
 pub struct TipPath {
     /// Start of the tip, mm.
+    #[schemars(example = vec![0, 0, 0])]
     pub from: [f64; 3],
     /// End of a straight line, mm.
     #[serde(default)]
