@@ -38,7 +38,8 @@ pub(super) fn wrong_table<T: JsonSchema>(
         return error;
     }
     let place = error.span().and_then(|span| place_of(table, form, &span));
-    if !error.message().starts_with("unknown ") && !error.message().starts_with("unexpected keys") {
+    // Other messages are a type's own, or about names that are not known.
+    if ["invalid ", "data did not match", "wanted "].iter().any(|begin| error.message().starts_with(begin)) {
         // A value that serde has kept for a second reading has lost its place.
         let misfit = match &place {
             Some(place) => place.at.form.misfit(place.at.value),
@@ -52,7 +53,10 @@ pub(super) fn wrong_table<T: JsonSchema>(
                 told.0.place = Some(sources.locate(span(id, &range)));
             }
             Some((Some(at), misfit)) => {
-                (told.0.message, told.0.help) = wrong_value(&misfit, at);
+                // A type may say itself what it takes.
+                let said = error.message().split_once(", expected ").map(|(_, said)| said);
+                let said = said.filter(|said| said.starts_with("the "));
+                (told.0.message, told.0.help) = wrong_value(&misfit, at, said);
                 told.0.place = Some(sources.locate(span(id, &misfit.range)));
             }
             _ if error.message().starts_with("data did not match") => {
@@ -78,7 +82,7 @@ pub(super) fn too_long<T: JsonSchema>(
     let schema = schema::<T>();
     let at = long_list(root.get_ref(), Form::of_root(&schema))?;
     let misfit = at.form.misfit(at.value)?;
-    let (message, help) = wrong_value(&misfit, at);
+    let (message, help) = wrong_value(&misfit, at, None);
     let place = sources.locate(span(id, &misfit.range));
     Some(Finding::error(Code::JOB_SHAPE, message).at(place).help(help).into())
 }

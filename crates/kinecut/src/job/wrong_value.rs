@@ -7,8 +7,12 @@ use super::forms::{Form, KeyAt, Kind, Misfit, Unit, given, number_with_unit, tom
 /// Longest text that is proposed as it is.
 const LONGEST: usize = 80;
 
-/// A wrong value in words, and what to write; `at` is the nearest key around it.
-pub(super) fn wrong_value(misfit: &Misfit<'_, '_>, at: KeyAt<'_, '_>) -> (String, String) {
+/// A wrong value in words, and what to write; `at` is the nearest key around it, `said` what its type says that it takes.
+pub(super) fn wrong_value(
+    misfit: &Misfit<'_, '_>,
+    at: KeyAt<'_, '_>,
+    said: Option<&str>,
+) -> (String, String) {
     let KeyAt { key, form, .. } = at;
     let is_itself = misfit.lists == 0;
     let unit_of = |form: Form<'_>| match form.unit() {
@@ -38,7 +42,8 @@ pub(super) fn wrong_value(misfit: &Misfit<'_, '_>, at: KeyAt<'_, '_>) -> (String
         (true, _) => format!(", not {given}"),
         (false, _) => format!(", not one with {given} in it"),
     };
-    (format!("`{key}` takes {}{without}{not}", form.takes()), help(at, other))
+    let takes = said.map_or_else(|| form.takes(), str::to_owned);
+    (format!("`{key}` takes {takes}{without}{not}"), help(at, other))
 }
 
 /// What to write in place of a wrong value; `other` is the unit that it has and its key has not.

@@ -175,7 +175,7 @@ fn tables_and_choices() {
     assert!(help.starts_with("for example surface = \"plane\""), "{help}");
     check(
         operation("contour", "depth = 4\ntool = 1.5"),
-        "`tool` takes a whole number from 0 or a text in quotes, not 1.5",
+        "`tool` takes the number or the name of a tool, not 1.5",
         "write it as tool = 1",
     );
     check(
