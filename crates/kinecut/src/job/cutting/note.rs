@@ -12,7 +12,8 @@ pub(in crate::job) fn notes(all: &[TakenData], machine_has_limit: bool) -> Vec<F
         let mut add = |message: String, help: Option<&str>| {
             if notes.iter().all(|note| note.message != message) {
                 let note = Finding::note(Code::TOOL_CHOSEN, message).key(&*key);
-                notes.push(match help {
+                // The same help once is enough.
+                notes.push(match help.filter(|help| notes.iter().all(|note| note.help != *help)) {
                     Some(help) => note.help(help),
                     None => note,
                 });

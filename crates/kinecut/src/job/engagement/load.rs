@@ -1,10 +1,10 @@
 //! The load of a tool along the program: power and torque of what it takes from the simulated stock, after Kienzle.
 
-use std::f64::consts::TAU;
+use std::f64::consts::{PI, TAU};
 
 use super::super::setup_outcome::SetupOutcome;
 use super::course::rates;
-use crate::cutting::{CuttingForce, CuttingLoad, Material, TappingCut};
+use crate::cutting::{CuttingForce, CuttingLoad, Material};
 use crate::job::Outcome;
 use crate::stock::cut::{EngagedStretch, MoveEngagement};
 use crate::tool::{Cutter, Tool};
@@ -21,6 +21,8 @@ pub(crate) struct Loads<'a> {
     speed: f64,
     /// Time of the segment at the programmed feed [s].
     time: f64,
+    /// Lengths of its way across the axis of the tool and along it [mm].
+    way: [f64; 2],
 }
 
 /// The force of the material of a job, where it is known.
@@ -29,7 +31,7 @@ pub(crate) fn force_of(material: Option<&str>) -> Option<CuttingForce> {
 }
 
 impl Loads<'_> {
-    /// Of a segment; `None` where material, spindle or feed is not known.
+    /// Of a segment; `None` where material, spindle or feed is not known, and of taps.
     pub(crate) fn of<'a>(outcome: &'a Outcome, done: &SetupOutcome, segment: &Segment) -> Option<Loads<'a>> {
         Loads::with(&outcome.job.tools, force_of(outcome.job.material.as_deref())?, done, segment)
     }
@@ -44,9 +46,11 @@ impl Loads<'_> {
         let tool = tools.iter().find(|t| Some(t.number) == segment.tool)?;
         let speed = done.program.state(segment.item as usize).spindle.rate();
         let time = segment.duration.filter(|t| *t > 0.0)?;
-        // Forming takes no chips: its torque is not known.
-        let forms = matches!(tool.cutter, Cutter::Tap(tap) if tap.forming);
-        (speed > 0.0 && !forms).then_some(Loads { tool, force, speed, time })
+        let along = (segment.curve.end() - segment.curve.start()).dot(segment.axis).abs();
+        let across = (segment.curve.length().powi(2) - along * along).max(0.0).sqrt();
+        // The stock does not have the thread that a tap cuts: nothing is measured of it.
+        let is_tap = matches!(tool.cutter, Cutter::Tap(_));
+        (speed > 0.0 && !is_tap).then_some(Loads { tool, force, speed, time, way: [across, along] })
     }
 
     /// On a stretch; `rate`: volume by fraction of the segment [mm3], a mean over stretches beside it.
@@ -54,18 +58,17 @@ impl Loads<'_> {
         if !(rate > 0.0) {
             return CuttingLoad::default();
         }
-        if let Cutter::Tap(tap) = self.tool.cutter {
-            let cut = TappingCut {
-                diameter: tap.diameter,
-                pitch: tap.pitch,
-                flutes: self.tool.teeth,
-                lead: tap.lead.max(1.0),
-                speed: self.speed,
-            };
-            return cut.load(&self.force);
-        }
+        let rate = rate.min(self.most(stretch));
         let power = self.force.at(self.chip(stretch, rate)) * rate / self.time / 1000.0;
         CuttingLoad { power, torque: power / self.speed, force: 0.0 }
+    }
+
+    /// The most that can be taken where the contact is as deep and as wide as it is [mm3 by fraction of the segment]: how many lines
+    /// of the stock cross a short move is left to chance.
+    fn most(&self, stretch: &EngagedStretch) -> f64 {
+        let radius = 0.5 * self.tool.cutter.diameter(self.tool.flute_length);
+        let [across, along] = self.way;
+        across * stretch.width * stretch.depth + PI * radius * radius * along
     }
 
     /// The greatest power and the greatest torque in a segment.
@@ -165,7 +168,7 @@ mod tests {
         for width in [0.5, 1.0, 3.0, 5.0, 8.0, 10.0] {
             let cut = MillingCut { diameter: 10.0, teeth: 4, speed, feed: 1600.0 / 60.0, depth: 7.0, width };
             let (tool, time) = (tool(Cutter::EndMill { diameter: 10.0 }, 4), 30.0 / cut.feed);
-            let loads = Loads { tool: &tool, force, speed, time };
+            let loads = Loads { tool: &tool, force, speed, time, way: [30.0, 0.0] };
             let chip = cut.chip();
             let stretch = EngagedStretch {
                 from: 0.0,
@@ -179,6 +182,8 @@ mod tests {
             let (found, wanted) = (loads.on(&stretch, stretch.removed), cut.load(&force));
             assert!((found.power / wanted.power - 1.0).abs() < 1e-9, "{width}: {found:?} {wanted:?}");
             assert!((found.torque / wanted.torque - 1.0).abs() < 1e-9);
+            // Three times as many lines as there should be take no more.
+            assert_eq!(loads.on(&stretch, 3.0 * stretch.removed), found);
         }
     }
 

@@ -1,7 +1,7 @@
 //! Section of a report on the engagement of the tools: the greatest of each tool, and its course over the time of the program.
 
 use super::EngagedRun;
-use crate::cutting::{FORCE_SPREAD, Material, TAPPING_SPREAD};
+use crate::cutting::{FORCE_SPREAD, Material};
 use crate::job::engagement::{Block, Chips, Course, blocks, course};
 use crate::job::{Engagement, Outcome, SetupOutcome};
 use crate::page::{Cell, Chart, Follows, Row, Section, Table, fixed};
@@ -70,12 +70,11 @@ fn load_note(outcome: &Outcome) -> Option<String> {
     let force = material.force?;
     let of = if material.force_is_checked { "" } else { ", a value of handbooks that was not compared" };
     Some(format!(
-        "Power and torque at the edges, without the losses of the machine: Kienzle at the mean chip, {} with kc1.1 {} N/mm\u{b2} and mc {}{of}; sharp edges, \u{b1}{:.0} % (taps \u{b1}{:.0} %). A worn edge needs 30 to 50 % more.",
+        "Power and torque at the edges, without the losses of the machine: Kienzle at the mean chip, {} with kc1.1 {} N/mm\u{b2} and mc {}{of}; sharp edges, \u{b1}{:.0} %. A worn edge needs 30 to 50 % more.",
         material.name,
         force.kc11,
         force.mc,
         100.0 * FORCE_SPREAD,
-        100.0 * TAPPING_SPREAD,
     ))
 }
 
