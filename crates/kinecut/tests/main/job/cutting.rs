@@ -299,7 +299,7 @@ fn a_cut_that_needs_more_than_the_spindle_has_is_a_warning() {
     assert!(outcome.verdict.found.iter().all(|f| f.code != Code::CUTTING_LOAD));
     let said = "what the cuts need of the spindle: the job has no material whose cutting force is known";
     assert!(
-        outcome.verdict.not_checked.iter().any(|line| line.contains(said)),
+        outcome.verdict.not_checked.iter().any(|line| format!("{line:?}").contains(said)),
         "{:?}",
         outcome.verdict.not_checked
     );
