@@ -194,7 +194,7 @@ fn tables_and_choices() {
 fn job(text: &str, files: &[(&str, &str)]) -> crate::base::Finding {
     let mut sources = Sources::default();
     let id = sources.add("job.toml", text);
-    let loader = files.iter().fold(MemoryLoader::default(), |l, (name, text)| l.with(*name, *text));
+    let loader = files.iter().fold(MemoryLoader::default(), |l, (name, text)| l.with(name, *text));
     *JobText::read(&mut sources, id, &loader).unwrap_err().0
 }
 
