@@ -41,7 +41,7 @@ pub struct CuttingRow {
     /// Feed per tooth of mills.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub feed_per_tooth: Option<f64>,
-    /// Feed per revolution of drills and reamers.
+    /// Feed per revolution of drills and reamers, mm/rev.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub feed_per_rev: Option<f64>,
 }
