@@ -127,7 +127,8 @@ impl Material {
         stickout: Option<f64>,
     ) -> Option<StartData> {
         let row = self.start.as_ref()?;
-        let is_narrow = |arc: f64| (0.5 * arc).sin().powi(2) <= NARROW + 1e-9;
+        // An angle of two decimals is the one that is meant.
+        let is_narrow = |arc: f64| (0.5 * arc).sin().powi(2) <= NARROW + 1e-5;
         let mill = |narrow: bool| {
             let carbide = row.mill[usize::from(narrow)];
             if edge == EdgeMaterial::Hss { HSS_MILL * carbide } else { carbide }
