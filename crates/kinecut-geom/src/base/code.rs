@@ -221,6 +221,8 @@ codes! {
         "Power and torque are those of what the tool takes from the simulated stock, after Kienzle with the constants of the material and sharp edges; they are right within a quarter, a worn edge needs 30 to 50 % more, and a fifth of the motor's power is taken as lost on its way. The machine's spindle_power and spindle_torque are what lasts. Take a smaller step, engagement or feed, or another speed where only one of the two is short.";
     EDGE_RUBS = "KC0543", "the edges of a cutter rub",
         "No chip of the work is thicker than three tenths of the rounding of a usual edge: 0.010 mm of solid cutters, 0.020 mm of inserts. The edge presses and rubs instead of cutting, gets hot and wears. Take a higher feed per tooth.";
+    START_DEPTH = "KC0544", "values to start with in a cut that is too deep for them",
+        "Speeds and feeds to start with are for end mills that cut at most half their diameter deep where they cut in their full width. The simulated cut is deeper, in steel, iron or titanium. Take a smaller stepdown, or give the speed and the feed that the maker of the tool or the shop has for this depth.";
     FIXTURE_IN_STOCK = "KC0541", "a fixture and the raw stock are in the same place",
         "A body that a `[[fixture]]` describes reaches into the raw stock by more than a tenth of a millimetre. Mostly its `at` or its size is wrong, or the stock lies elsewhere: what is compared with tools is then not what is on the machine. A stock that rests on a body, or between two jaws, only touches them.";
 

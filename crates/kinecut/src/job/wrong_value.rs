@@ -46,7 +46,7 @@ pub(super) fn wrong_value(
     (format!("`{key}` takes {takes}{without}{not}"), help(at, other))
 }
 
-/// What to write in place of a wrong value; `other` is the unit that it has and its key has not.
+/// The help for a wrong value: what to write in its place; `other` is the unit that it has and its key has not.
 fn help(at: KeyAt<'_, '_>, other: Option<&str>) -> String {
     let KeyAt { key, within, form, value } = at;
     let given = value.get_ref();

@@ -4,6 +4,7 @@ use std::f64::consts::TAU;
 
 use super::taken::{SpeedLimit, TakenData};
 use crate::base::Result;
+use crate::cutting::StartChange;
 use crate::machine::Machine;
 use crate::operations::{Operation, OperationTable};
 
@@ -36,10 +37,17 @@ pub(in crate::job) fn within_limit(
     };
     taken.limited =
         Some(SpeedLimit { wanted: per_minute(milling.spindle), limit: lowered, cutting_speed, of_tool });
+    let share = lowered / per_minute(milling.spindle);
     let mut slower = table.clone();
     if let Some(keys) = slower.data() {
         *keys.cutting_speed = None;
         *keys.speed = Some(lowered);
+        // A feed in a minute that was given beside the speed falls with it: the chip stays.
+        if let (Some(own), Some(feed)) = (keys.feed, taken.feed.as_mut().filter(|feed| feed.key == "feed")) {
+            feed.value *= share;
+            feed.changes.push(StartChange { what: "lower speed", factor: share });
+            *own.feed = Some(feed.value);
+        }
     }
     check(&slower)
 }

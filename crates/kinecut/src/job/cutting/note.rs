@@ -19,7 +19,7 @@ pub(in crate::job) fn notes(all: &[TakenData], machine_has_limit: bool) -> Vec<F
                 });
             }
         };
-        let numbers = || taken.speed.iter().chain(&taken.feed);
+        let numbers = || taken.numbers();
         let of_preset = || numbers().filter(|n| matches!(n.origin, DataOrigin::Preset { .. }));
         if let Some(DataOrigin::Preset { material, file }) = of_preset().next().map(|n| &n.origin) {
             let words: Vec<String> = of_preset().map(TakenNumber::to_string).collect();

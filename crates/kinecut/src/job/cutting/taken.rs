@@ -20,6 +20,18 @@ pub struct TakenData {
     pub limited: Option<SpeedLimit>,
 }
 
+impl TakenData {
+    /// Its numbers.
+    pub fn numbers(&self) -> impl Iterator<Item = &TakenNumber> {
+        self.speed.iter().chain(&self.feed)
+    }
+
+    /// Whether one of them is a value to start with.
+    pub fn has_start(&self) -> bool {
+        self.numbers().any(|number| matches!(number.origin, DataOrigin::Start { .. }))
+    }
+}
+
 /// A number with its origin.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TakenNumber {

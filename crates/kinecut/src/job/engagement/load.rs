@@ -139,26 +139,15 @@ fn radius(cutter: &Cutter, z: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
+    use std::collections::BTreeMap;
+
     use super::*;
     use crate::cutting::MillingCut;
-    use crate::tool::{ToolLimits, ToolNumber, ToothSpacing};
+    use crate::job::file::{ToolTable, tool};
 
-    fn tool(cutter: Cutter, teeth: u32) -> Tool {
-        Tool {
-            number: ToolNumber(1),
-            name: String::new(),
-            cutter,
-            teeth,
-            spacing: ToothSpacing::default(),
-            flute_length: 30.0,
-            stickout: 30.0,
-            shank_diameter: 10.0,
-            holder: None,
-            centre_cutting: true,
-            max_ramp_angle: None,
-            gauge_length: None,
-            limits: ToolLimits::default(),
-        }
+    fn end_mill(diameter: f64, teeth: u32) -> Tool {
+        let table = ToolTable { diameter, flute_length: 30.0, teeth: Some(teeth), ..ToolTable::bare(1) };
+        tool(&table, &BTreeMap::new()).unwrap()
     }
 
     #[test]
@@ -167,7 +156,7 @@ mod tests {
         let speed = 4000.0 * TAU / 60.0;
         for width in [0.5, 1.0, 3.0, 5.0, 8.0, 10.0] {
             let cut = MillingCut { diameter: 10.0, teeth: 4, speed, feed: 1600.0 / 60.0, depth: 7.0, width };
-            let (tool, time) = (tool(Cutter::EndMill { diameter: 10.0 }, 4), 30.0 / cut.feed);
+            let (tool, time) = (end_mill(10.0, 4), 30.0 / cut.feed);
             let loads = Loads { tool: &tool, force, speed, time, way: [30.0, 0.0] };
             let chip = cut.chip();
             let stretch = EngagedStretch {

@@ -23,6 +23,7 @@ mod removal;
 mod rubs;
 mod sideways;
 mod spindle;
+mod start_depth;
 mod text;
 mod thin;
 mod thread;
@@ -139,6 +140,7 @@ const RULES: &[Rule] = &[
     cutting_data::cutting_data,
     load::load,
     rubs::rubs,
+    start_depth::start_depth,
     carried::carried,
     dwell::dwell,
     change::change,

@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use crate::job::{DataOrigin, Outcome, TakenData, TakenNumber};
+use crate::job::{DataOrigin, Outcome, TakenData};
 use crate::page::{Cell, Row, Section, Table, fixed, trimmed};
 
 /// The section; none where every operation has its own.
@@ -14,9 +14,8 @@ pub(super) fn section(outcome: &Outcome) -> Option<Section> {
     let columns = "Operation; Tool; Cutting speed [m/min]; S [rev/min]; Feed [mm]; From";
     let rows = all.iter().filter_map(|taken| row(outcome, taken));
     let table = Table::new("Speeds and feeds that operations were given", columns).rows(rows);
-    let is_start = |n: &TakenNumber| matches!(n.origin, DataOrigin::Start { .. });
-    let any_start = all.iter().flat_map(|t| t.speed.iter().chain(&t.feed)).any(is_start);
-    let note = "Values to start with are usual ones of catalogues for stable clamping, no recommendation; those of the shop are given in an operation or as [[tool.preset]].";
+    let any_start = all.iter().any(TakenData::has_start);
+    let note = "Values to start with are usual ones of catalogues for stable clamping and, in the full width, half the diameter deep at most; no recommendation: those of the shop are given in an operation or as [[tool.preset]].";
     Some(Section::new("Cutting data").with(if any_start { table.note(note) } else { table }))
 }
 
@@ -54,7 +53,7 @@ fn origin(taken: &TakenData) -> String {
             parts.push(part);
         }
     };
-    for number in taken.speed.iter().chain(&taken.feed) {
+    for number in taken.numbers() {
         match &number.origin {
             DataOrigin::Preset { material, file } => {
                 let of = file.as_ref().map(|file| format!(", {file}")).unwrap_or_default();

@@ -158,6 +158,15 @@ fn over_time(course: &[Course], end: f64, of: fn(&Course) -> f64) -> Vec<[f64; 2
     points
 }
 
+/// A number with some decimals; one that would be shown as zero is less than the last of them.
+fn least(value: f64, decimals: usize) -> String {
+    let last = 10f64.powi(-(decimals as i32));
+    if value > 0.0 && value < 0.5 * last {
+        return format!("under {}", fixed(last, decimals));
+    }
+    fixed(value, decimals)
+}
+
 /// The greatest values of each tool, at the block of its greatest arc.
 fn table(outcome: &Outcome, blocks: &[(u32, &Block)]) -> Table {
     let mut numbers: Vec<ToolNumber> = Vec::new();
@@ -189,8 +198,8 @@ fn table(outcome: &Outcome, blocks: &[(u32, &Block)]) -> Table {
             fixed(air, 0),
         ];
         if has_load {
-            cells.push(words(known(|b| b.power).map(|power| fixed(power, 2))));
-            cells.push(words(known(|b| b.torque).map(|torque| fixed(torque, 1))));
+            cells.push(words(known(|b| b.power).map(|power| least(power, 2))));
+            cells.push(words(known(|b| b.torque).map(|torque| least(torque, 1))));
         }
         let row = Row::new(cells.into_iter().map(Cell::new).collect());
         let greatest = own().max_by(|(_, a), (_, b)| a.arc.total_cmp(&b.arc));

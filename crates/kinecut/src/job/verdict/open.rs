@@ -7,6 +7,7 @@ use super::super::contacts::machine::MachineContacts;
 use super::super::setup_outcome::SetupOutcome;
 use super::super::simulate::Simulation;
 use super::{Heading, UncheckedList};
+use crate::job::TakenData;
 use crate::job::engagement::force_of;
 use crate::tool::ToolNumber;
 use crate::trace::StandKind;
@@ -49,8 +50,12 @@ pub(in crate::job) fn not_checked(
     list
 }
 
-/// Power and torque, where the machine says what its spindle has.
+/// Cuts deeper than their speeds and feeds are for; power and torque, where the machine says what its spindle has.
 fn load(job: &Job, simulation: &Simulation, list: &mut UncheckedList) {
+    if simulation.engagement.is_none() && job.cutting.iter().any(TakenData::has_start) {
+        let what = "the depth of cuts with values to start with: engagement was not measured (simulate.engagement = true)";
+        list.add(Heading::Tools, what);
+    }
     let Some(machine) = &job.machine else { return };
     if machine.control.spindle_power.is_none() && machine.control.spindle_torque.is_none() {
         return;

@@ -189,6 +189,39 @@ fn a_speed_that_was_given_is_lowered_to_what_tool_and_machine_allow() {
 }
 
 #[test]
+fn a_feed_in_a_minute_falls_with_the_speed_of_its_preset() {
+    let preset = "preset = [{ material = \"C45\", cutting_speed = 150, feed = 764 }]\n[[setup]]";
+    let text = job(C45, "", &slot("").replace("tool = 1", "tool = 4")).replace("[[setup]]", preset);
+    let outcome = run("job.toml", &text, &MemoryLoader::default(), &Silent).unwrap();
+    // 3000 of 4775 rev/min: 480 of 764 mm/min, the same 0.04 mm per tooth.
+    let feed = outcome.job.cutting[0].feed.as_ref().unwrap();
+    assert!((feed.value - 480.0).abs() < 0.1 && feed.plain == 764.0, "{feed:?}");
+    assert!(words(&outcome, 'F').iter().any(|f| (f - 480.0).abs() < 0.2), "{:?}", words(&outcome, 'F'));
+    assert!(words(&outcome, 'F').iter().all(|f| (f - 764.0).abs() > 1.0), "{:?}", words(&outcome, 'F'));
+}
+
+#[test]
+fn values_to_start_with_are_for_half_the_diameter_deep() {
+    // A groove around a boss: from its first lap down it is in the full width.
+    let of = |material: &str, depth: f64, rest: &str| -> Vec<Finding> {
+        let groove = format!(
+            "[[setup.operation]]\ntype = \"contour\"\ntool = 1\nrectangle = {{ size = [50, 30] }}\ndepth = {depth}\nstepdown = {depth}\n{rest}\n"
+        );
+        let outcome = done(material, "", &groove);
+        outcome.verdict.found.iter().filter(|f| f.code == Code::START_DEPTH).cloned().collect()
+    };
+    assert!(of(C45, 5.0, "").is_empty());
+    let found = of(C45, 8.0, "");
+    assert!(found.len() == 1 && found[0].place.is_some(), "{found:?}");
+    let deepest = found[0].value.as_ref().unwrap().value;
+    assert!((7.0..8.01).contains(&deepest), "{}", found[0]);
+    assert!(found[0].help.contains("stepdown = 5"), "{}", found[0]);
+    // Own numbers are the person's own, and soft metals take more.
+    assert!(of(C45, 8.0, "speed = 3000\nfeed = 400").is_empty());
+    assert!(of("material = \"6082\"", 8.0, "").is_empty());
+}
+
+#[test]
 fn a_small_cutter_at_an_edge_turns_as_fast_as_the_machine_may() {
     let chamfer = "[[setup.operation]]\ntype = \"chamfer\"\ntool = 3\nrectangle = { size = [80, 60] }\nside = \"outside\"\nwidth = 0.5\n";
     let machine = "[machine]\ncode = \"2103\"\ndynamics = { max_speed = 12000 }\n";
