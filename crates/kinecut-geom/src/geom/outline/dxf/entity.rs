@@ -178,19 +178,26 @@ fn heavy_points(source: &Source, vertices: &[Entity<'_>], mm: f64) -> Result<Vec
     Ok(points)
 }
 
-struct Read<'a> {
-    source: &'a Source,
-    entity: &'a Entity<'a>,
-    mm: f64,
+/// The name of an entity with its article: "an ARC".
+pub(super) fn with_article(name: &str) -> String {
+    let spoken = name.starts_with(['A', 'E', 'I', 'O']) || name.starts_with("LW");
+    format!("{} {name}", if spoken { "an" } else { "a" })
+}
+
+/// The numbers of an entity.
+pub(super) struct Read<'a> {
+    pub(super) source: &'a Source,
+    pub(super) entity: &'a Entity<'a>,
+    pub(super) mm: f64,
 }
 
 impl<'a> Read<'a> {
-    fn error(&self, message: impl Into<String>) -> crate::base::Finding {
+    pub(super) fn error(&self, message: impl Into<String>) -> crate::base::Finding {
         self.source.error(self.entity.offset, message)
     }
 
     fn converting(&self, error: &crate::base::Error) -> crate::base::Error {
-        let what = format!("a {} cannot stand as arcs: {}", self.entity.name, error.0.message);
+        let what = format!("{} cannot stand as arcs: {}", with_article(self.entity.name), error.0.message);
         self.error(what).help("convert it to lines and arcs in the drawing").into()
     }
 
@@ -201,19 +208,19 @@ impl<'a> Read<'a> {
 
     fn one(&self, code: i32) -> Result<f64> {
         self.numbers(code).next().unwrap_or_else(|| {
-            Err(self.error(format!("a {} lacks its group {code}", self.entity.name)).into())
+            Err(self.error(format!("{} lacks its group {code}", with_article(self.entity.name))).into())
         })
     }
 
-    fn one_or(&self, code: i32, otherwise: f64) -> Result<f64> {
+    pub(super) fn one_or(&self, code: i32, otherwise: f64) -> Result<f64> {
         self.numbers(code).next().unwrap_or(Ok(otherwise))
     }
 
-    fn flag(&self, code: i32) -> Result<i64> {
+    pub(super) fn flag(&self, code: i32) -> Result<i64> {
         self.entity.groups.iter().find(|g| g.code == code).map_or(Ok(0), |g| whole(self.source, g))
     }
 
-    fn point(&self, code: i32) -> Result<DVec2> {
+    pub(super) fn point(&self, code: i32) -> Result<DVec2> {
         Ok(DVec2::new(self.one(code)?, self.one(code + 10)?) * self.mm)
     }
 
@@ -222,15 +229,15 @@ impl<'a> Read<'a> {
         if radius > 0.0 {
             return Ok(radius);
         }
-        let what = format!("the radius of a {} must be positive", self.entity.name);
+        let what = format!("the radius of {} must be positive", with_article(self.entity.name));
         Err(crate::base::Finding { code: Code::OUTLINE_EDGE, ..self.error(what).value_mm(radius) }.into())
     }
 
     /// True if the entity is drawn as seen from below.
-    fn mirrored(&self) -> Result<bool> {
+    pub(super) fn mirrored(&self) -> Result<bool> {
         let (x, y, z) = (self.one_or(210, 0.0)?, self.one_or(220, 0.0)?, self.one_or(230, 1.0)?);
         if x.hypot(y) > LEAN * z.abs() {
-            let what = format!("a {} is not drawn in the XY plane", self.entity.name);
+            let what = format!("{} is not drawn in the XY plane", with_article(self.entity.name));
             return Err(self
                 .error(what)
                 .value(x.hypot(y).atan2(z).to_degrees(), "deg")

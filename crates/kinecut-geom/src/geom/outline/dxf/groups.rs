@@ -1,11 +1,12 @@
 //! The text of a DXF file as group codes with values, and its entities.
 //!
 //! A DXF text is pairs of lines: a number that says what the value is, and the value. Sections begin with `0 SECTION`,
-//! entities with `0 NAME`. Read are the HEADER's `$INSUNITS` and the section ENTITIES; blocks, tables and objects are
-//! passed over.
+//! entities with `0 NAME`. Read are the HEADER's `$INSUNITS`, the section BLOCKS and the section ENTITIES; tables and objects
+//! are passed over.
 //!
 //! Source: Autodesk, DXF Reference (2012), group codes and ENTITIES section.
 
+use super::block::Block;
 use crate::base::Result;
 use crate::geom::outline::source::Source;
 
@@ -30,13 +31,22 @@ pub(super) struct Groups<'a> {
     /// `$INSUNITS`, if given.
     pub(super) units: Option<i64>,
     pub(super) entities: Vec<Entity<'a>>,
+    pub(super) blocks: Vec<Block<'a>>,
+}
+
+impl<'a> Entity<'a> {
+    /// The text of its first group of a code.
+    pub(super) fn text(&self, code: i32) -> Option<&'a str> {
+        self.groups.iter().find(|group| group.code == code).map(|group| group.value)
+    }
 }
 
 /// Splits a text.
 pub(super) fn groups<'a>(text: &'a str, source: &Source) -> Result<Groups<'a>> {
     const EXPORT: &str = "export the drawing as DXF (text) again";
     let mut lines = Lines { text, offset: 0 };
-    let mut found = Groups { units: None, entities: Vec::new() };
+    let mut found = Groups { units: None, entities: Vec::new(), blocks: Vec::new() };
+    let mut in_block = false;
     let mut section: Option<&str> = None;
     let mut variable = "";
     let mut names_section = false;
@@ -75,6 +85,20 @@ pub(super) fn groups<'a>(text: &'a str, source: &Source) -> Result<Groups<'a>> {
                 Some("HEADER") if code == 9 => variable = value,
                 Some("HEADER") if code == 70 && variable == "$INSUNITS" => {
                     found.units = Some(whole(source, &group)?);
+                }
+                Some("BLOCKS") if code == 0 && value == "BLOCK" => {
+                    let head = Entity { name: value, offset, groups: Vec::new() };
+                    found.blocks.push(Block { head, entities: Vec::new() });
+                    in_block = true;
+                }
+                Some("BLOCKS") if code == 0 && value == "ENDBLK" => in_block = false,
+                Some("BLOCKS") if in_block => {
+                    let Some(block) = found.blocks.last_mut() else { continue };
+                    if code == 0 {
+                        block.entities.push(Entity { name: value, offset, groups: Vec::new() });
+                    } else {
+                        block.entities.last_mut().unwrap_or(&mut block.head).groups.push(group);
+                    }
                 }
                 Some("ENTITIES") if code == 0 => {
                     found.entities.push(Entity { name: value, offset, groups: Vec::new() });

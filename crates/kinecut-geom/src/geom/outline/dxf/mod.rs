@@ -1,17 +1,19 @@
 //! Outlines from DXF drawings.
 //!
 //! Read are LINE, ARC, CIRCLE, LWPOLYLINE and POLYLINE with bulges, which stay exact, and ELLIPSE and SPLINE, which
-//! become arcs. Layers become labels. The reader is our own: it must name the line of each entity in its messages, and
-//! needs eight kinds of entities of one section.
+//! become arcs. Blocks are inserted, at any scale. Layers become labels. The reader is our own: it must name the line of each entity in its messages, and
+//! needs nine kinds of entities of two sections.
 //!
 //! Source: Autodesk, DXF Reference (2012).
 
+mod block;
 mod entity;
 mod groups;
 
 use std::collections::BTreeMap;
 
-use entity::{Shape, shape};
+use block::{Blocks, Placement};
+use entity::{Shape, shape, with_article};
 use groups::{Entity, groups, whole};
 
 use super::drawing::{Drawing, Origin, sentences};
@@ -38,21 +40,10 @@ pub(super) fn read_dxf(name: &str, bytes: &[u8], options: &OutlineOptions) -> Re
     let text = source.text();
     let groups = groups(&text, &source)?;
     let mm = unit(&source, groups.units, options.unit)?.mm();
+    let blocks = Blocks::new(groups.blocks);
+    blocks.count(&source, &groups.entities)?;
     let mut reader = Reader::new(source, mm, options);
-    let mut entities = groups.entities.into_iter().peekable();
-    while let Some(mut entity) = entities.next() {
-        // The vertices of an old polyline are entities of their own.
-        let mut vertices = Vec::new();
-        while entity.name == "POLYLINE"
-            && let Some(next) = entities.next_if(|e| e.name == "VERTEX" || e.name == "SEQEND")
-        {
-            if next.name == "SEQEND" {
-                break;
-            }
-            vertices.push(next);
-        }
-        reader.entity(&mut entity, &vertices)?;
-    }
+    reader.entities(&groups.entities, &Placement::DRAWING, &blocks)?;
     reader.finish()
 }
 
@@ -104,10 +95,57 @@ impl<'o> Reader<'o> {
         *self.passed.entry(what).or_default() += 1;
     }
 
-    fn entity(&mut self, entity: &mut Entity<'_>, vertices: &[Entity<'_>]) -> Result<()> {
+    /// Entities at their place; of blocks, which do not contain themselves, those within.
+    fn entities(
+        &mut self,
+        entities: &[Entity<'_>],
+        place: &Placement<'_>,
+        blocks: &Blocks<'_>,
+    ) -> Result<()> {
+        let mut at = 0;
+        while let Some(entity) = entities.get(at) {
+            at += 1;
+            // The vertices of an old polyline are entities of their own.
+            let first = at;
+            while entity.name == "POLYLINE" && entities.get(at).is_some_and(|e| e.name == "VERTEX") {
+                at += 1;
+            }
+            let vertices = &entities[first..at];
+            at += usize::from(
+                entity.name == "POLYLINE" && entities.get(at).is_some_and(|e| e.name == "SEQEND"),
+            );
+            if entity.name == "INSERT" && self.is_seen(entity)? {
+                let block = blocks.of(&self.drawing.source, entity)?;
+                let layer = layer_of(entity, place);
+                let own = (self.mm, layer);
+                for place in place.inserted(&self.drawing.source, entity, block, own)? {
+                    self.entities(&block.entities, &place, blocks)?;
+                }
+            } else if entity.name != "INSERT" {
+                self.entity(entity, vertices, place)?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Whether an entity is neither in paper space nor invisible; a note where it is.
+    fn is_seen(&mut self, entity: &Entity<'_>) -> Result<bool> {
+        let source = &self.drawing.source;
+        let flag = |code: i32| -> Result<i64> {
+            entity.groups.iter().find(|g| g.code == code).map_or(Ok(0), |g| whole(source, g))
+        };
+        let (paper, hidden) = (flag(67)? == 1, flag(60)? == 1);
+        if paper {
+            self.pass(format!("{} in paper space", entity.name));
+        } else if hidden {
+            self.pass(format!("invisible {}", entity.name));
+        }
+        Ok(!paper && !hidden)
+    }
+
+    fn entity(&mut self, entity: &Entity<'_>, vertices: &[Entity<'_>], place: &Placement<'_>) -> Result<()> {
         const DRAWN: [&str; 7] = ["LINE", "ARC", "CIRCLE", "LWPOLYLINE", "POLYLINE", "ELLIPSE", "SPLINE"];
-        const REFUSED: [(&str, &str); 7] = [
-            ("INSERT", "explode the block in the drawing"),
+        const REFUSED: [(&str, &str); 6] = [
             ("REGION", "explode the region into lines and arcs"),
             ("3DSOLID", "export the part as STL, or its face as lines and arcs"),
             ("BODY", "export the part as STL, or its face as lines and arcs"),
@@ -115,23 +153,14 @@ impl<'o> Reader<'o> {
             ("HELIX", "draw the contour in the plane"),
             ("TRACE", "draw its contour as a polyline"),
         ];
-        let source = &self.drawing.source;
-        let layer = entity.groups.iter().find(|g| g.code == 8).map_or("0", |g| g.value).to_owned();
-        let flag = |code: i32| -> Result<i64> {
-            entity.groups.iter().find(|g| g.code == code).map_or(Ok(0), |g| whole(source, g))
-        };
+        let layer = layer_of(entity, place).to_owned();
         let refused = REFUSED.iter().find(|(name, _)| *name == entity.name);
         let drawn = DRAWN.contains(&entity.name);
         if !drawn && refused.is_none() {
             self.pass(entity.name.chars().take(30).collect());
             return Ok(());
         }
-        if flag(67)? == 1 {
-            self.pass(format!("{} in paper space", entity.name));
-            return Ok(());
-        }
-        if flag(60)? == 1 {
-            self.pass(format!("invisible {}", entity.name));
+        if !self.is_seen(entity)? {
             return Ok(());
         }
         *self.layers.entry(layer.clone()).or_default() += 1;
@@ -139,7 +168,7 @@ impl<'o> Reader<'o> {
             return Ok(());
         }
         if let Some((name, help)) = refused {
-            let what = format!("a {name} of layer {layer:?} is no outline that can be read");
+            let what = format!("{} of layer {layer:?} is no outline that can be read", with_article(name));
             return Err(self.drawing.source.error(entity.offset, what).help(*help).into());
         }
         let origin = Origin {
@@ -149,7 +178,20 @@ impl<'o> Reader<'o> {
             weight: None,
         };
         let label = self.drawing.origin(origin);
-        let found = shape(&self.drawing.source, entity, vertices, self.mm, self.options.curve_tolerance)?;
+        let tolerance = self.options.curve_tolerance;
+        let found =
+            shape(&self.drawing.source, entity, vertices, self.mm, tolerance / place.stretch().max(1.0))?;
+        let place = |edges| {
+            let placed = place.edges(edges, tolerance);
+            placed.map_err(|e| {
+                self.drawing.error_at(label, e.code(), e.0.message.clone()).help(e.0.help.clone()).into()
+            })
+        };
+        let shape = match found.shape {
+            Shape::Loop(edges) => place(edges).map(Shape::Loop),
+            Shape::Path(edges) => place(edges).map(Shape::Path),
+        };
+        let shape = shape.map_err(|e: crate::base::Error| e)?;
         self.converted += usize::from(found.converted);
         if found.points_twice > 0 {
             let entity = self.drawing.entity(label);
@@ -160,7 +202,7 @@ impl<'o> Reader<'o> {
             let [low, high] = self.heights.unwrap_or([z, z]);
             self.heights = Some([if z < low { z } else { low }, if z > high { z } else { high }]);
         }
-        match found.shape {
+        match shape {
             Shape::Loop(edges) => self.drawing.loops.push(edges.iter().map(|e| e.labelled(label)).collect()),
             Shape::Path(edges) if !edges.is_empty() => {
                 self.drawing.paths.push(edges.iter().map(|e| e.labelled(label)).collect());
@@ -203,6 +245,14 @@ impl<'o> Reader<'o> {
             self.drawing.notes.push(format!("heights from Z {low} to Z {high} are all taken as one plane"));
         }
         self.drawing.finish_with(self.options)
+    }
+}
+
+/// The layer of an entity: within a block that of layer 0 is the layer on which the block is inserted.
+fn layer_of<'e>(entity: &Entity<'e>, place: &Placement<'e>) -> &'e str {
+    match (entity.text(8).unwrap_or("0"), place.layer) {
+        ("0", Some(layer)) => layer,
+        (layer, _) => layer,
     }
 }
 

@@ -145,7 +145,7 @@ fn ellipses_and_splines_stand_as_arcs() {
 
 #[test]
 fn blocks_are_refused_by_name_and_texts_passed_over() {
-    refused(&["0 INSERT 8 0 2 BOLT 10 0 20 0"], Code::OUTLINE_FILE, &["INSERT", "explode"]);
+    refused(&["0 INSERT 8 0 2 BOLT 10 0 20 0"], Code::OUTLINE_FILE, &["no block \"BOLT\""]);
     let read =
         read(&["0 TEXT 8 0 1 plate", SQUARE, "0 DIMENSION 8 0 10 1", "0 POINT 10 1 20 1", "0 POINT 8 0"]);
     let notes = read.unwrap().notes;
@@ -217,4 +217,93 @@ fn files_that_are_no_dxf_text_are_told_apart() {
     // Carriage returns are as good.
     let dos = drawing(&[SQUARE]).replace('\n', "\r\n");
     assert!(read_dxf("part.dxf", dos.as_bytes(), &options).is_ok());
+}
+
+/// A drawing with blocks, in mm.
+fn with_blocks(blocks: &[&str], entities: &[&str]) -> String {
+    let empty = "0\nLINE\n8\nX\n0\nENDSEC\n";
+    let words: Vec<String> = blocks.join(" ").split_whitespace().map(str::to_owned).collect();
+    drawing(entities).replacen(empty, &format!("{}\n0\nENDSEC\n", words.join("\n")), 1)
+}
+
+fn read_blocks(blocks: &[&str], entities: &[&str]) -> Result<OutlineRead> {
+    read_dxf("part.dxf", with_blocks(blocks, entities).as_bytes(), &OutlineOptions::default())
+}
+
+/// A square of 10 with a corner of 2 rounded and a bore of 4 in it, from (0, 0); its base point is (1, 2).
+const PART: &str = "0 BLOCK 8 0 2 PART 70 0 10 1 20 2 30 0 3 PART \
+    0 LWPOLYLINE 8 0 90 5 70 1 10 0 20 0 10 10 20 0 10 10 20 10 10 2 20 10 42 0.414213562373095 10 0 20 8 \
+    0 CIRCLE 8 bore 10 5 20 5 40 2 0 ENDBLK 8 0";
+
+#[test]
+fn blocks_stand_where_they_are_inserted() {
+    let area = 100.0 - (4.0 - PI) - 4.0 * PI;
+    for (insert, scale, low, high) in [
+        ("10 0 20 0", 1.0, (-1.0, -2.0), (9.0, 8.0)),
+        // Twice as large, turned by a quarter.
+        ("10 100 20 50 41 2 42 2 43 2 50 90", 4.0, (88.0, 48.0), (108.0, 68.0)),
+        // Mirrored, and seen from below.
+        ("10 100 20 50 41 -1", 1.0, (91.0, 48.0), (101.0, 58.0)),
+        ("10 100 20 50 210 0 220 0 230 -1", 1.0, (-109.0, 48.0), (-99.0, 58.0)),
+    ] {
+        let read = read_blocks(&[PART], &[&format!("0 INSERT 8 steel 2 PART {insert}")]).unwrap();
+        assert!((read.outline.area() - scale * area).abs() < 1e-9, "{insert}: {}", read.outline.area());
+        let [min, max] = read.outline.bounds();
+        assert!(min.distance(low.into()) < 1e-9 && max.distance(high.into()) < 1e-9, "{insert}: {min} {max}");
+        // Layer 0 of a block is the layer on which it is inserted; arcs stay arcs.
+        let label = |label: &str| {
+            (0..read.outline.edges().len()).filter(|e| read.outline.label(*e) == Some(label)).count()
+        };
+        assert_eq!((label("steel"), label("bore"), label("0")), (5, 1, 0), "{insert}");
+    }
+}
+
+#[test]
+fn blocks_are_stretched_nested_and_repeated() {
+    // 3 in X and 2 in Y: the bore is an ellipse.
+    let read = read_blocks(&[PART], &["0 INSERT 8 A 2 PART 10 0 20 0 41 3 42 2 50 30"]).unwrap();
+    let area = 100.0 - (4.0 - PI) - 4.0 * PI;
+    assert!((read.outline.area() - 6.0 * area).abs() < 0.5 && read.outline.edges().len() > 10);
+    let wide = OutlineOptions { curve_tolerance: 1e-5, ..OutlineOptions::default() };
+    let fine = with_blocks(&[PART], &["0 INSERT 8 A 2 PART 10 0 20 0 41 3 42 2 50 30"]);
+    let fine = read_dxf("part.dxf", fine.as_bytes(), &wide).unwrap();
+    assert!((fine.outline.area() - 6.0 * area).abs() < 1e-3, "{}", fine.outline.area() - 6.0 * area);
+    // Two columns and three rows of a block with a block in it, each turned.
+    let pair = "0 BLOCK 8 0 2 PAIR 70 0 10 0 20 0 0 INSERT 8 0 2 PART 10 0 20 0 0 INSERT 8 0 2 PART 10 20 20 0 50 180 0 ENDBLK 8 0";
+    let rows = "0 INSERT 8 A 2 PAIR 10 5 20 5 50 90 70 2 71 3 44 60 45 40";
+    let read = read_blocks(&[PART, pair], &[rows]).unwrap();
+    assert_eq!(read.outline.loops().len(), 2 * 2 * 2 * 3);
+    assert!((read.outline.area() - 12.0 * area).abs() < 1e-8);
+    let [min, max] = read.outline.bounds();
+    // Columns run along the turned X.
+    assert!(
+        (max.y - min.y - (60.0 + 22.0)).abs() < 1e-9 && (max.x - min.x - (80.0 + 12.0)).abs() < 1e-9,
+        "{min} {max}"
+    );
+}
+
+#[test]
+fn blocks_that_cannot_be_inserted_are_refused_with_their_line() {
+    let refused = |blocks: &[&str], entities: &[&str], words: &[&str]| {
+        let error = read_blocks(blocks, entities).unwrap_err();
+        let text = error.to_string();
+        assert!(words.iter().all(|w| text.contains(w)), "{text}");
+    };
+    refused(&[PART], &["0 INSERT 8 A 2 OTHER 10 0 20 0"], &["no block \"OTHER\""]);
+    refused(&[PART], &["0 INSERT 8 A 2 PART 10 0 20 0 41 0"], &["size 0"]);
+    let own = "0 BLOCK 8 0 2 OWN 70 0 10 0 20 0 0 INSERT 8 0 2 OWN 10 0 20 0 0 ENDBLK 8 0";
+    refused(&[own], &["0 INSERT 8 A 2 OWN 10 0 20 0"], &["contains itself"]);
+    let other = "0 BLOCK 8 0 2 XREF 70 4 10 0 20 0 1 other.dwg 0 ENDBLK 8 0";
+    refused(&[other], &["0 INSERT 8 A 2 XREF 10 0 20 0"], &["in another file"]);
+    refused(&[PART], &["0 INSERT 8 A 2 PART 10 0 20 0 70 30000 71 30000"], &["too many entities"]);
+    // Each contains the next ten times: counted, not made.
+    let chain: Vec<String> = (0..12)
+        .map(|i| {
+            let inside = format!("0 INSERT 8 0 2 B{} 10 0 20 0 70 10", i + 1);
+            let inside = if i == 11 { "0 CIRCLE 8 0 10 0 20 0 40 1".to_owned() } else { inside };
+            format!("0 BLOCK 8 0 2 B{i} 70 0 10 0 20 0 {inside} 0 ENDBLK 8 0")
+        })
+        .collect();
+    let chain: Vec<&str> = chain.iter().map(String::as_str).collect();
+    refused(&chain, &["0 INSERT 8 A 2 B0 10 0 20 0"], &["too many entities"]);
 }
