@@ -1,11 +1,13 @@
 //! The clearing of one level: passes one after the other until nothing is left.
 
+use std::collections::BTreeMap;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use glam::DVec2;
 
 use super::link::{Pose, ways};
 use super::region::{CentreRegion, WallLoop};
+use super::rest::Rest;
 use super::swept::{Clearing, Scratch};
 use super::walk::{Walker, Way, step_of};
 use crate::geom::{Outline, OutlineEdge, arcs_near};
@@ -22,6 +24,12 @@ const LINK_STEP: f64 = 0.05;
 const LINK_RADII: [f64; 2] = [0.5, 0.25];
 /// Least room around the cutter in a hole by which it goes down [mm].
 const HOLE_ROOM: f64 = 0.5;
+/// Rings about a point on which a pass may begin, and those that are tried first, a tenth of a radius apart.
+const RINGS: u32 = 12;
+const FRONT_RINGS: u32 = 5;
+/// How often slivers are looked for at most, and distance from the middle of the cutter at which one ends up, in its radii.
+const SLIVER_LOOKS: usize = 4;
+const OVER: f64 = 0.4;
 /// Area that may be left at one place [mm2].
 const LEFT: f64 = 0.25;
 /// Share of the area that may be left in all.
@@ -63,13 +71,15 @@ pub(super) struct Cleared {
 }
 
 impl Cleared {
-    /// Measures what is left of the area that `reached` has; its points, a cell apart.
-    pub(super) fn measure(&mut self, clearing: &Clearing, reached: impl Fn(DVec2) -> bool) -> Vec<DVec2> {
-        let width = clearing.cell_width();
-        let rest = clearing.remains(reached);
-        self.left = rest.len() as f64 * width * width;
-        self.largest_left = largest(&rest, width);
-        rest
+    /// Measures what is left of the area that `reached` has.
+    pub(super) fn measure(&mut self, clearing: &Clearing, reached: impl Fn(DVec2) -> bool) {
+        self.left_at(&clearing.remains(reached), clearing.cell_width());
+    }
+
+    /// What is left are the middles of cells of a width [mm].
+    fn left_at(&mut self, points: &[DVec2], width: f64) {
+        self.left = points.len() as f64 * width * width;
+        self.largest_left = largest(points, width);
     }
 
     /// With `y` and `-y` exchanged.
@@ -171,7 +181,7 @@ impl Clearer<'_> {
                 here = self.keep(&way, &mut cleared).or(here);
                 continue;
             }
-            let (middle, room) = region.widest(around);
+            let (middle, room) = CentreRegion::widest(around);
             let radius = self.helix.min(room);
             let from = 0.0;
             self.clearing.sweep(middle, middle, radius + self.radius);
@@ -187,13 +197,27 @@ impl Clearer<'_> {
             open.extend(stretches(of, &touched));
         }
         let mut dead: Vec<DVec2> = Vec::new();
-        // Points that a pass has been begun for already.
-        let mut hopeless: Vec<DVec2> = Vec::new();
+        let mut rest = None;
+        // The box around all that the last pass has changed; at first everything.
+        let mut changed: Option<[DVec2; 2]> = None;
         loop {
             // Passes begin where the wall leaves what is cleared, the nearest first.
+            // The last pass may have moved the ends of those that it came near to.
             for stretch in &mut open {
-                self.shrink(stretch, &along[stretch.of], &mut work);
+                let places = &along[stretch.of];
+                let is_near = |at: DVec2| {
+                    changed.is_none_or(|[low, high]: [DVec2; 2]| low.cmple(at).all() && at.cmple(high).all())
+                };
+                let end = |i: usize| is_near(places[i % places.len()].at);
+                let may_move = match stretch.whole {
+                    true => places.iter().any(|p| is_near(p.at)),
+                    false => end(stretch.from + 1) || end(stretch.to),
+                };
+                if may_move {
+                    self.shrink(stretch, places, &mut work);
+                }
             }
+            changed = Some([DVec2::INFINITY, DVec2::NEG_INFINITY]);
             open.retain(|s| s.from < s.to);
             let far = |p: &Pose| here.map_or(p.at, |here| p.at - here.at).length();
             let next = open
@@ -202,18 +226,14 @@ impl Clearer<'_> {
                 .map(|s| along[s.of][s.from % along[s.of].len()])
                 .filter(|p| !dead.contains(&p.at))
                 .min_by(|a, b| far(a).total_cmp(&far(b)));
-            let start = match next {
-                Some(place) => place,
-                None => match self.elsewhere(&hopeless, here.map_or(DVec2::ZERO, |h| h.at), &mut cleared) {
-                    Some((place, of)) => {
-                        hopeless.push(of);
-                        place
-                    }
+            let (start, of) = match next {
+                Some(place) => (place, None),
+                None => match self.elsewhere(&mut rest, here.map_or(DVec2::ZERO, |h| h.at)) {
+                    Some((place, of)) => (place, Some(of)),
                     None => break,
                 },
             };
             if most == 0 {
-                cleared.measure(self.clearing, |p| self.is_reached(p));
                 break;
             }
             // Before the pass, as the link runs through what is cleared by then.
@@ -222,6 +242,9 @@ impl Clearer<'_> {
             let way = self.walk(start, &mut most);
             if way.cutting < 2.0 * step {
                 dead.push(start.at);
+                if let (Some(rest), Some(of)) = (&mut rest, of) {
+                    rest.cut_nothing(of, self.radius);
+                }
             }
             if way.cutting > 0.0 {
                 match (link, down) {
@@ -234,10 +257,77 @@ impl Clearer<'_> {
                     }
                     _ => {}
                 }
+                let clearing = &*self.clearing;
+                rest.iter_mut().for_each(|rest: &mut Rest| rest.passed(&way.points, clearing));
+                changed = Some(box_of(&way.points, 2.5 * self.radius));
                 here = self.keep(&way, &mut cleared).or(here);
             }
         }
+        if most > 0 {
+            self.sweep_slivers(&mut cleared, here, &mut work);
+        }
+        let mut rest = rest.unwrap_or_else(|| Rest::new(self.clearing, |p| self.is_reached(p)));
+        rest.update(self.clearing);
+        cleared.left_at(&rest.points(), self.clearing.cell_width());
         cleared
+    }
+
+    /// Sweeps what stands between passes, too little for a pass of its own: straight over it. What lies so near to the wall that
+    /// the lap along it takes it stays.
+    fn sweep_slivers(&mut self, cleared: &mut Cleared, mut here: Option<Pose>, work: &mut Scratch) {
+        for _ in 0..SLIVER_LOOKS {
+            let mut slivers = self.clearing.slivers(|p| self.region.room(p) >= self.radius);
+            let mut swept = false;
+            while let Some(i) = nearest(&slivers, here.map_or(DVec2::ZERO, |here| here.at)) {
+                let p = slivers.swap_remove(i);
+                if self.clearing.is_clear(p) {
+                    continue;
+                }
+                let Some((start, end, largest)) = self.over(p, work) else { continue };
+                match here.and_then(|here| self.link(here, start, work)) {
+                    Some(edges) => cleared.elements.push(Element::Link(edges)),
+                    None => cleared.elements.push(Element::Down(start.at)),
+                }
+                self.clearing.sweep(start.at, end, self.radius);
+                let edges = vec![OutlineEdge::line(start.at, end)];
+                cleared.elements.push(Element::Pass(Pass { edges, largest }));
+                here = Some(Pose { at: end, heading: start.heading });
+                swept = true;
+            }
+            if !swept {
+                return;
+            }
+        }
+    }
+
+    /// A straight way over a point within the wanted engagement, from where nothing is cut: its beginning, its end, and the
+    /// largest engagement [rad].
+    fn over(&self, p: DVec2, work: &mut Scratch) -> Option<(Pose, DVec2, f64)> {
+        for ring in 0..RINGS {
+            let far = self.radius * (1.0 + 0.1 * f64::from(ring) + 1e-3);
+            for k in 0..48 {
+                let out = f64::from(k) * TAU / 48.0;
+                let at = p + far * DVec2::from_angle(out);
+                if !self.region.holds(at) || self.touches(at, out, work) {
+                    continue;
+                }
+                let heading = out + PI;
+                let length = far - OVER * self.radius;
+                let count = (length / (LINK_STEP * self.radius)).ceil();
+                let mut largest = 0.0_f64;
+                let fits = (1..=count as usize).all(|k| {
+                    let at = at + k as f64 / count * length * DVec2::from_angle(heading);
+                    let engaged = self.clearing.engaged(at, heading, self.radius, work).total;
+                    largest = largest.max(engaged);
+                    self.region.holds(at) && engaged <= self.wanted
+                });
+                if fits {
+                    let end = at + length * DVec2::from_angle(heading);
+                    return Some((Pose { at, heading }, end, largest));
+                }
+            }
+        }
+        None
     }
 
     /// The hole in a part of the region, if there is one, in which the cutter goes down with room around it: its centre, and
@@ -343,30 +433,41 @@ impl Clearer<'_> {
     }
 
     /// A place to begin at where stock is left that no way along the wall leads to.
-    fn elsewhere(&self, hopeless: &[DVec2], here: DVec2, cleared: &mut Cleared) -> Option<(Pose, DVec2)> {
-        let rest = cleared.measure(self.clearing, |p| self.is_reached(p));
-        let left = cleared.left;
+    fn elsewhere(&self, rest: &mut Option<Rest>, here: DVec2) -> Option<(Pose, DVec2)> {
+        let rest = rest.get_or_insert_with(|| Rest::new(self.clearing, |p| self.is_reached(p)));
+        let width = self.clearing.cell_width();
         let [low, high] = self.region.bounds();
         let all = (high.x - low.x) * (high.y - low.y);
-        if left <= LEFT.max(LEFT_SHARE * all) {
-            return None;
+        let may_be_left = LEFT.max(LEFT_SHARE * all);
+        if rest.most() as f64 * width * width <= 4.0 * may_be_left {
+            rest.update(self.clearing);
+            if rest.most() as f64 * width * width <= may_be_left {
+                return None;
+            }
         }
         let mut work = Scratch::default();
-        let mut rest = rest;
-        rest.sort_by(|a, b| a.distance(here).total_cmp(&b.distance(here)));
-        let near = 0.1 * self.radius;
-        for p in rest.into_iter().filter(|p| hopeless.iter().all(|h| h.distance(*p) > near)) {
-            // A point from which the cutter touches this one with nothing cut yet.
-            for ring in 0..12 {
-                let far = self.radius * (1.0 + 0.1 * f64::from(ring) + 1e-3);
-                for k in 0..48 {
-                    let out = f64::from(k) * TAU / 48.0;
-                    let at = p + far * DVec2::from_angle(out);
-                    if !self.region.holds(at) || self.touches(at, out, &mut work) {
-                        continue;
-                    }
-                    // The point on the right: the heading is a quarter turn before the way from it.
-                    return Some((Pose { at, heading: out - FRAC_PI_2 }, p));
+        // Points beside what is cleared first, as the others lie behind them.
+        let is_front = |p: DVec2| {
+            let beside = [DVec2::X, DVec2::NEG_X, DVec2::Y, DVec2::NEG_Y];
+            beside.iter().any(|side| self.clearing.is_clear(p + width * side))
+        };
+        let place = (here, self.radius);
+        let found = rest.begin(self.clearing, place, false, |p| {
+            is_front(p).then(|| self.start_at(p, FRONT_RINGS, &mut work))
+        });
+        found.or_else(|| rest.begin(self.clearing, place, true, |p| Some(self.start_at(p, RINGS, &mut work))))
+    }
+
+    /// A place from which the cutter touches a point with nothing cut yet, the point on its right.
+    fn start_at(&self, p: DVec2, rings: u32, work: &mut Scratch) -> Option<Pose> {
+        for ring in 0..rings {
+            let far = self.radius * (1.0 + 0.1 * f64::from(ring) + 1e-3);
+            for k in 0..48 {
+                let out = f64::from(k) * TAU / 48.0;
+                let at = p + far * DVec2::from_angle(out);
+                if self.region.holds(at) && !self.touches(at, out, work) {
+                    // The heading is a quarter turn before the way from the point.
+                    return Some(Pose { at, heading: out - FRAC_PI_2 });
                 }
             }
         }
@@ -376,26 +477,35 @@ impl Clearer<'_> {
 
 /// The largest place of points a cell apart: its area [mm2], and its first point.
 fn largest(points: &[DVec2], width: f64) -> Option<(f64, DVec2)> {
-    let mut left: Vec<DVec2> = points.to_vec();
+    let origin = *points.first()?;
+    let cell = |p: DVec2| ((p - origin) / width).to_array().map(|x| x.round() as i64);
+    let mut left: BTreeMap<[i64; 2], DVec2> = points.iter().map(|p| (cell(*p), *p)).collect();
     let mut best: Option<(usize, DVec2)> = None;
-    while let Some(first) = left.pop() {
+    while let Some((first, at)) = left.pop_first() {
         let (mut place, mut next) = (vec![first], 0);
-        while next < place.len() {
-            let at = place[next];
+        while let Some(&[x, y]) = place.get(next) {
             next += 1;
-            left.retain(|p| {
-                let is_near = p.distance(at) < 1.5 * width;
-                if is_near {
-                    place.push(*p);
-                }
-                !is_near
-            });
+            let around = (-1..=1).flat_map(|dx| (-1..=1).map(move |dy| [x + dx, y + dy]));
+            place.extend(around.filter(|cell| left.remove(cell).is_some()).collect::<Vec<_>>());
         }
         if best.is_none_or(|(count, _)| place.len() > count) {
-            best = Some((place.len(), first));
+            best = Some((place.len(), at));
         }
     }
     best.map(|(count, at)| (count as f64 * width * width, at))
+}
+
+/// The index of the point that is nearest to another.
+fn nearest(points: &[DVec2], to: DVec2) -> Option<usize> {
+    let far = |i: &usize| points[*i].distance_squared(to);
+    (0..points.len()).min_by(|a, b| far(a).total_cmp(&far(b)))
+}
+
+/// The box around points, larger by a margin [mm].
+pub(super) fn box_of(points: &[DVec2], margin: f64) -> [DVec2; 2] {
+    let start = [DVec2::INFINITY, DVec2::NEG_INFINITY];
+    let [low, high] = points.iter().fold(start, |[low, high], p| [low.min(*p), high.max(*p)]);
+    [low - margin, high + margin]
 }
 
 /// The uncleared stretches of a loop.

@@ -16,6 +16,7 @@ mod link;
 mod moves;
 mod plan;
 mod region;
+mod rest;
 mod slot;
 mod spec;
 mod swept;

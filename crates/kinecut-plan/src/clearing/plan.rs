@@ -148,7 +148,7 @@ pub fn plan_pocket(spec: &PocketSpec) -> Result<PocketPlan> {
         run(spec, &cleared, &mut route, [level.above, level.floor])?;
     }
     route.retract();
-    let area = region.reached(a)?;
+    let area = region.reached(a);
     let uncut = if stock.is_none() && holes.is_empty() { area } else { stock_area.min(area) };
     let figures = figures(spec, [area, uncut], &cleared);
     let mut findings: Vec<Finding> = parts(&region).into_iter().collect();

@@ -3,13 +3,14 @@
 use glam::DVec2;
 
 use crate::base::Result;
-use crate::geom::{NearestEdge, Outline, OutlineEdge, offset};
+use crate::geom::{NearestEdge, OffsetLoop, Outline, OutlineEdge, offset};
 
 /// The region of the cutter's centre: a face, smaller all around by the cutter's radius and what stays on its wall. Its loops
 /// are travelled with the wall on the right: counter-clockwise around it, clockwise around islands.
 #[derive(Clone, Debug)]
 pub(super) struct CentreRegion {
     pub(super) loops: Vec<WallLoop>,
+    face: Outline,
     near: NearestEdge,
     bounds: [DVec2; 2],
 }
@@ -18,7 +19,7 @@ pub(super) struct CentreRegion {
 #[derive(Clone, Debug)]
 pub(super) struct WallLoop {
     pub(super) edges: Vec<OutlineEdge>,
-    /// The face within it where it is an outer loop; none for one around an island.
+    /// The face within it, less its islands, where it is an outer loop; none for one around an island.
     pub(super) around: Option<Outline>,
 }
 
@@ -33,10 +34,14 @@ impl CentreRegion {
     pub(super) fn new(face: &Outline, distance: f64) -> Result<Option<CentreRegion>> {
         let made = offset(face, distance)?;
         let mut loops = Vec::new();
-        for one in made.loops.iter().filter(|l| !l.collapsed) {
-            let around = (one.area() > 0.0).then(|| Outline::new(vec![one.edges.clone()], Vec::new()));
+        let kept: Vec<&OffsetLoop> = made.loops.iter().filter(|l| !l.collapsed).collect();
+        let parts = parts(&kept);
+        for (i, one) in kept.iter().enumerate() {
+            let islands = parts.iter().filter(|(_, of)| *of == i).map(|(island, _)| kept[*island]);
+            let face = || Outline::of_offset(std::iter::once(*one).chain(islands));
+            let around = (one.area() > 0.0).then(face);
             let edges = one.edges.iter().rev().map(OutlineEdge::reversed).collect();
-            loops.push(WallLoop { edges, around: around.transpose()? });
+            loops.push(WallLoop { edges, around });
         }
         if loops.is_empty() {
             return Ok(None);
@@ -46,17 +51,25 @@ impl CentreRegion {
         let bounds = ends.fold([DVec2::INFINITY, DVec2::NEG_INFINITY], |all, [low, high]| {
             [all[0].min(low), all[1].max(high)]
         });
-        Ok(Some(CentreRegion { loops, near: NearestEdge::new(&edges), bounds }))
+        let face = Outline::of_offset(kept);
+        Ok(Some(CentreRegion { loops, face, near: NearestEdge::new(&edges), bounds }))
     }
 
-    /// Area that a cutter of a radius [mm] reaches with its centre in the region [mm2].
-    ///
-    /// # Errors
-    /// Those of offsets.
-    pub(super) fn reached(&self, radius: f64) -> Result<f64> {
-        let loops = self.loops.iter().map(|l| l.edges.iter().rev().map(OutlineEdge::reversed).collect());
-        let outline = Outline::new(loops.collect(), Vec::new())?;
-        Ok(offset(&outline, -radius)?.area())
+    /// Area that a cutter of a radius [mm] reaches with its centre in the region [mm2]; where the region has crumbs that no offset
+    /// can be made of, by points.
+    pub(super) fn reached(&self, radius: f64) -> f64 {
+        /// Points along the radius.
+        const FINE: f64 = 24.0;
+        if let Ok(grown) = offset(&self.face, -radius) {
+            return grown.area();
+        }
+        let step = radius / FINE;
+        let [low, high] = [self.bounds[0] - radius, self.bounds[1] + radius];
+        let count = |length: f64| (length / step).ceil() as usize;
+        let point = |i: usize, j: usize| low + step * DVec2::new(i as f64 + 0.5, j as f64 + 0.5);
+        let inside =
+            |i: usize| (0..count(high.y - low.y)).filter(|j| self.room(point(i, *j)) > -radius).count();
+        (0..count(high.x - low.x)).map(inside).sum::<usize>() as f64 * step * step
     }
 
     /// The corners of the box around it.
@@ -87,16 +100,18 @@ impl CentreRegion {
         }
     }
 
-    /// The point with the most room around it inside an outline of a loop, and that room [mm].
-    pub(super) fn widest(&self, of: &Outline) -> (DVec2, f64) {
+    /// The point with the most room around it inside a part of the region, and that room [mm].
+    pub(super) fn widest(of: &Outline) -> (DVec2, f64) {
         /// Share of the room that a better point would have to add.
         const WORTH: f64 = 1e-3;
         let [low, high] = of.bounds();
         let size = (high - low).max_element();
-        let inside = |p: DVec2| of.contains(p);
+        // Another part in one of its islands is no room of this one.
+        let near = NearestEdge::new(of.edges());
+        let room = |p: DVec2| near.at(p, f64::INFINITY).map_or(f64::NEG_INFINITY, |n| -n.distance);
         // The middle, unless another place has more room by something.
         let middle = 0.5 * (low + high);
-        let mut best = (middle, if inside(middle) { self.room(middle) } else { f64::NEG_INFINITY });
+        let mut best = (middle, room(middle));
         // Squares by the most room that a point of them may have, the largest first.
         let mut squares = vec![(f64::INFINITY, best.0, size)];
         while let Some(at) = (0..squares.len()).max_by(|&a, &b| squares[a].0.total_cmp(&squares[b].0)) {
@@ -106,8 +121,8 @@ impl CentreRegion {
             }
             for (sx, sy) in [(-0.25, -0.25), (0.25, -0.25), (-0.25, 0.25), (0.25, 0.25)] {
                 let p = middle + size * DVec2::new(sx, sy);
-                let room = self.room(p);
-                if room > best.1 + WORTH * best.1.abs().clamp(1e-3, 1e3) && inside(p) {
+                let room = room(p);
+                if room > best.1 + WORTH * best.1.abs().clamp(1e-3, 1e3) {
                     best = (p, room);
                 }
                 let half = 0.5 * size;
@@ -116,4 +131,21 @@ impl CentreRegion {
         }
         best
     }
+}
+
+/// The islands among loops, each with the outer loop that is next around it.
+fn parts(loops: &[&OffsetLoop]) -> Vec<(usize, usize)> {
+    let mut outer = Vec::new();
+    for (i, one) in loops.iter().enumerate().filter(|(_, one)| one.area() > 0.0) {
+        outer.push((i, one.area(), Outline::of_offset([*one])));
+    }
+    outer.sort_by(|a, b| a.1.total_cmp(&b.1));
+    let islands = loops.iter().enumerate().filter(|(_, one)| one.area() <= 0.0);
+    let within = |(i, one): (usize, &&OffsetLoop)| {
+        let of = outer
+            .iter()
+            .find(|(_, area, face)| *area > -one.area() && face.contains(one.edges[0].at(0.5)))?;
+        Some((i, of.0))
+    };
+    islands.filter_map(within).collect()
 }

@@ -148,7 +148,7 @@ pub fn plan_slot(spec: &SlotSpec) -> Result<PocketPlan> {
     }
     route.retract();
     let area = match &region {
-        Some(region) => region.reached(a)?,
+        Some(region) => region.reached(a),
         None => spec.line.outline(pocket.cutter.diameter)?.area(),
     };
     let is_whole = stock.is_none() && holes.is_empty() || region.is_none();

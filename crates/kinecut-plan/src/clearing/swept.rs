@@ -16,6 +16,8 @@ const SLOTS: usize = 72;
 const MARGIN: f64 = 0.27;
 /// Longest piece, in radii of the cutter: what it covers of a circle is one stretch without doubt.
 const LONGEST: f64 = 0.5;
+/// How often a cell is halved where slivers are looked for: down to a hundredth of the cutter's radius.
+const FINEST: u32 = 4;
 /// Share of the cutter's radius below which a piece of stock is rounding.
 const ROUNDING: f64 = 1e-9;
 
@@ -231,12 +233,49 @@ impl Clearing {
                     continue;
                 }
                 let p = self.middle(column, row);
-                if keep(p) && !self.is_clear(p) {
+                if !self.is_clear(p) && keep(p) {
                     found.push(p);
                 }
             }
         }
         found
+    }
+
+    /// Points of stock that no piece has swept, however narrow the place, where `keep` has them: one of a cell.
+    pub fn slivers(&self, keep: impl Fn(DVec2) -> bool) -> Vec<DVec2> {
+        let mut found = Vec::new();
+        for row in 0..self.rows {
+            for column in 0..self.columns {
+                let cell = &self.cells[row * self.columns + column];
+                if cell.state == State::Clear {
+                    continue;
+                }
+                let square = (self.middle(column, row), 0.5 * self.width);
+                found.extend(self.uncovered(cell, square, FINEST).filter(|p| keep(*p)));
+            }
+        }
+        found
+    }
+
+    /// A point of a square of a cell, by its middle and half its width, that no piece covers; `times`: how often it may be
+    /// divided.
+    fn uncovered(&self, cell: &Cell, (middle, half): (DVec2, f64), times: u32) -> Option<DVec2> {
+        let pieces = || cell.pieces.iter().map(|&i| &self.pieces[i as usize]);
+        if pieces().any(|piece| piece.covers_around(middle, half * std::f64::consts::SQRT_2)) {
+            return None;
+        }
+        if times == 0 {
+            let is_stock = || match &self.stock {
+                Some(stock) if cell.state == State::Edge => stock.outline.contains(middle),
+                _ => true,
+            };
+            return (!pieces().any(|piece| piece.holds(middle)) && is_stock()).then_some(middle);
+        }
+        let quarter = 0.5 * half;
+        let corners = [(-1.0, -1.0), (1.0, -1.0), (-1.0, 1.0), (1.0, 1.0)];
+        corners.into_iter().find_map(|(x, y)| {
+            self.uncovered(cell, (middle + quarter * DVec2::new(x, y), quarter), times - 1)
+        })
     }
 
     /// Width of a cell [mm].

@@ -25,6 +25,9 @@ const RAMP_ABOVE: f64 = 0.5;
 const ROUNDING: f64 = 1e-6;
 /// Least radius of a lead, in radii of the cutter.
 pub(super) const LEAST_LEAD: f64 = 0.2;
+/// The same where no place has room for that, and least radius of such an arc [mm].
+const TIGHT_LEAD: f64 = 0.02;
+const LEAST_ARC: f64 = 0.005;
 
 /// A planned contour.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -160,6 +163,9 @@ pub(super) struct Planner<'a> {
     pub(super) loops: Vec<PlannedLoop>,
 }
 
+/// How often the largest cutter that fits is halved in: to less than half a percent.
+const HALVES: usize = 8;
+
 /// A beginning of a loop: the place along it, and the lead.
 struct Beginning {
     at: f64,
@@ -203,10 +209,10 @@ impl Planner<'_> {
     /// Every loop of the outline that is to be cut has a path.
     fn covered(&self, loops: &[OffsetLoop]) -> Result<()> {
         let outline = &self.spec.outline;
-        let fits = |what: String, at: DVec2, widest: f64| {
-            Err(Finding::error(Code::CUTTER_TOO_LARGE, what)
-                .value_mm(self.spec.cutter.diameter)
-                .bound_mm(widest)
+        let fits = |what: String, at: DVec2, widest: Option<f64>| {
+            let finding = Finding::error(Code::CUTTER_TOO_LARGE, what).value_mm(self.spec.cutter.diameter);
+            let finding = widest.map_or(finding.clone(), |widest| finding.bound_mm(widest));
+            Err(finding
                 .point([at.x, at.y, 0.0])
                 .help("take a smaller cutter, or leave the loop out: loops = \"outer\", or by layer")
                 .key("tool")
@@ -215,36 +221,54 @@ impl Planner<'_> {
         if let Some(line) = loops.iter().find(|l| l.collapsed) {
             let at = line.edges[0].start;
             let what = format!("the cutter is as wide as the contour at ({:.3}, {:.3})", at.x, at.y);
-            return fits(what, at, self.spec.cutter.diameter);
+            return fits(what, at, None);
         }
+        let found = self.with_path(loops);
+        let has_piece =
+            |l: usize| self.spec.pieces.as_ref().is_none_or(|all| all.iter().any(|p| p.of_loop == l));
+        let lacks = |l: &usize| {
+            let one = &outline.loops()[*l];
+            // Islands of an inside contour may lie in one another's way, and have one path.
+            let needed = self.is_wanted(one.outer) && (one.outer || self.spec.side != ContourSide::Inside);
+            needed && !found[*l] && has_piece(*l)
+        };
+        let lacking: Vec<usize> = (0..found.len()).filter(lacks).collect();
+        let Some(&first) = lacking.first() else { return Ok(()) };
+        let at = outline.edges()[outline.loops()[first].edges.start].start;
+        let more = match lacking.len() - 1 {
+            0 => String::new(),
+            1 => ", nor along another loop".to_owned(),
+            more => format!(", nor along {more} other loops"),
+        };
+        let what = format!("the cutter does not go along the contour at ({:.3}, {:.3}){more}", at.x, at.y);
+        // The largest cutter that does, along all of them.
+        let (mut low, mut high) = (0.0, self.spec.radius());
+        for _ in 0..HALVES {
+            let middle = 0.5 * (low + high);
+            let has_all = |loops: Vec<OffsetLoop>| {
+                let found = self.with_path(&loops);
+                lacking.iter().all(|l| found[*l])
+            };
+            match self.paths(middle + self.spec.stock_to_leave).is_ok_and(has_all) {
+                true => low = middle,
+                false => high = middle,
+            }
+        }
+        fits(what, at, Some((2e3 * low).floor() / 1e3))
+    }
+
+    /// For each loop of the outline, whether a path runs along it.
+    fn with_path(&self, loops: &[OffsetLoop]) -> Vec<bool> {
+        let outline = &self.spec.outline;
         let mut found = vec![false; outline.loops().len()];
-        for edge in loops.iter().flat_map(|l| &l.edges) {
+        for edge in loops.iter().filter(|l| !l.collapsed).flat_map(|l| &l.edges) {
             let nearest = self.near.at(edge.at(0.5), f64::INFINITY);
             let own = nearest.and_then(|n| outline.loops().iter().position(|l| l.edges.contains(&n.edge)));
             if let Some(own) = own {
                 found[own] = true;
             }
         }
-        let has_piece =
-            |l: usize| self.spec.pieces.as_ref().is_none_or(|all| all.iter().any(|p| p.of_loop == l));
-        for (l, (one, found)) in outline.loops().iter().zip(found).enumerate() {
-            // Islands of an inside contour may lie in one another's way, and have one path.
-            let needed = self.is_wanted(one.outer) && (one.outer || self.spec.side != ContourSide::Inside);
-            if needed && !found && has_piece(l) {
-                let edges = &outline.edges()[one.edges.clone()];
-                let size = [DVec2::X, DVec2::Y].map(|axis| {
-                    let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
-                    for [l, h] in edges.iter().map(|e| e.extent(axis)) {
-                        (low, high) = (low.min(l), high.max(h));
-                    }
-                    high - low
-                });
-                let at = edges[0].start;
-                let what = format!("the cutter does not go along the contour at ({:.3}, {:.3})", at.x, at.y);
-                return fits(what, at, size[0].min(size[1]));
-            }
-        }
-        Ok(())
+        found
     }
 
     /// No path comes too near to a loop of the outline that is not cut.
@@ -354,29 +378,41 @@ impl Planner<'_> {
             let at = self.beginnings(track).first().copied().unwrap_or(0.0);
             return Ok(Beginning { at, lead: Lead::NONE });
         }
-        for place in self.beginnings(track).into_iter().filter(|place| may(*place)) {
-            let mut radius = usual;
-            loop {
-                if let Some(found) = fits(place, radius) {
-                    return Ok(found);
+        let places: Vec<f64> = self.beginnings(track).into_iter().filter(|place| may(*place)).collect();
+        // First everywhere down to the usual least; in a hole hardly wider than the cutter there is room for less alone.
+        let (mut from, mut tried) = (usual, usual);
+        for least in [LEAST_LEAD * a, (TIGHT_LEAD * a).max(LEAST_ARC)] {
+            for place in &places {
+                let mut radius = from;
+                loop {
+                    tried = radius;
+                    if let Some(found) = fits(*place, radius) {
+                        return Ok(found);
+                    }
+                    // A radius that is given is kept.
+                    if spec.lead_radius.is_some() || radius <= least {
+                        break;
+                    }
+                    radius = (0.5 * radius).max(least);
                 }
-                // A radius that is given is kept.
-                if spec.lead_radius.is_some() || radius <= LEAST_LEAD * a {
-                    break;
-                }
-                radius = (0.5 * radius).max(LEAST_LEAD * a);
             }
+            if spec.lead_radius.is_some() {
+                break;
+            }
+            from = 0.5 * least;
         }
-        let (p, _) = track.at(0.0);
-        let what = "no lead finds room beside the contour";
-        let key = if spec.lead_radius.is_some() { "lead_radius" } else { "start" };
-        Err(Finding::error(Code::LEAD_ROOM, what)
-            .value_mm(usual)
-            .bound_mm(LEAST_LEAD * a)
-            .point([p.x, p.y, 0.0])
-            .help("give another start, a smaller lead_radius, or take a smaller cutter")
-            .key(key)
-            .into())
+        let (p, _) = track.at(places.first().copied().unwrap_or(0.0));
+        let what = format!(
+            "no lead finds room beside the contour at ({:.3}, {:.3}): the smallest that was tried has a radius of {} mm",
+            p.x,
+            p.y,
+            (tried * 1e4).round() / 1e4
+        );
+        let (key, help) = match spec.lead_radius.is_some() {
+            true => ("lead_radius", "give a smaller lead_radius, or leave it out"),
+            false => ("start", "give another start, or take a smaller cutter"),
+        };
+        Err(Finding::error(Code::LEAD_ROOM, what).point([p.x, p.y, 0.0]).help(help).key(key).into())
     }
 
     /// A lead whose free end lies so far from a wall [mm] and so much farther: where roughing has run.

@@ -141,7 +141,7 @@ impl Budget {
     /// The distance of the lines in words, and whether it was chosen.
     pub fn step(&self, job: &Job) -> String {
         let chosen = if job.default_step { ", as no step is given" } else { "" };
-        format!("{} mm between lines{chosen}", job.step)
+        format!("{} mm between lines{chosen}", crate::page::trimmed(job.step, 6))
     }
 
     /// The number of the lines in words.

@@ -19,6 +19,9 @@ const LARGEST: f64 = 1e-6;
 /// Turn of a corner that is taken for half a turn: it may go either way [rad].
 const HALF_TURN: f64 = std::f64::consts::PI - 1e-3;
 
+/// Distance before a tip at which the face is or is not [mm].
+const TIP: f64 = 1e-4;
+
 /// An outline and a distance, ready to look at loops.
 pub(super) struct Check<'a> {
     outline: &'a Outline,
@@ -112,16 +115,21 @@ impl<'a> Check<'a> {
             let edges = &self.outline.edges()[one.edges.clone()];
             for (i, edge) in edges.iter().enumerate() {
                 // An arc that is too small for the distance leaves nothing.
-                let vanishes = edge
-                    .turn
-                    .is_some_and(|t| t.sweep * self.distance < 0.0 && t.radius <= self.distance.abs());
+                let room = self.distance.abs() + self.largest();
+                let vanishes = edge.turn.is_some_and(|t| t.sweep * self.distance < 0.0 && t.radius <= room);
                 if !vanishes {
                     for s in SHARES {
                         look(edge.at(s) - self.distance * DVec2::from_angle(edge.outward(s)))?;
                     }
                 }
                 let next = &edges[(i + 1) % edges.len()];
-                let turn = wrap(next.heading(0.0) - edge.heading(1.0));
+                let mut turn = wrap(next.heading(0.0) - edge.heading(1.0));
+                if turn.abs() > HALF_TURN {
+                    // The face is all around the tip, or only behind it.
+                    let before = edge.end + TIP * DVec2::from_angle(edge.heading(1.0));
+                    let is_face = self.near.at(before, f64::INFINITY).is_some_and(|n| n.distance < 0.0);
+                    turn = turn.abs().copysign(if is_face { 1.0 } else { -1.0 });
+                }
                 if turn * self.distance > 0.0 && turn.abs() > 1e-6 {
                     for s in SHARES {
                         let out = DVec2::from_angle(edge.outward(1.0) + s * turn);

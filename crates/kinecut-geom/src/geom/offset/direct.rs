@@ -1,7 +1,7 @@
 //! Offsets made directly: every edge is moved, every corner that opens gets an arc, all are cut where any two of them
 //! meet, and the pieces that keep the distance are joined into loops. Quadratic where many candidates lie together.
 
-use std::f64::consts::FRAC_PI_2;
+use std::f64::consts::{FRAC_PI_2, PI};
 
 use glam::DVec2;
 
@@ -65,7 +65,7 @@ fn candidates(outline: &Outline, distance: f64) -> Vec<OutlineEdge> {
                 }
             }
             let next = &edges[(i + 1) % edges.len()];
-            let turn = wrap(next.heading(0.0) - edge.heading(1.0));
+            let turn = corner(edge, next);
             if turn * distance > 0.0 && turn.abs() > 1e-12 {
                 let from = edge.heading(1.0) - FRAC_PI_2.copysign(distance);
                 let arc = OutlineEdge::arc(edge.end, distance.abs(), from, turn);
@@ -75,6 +75,16 @@ fn candidates(outline: &Outline, distance: f64) -> Vec<OutlineEdge> {
         }
     }
     all
+}
+
+/// The turn at a corner [rad]. One of half a turn, where two edges touch, goes to the right where the face is the tip
+/// between them, to the left where it is all around them: the curvatures tell.
+fn corner(edge: &OutlineEdge, next: &OutlineEdge) -> f64 {
+    /// Difference from half a turn that is rounding [rad], and least curvature that is none of a line (1/mm).
+    const SAME: f64 = 1e-6;
+    let turn = wrap(next.heading(0.0) - edge.heading(1.0));
+    let apart = edge.curvature() + next.curvature();
+    if PI - turn.abs() < SAME && apart.abs() > SAME { turn.abs().copysign(-apart) } else { turn }
 }
 
 /// The pieces without those that lie on another one and run the same way.

@@ -14,6 +14,9 @@ use crate::base::{Code, Finding, Result};
 /// Widest loop that counts as a line [mm]: less than a control resolves.
 const COLLAPSED: f64 = 2e-5;
 
+/// Longest edge of an offset that is rounding [mm].
+const CRUMB: f64 = 2e-6;
+
 /// The loops at a distance from an outline.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Offset {
@@ -38,6 +41,21 @@ impl OffsetLoop {
         let length: f64 = edges.iter().map(OutlineEdge::length).sum();
         let area = 0.5 * edges.iter().map(OutlineEdge::twice_area).sum::<f64>();
         OffsetLoop { collapsed: 2.0 * area.abs() < COLLAPSED * length, edges }
+    }
+
+    /// Its edges without crumbs, each exactly from the end of the one before: where a joint has a gap, or a crumb is left out, an edge
+    /// keeps its turn between its new ends.
+    pub(super) fn joined(&self) -> Vec<OutlineEdge> {
+        let kept: Vec<&OutlineEdge> = self.edges.iter().filter(|edge| edge.length() > CRUMB).collect();
+        let next = |i: usize| kept[(i + 1) % kept.len()].start;
+        let joined = |(i, edge): (usize, &&OutlineEdge)| {
+            if edge.end == next(i) || kept.len() == 1 {
+                return **edge;
+            }
+            let bulge = edge.turn.map_or(0.0, |t| (0.25 * t.sweep).tan());
+            OutlineEdge::bulge(edge.start, next(i), bulge).labelled(edge.label)
+        };
+        kept.iter().enumerate().map(joined).collect()
     }
 
     /// Length [mm].

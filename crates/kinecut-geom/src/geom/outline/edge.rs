@@ -235,6 +235,60 @@ impl OutlineEdge {
         (share, self.at(share).distance(point))
     }
 
+    /// The place nearest to a point, without angles: its distance, and how far the point is beyond it on the side away from the
+    /// material [mm]. [`EdgeFoot::share`] gives the place itself.
+    pub(super) fn foot(&self, point: DVec2) -> EdgeFoot {
+        let at_end = |is_end: bool| {
+            let (end, share) = if is_end { (self.end, 1.0) } else { (self.start, 0.0) };
+            let (along, rest) = (self.direction_at(is_end), point - end);
+            EdgeFoot { distance: rest.length(), side: along.perp_dot(rest), place: FootPlace::Share(share) }
+        };
+        match self.turn {
+            None => {
+                let along = self.end - self.start;
+                let share = (point - self.start).dot(along) / along.length_squared();
+                // What is not a number is neither.
+                if share <= 0.0 || share >= 1.0 {
+                    return at_end(share >= 1.0);
+                }
+                let rest = point - (self.start + share * along);
+                let side = along.perp_dot(rest) / along.length();
+                EdgeFoot { distance: rest.length(), side, place: FootPlace::Share(share) }
+            }
+            Some(t) => {
+                let out = point - t.centre;
+                let sense = t.sweep.signum();
+                let (first, last) = (self.start - t.centre, self.end - t.centre);
+                let behind = |from: DVec2, to: DVec2| sense * from.perp_dot(to) >= 0.0;
+                // A whole circle ends where it began.
+                let passes = if t.sweep.abs() >= TAU * (1.0 - 1e-12) {
+                    true
+                } else if t.sweep.abs() <= PI {
+                    behind(first, out) && behind(out, last)
+                } else {
+                    !(sense * last.perp_dot(out) > 0.0 && sense * out.perp_dot(first) > 0.0)
+                };
+                if !passes {
+                    let is_end = point.distance_squared(self.start) > point.distance_squared(self.end);
+                    return at_end(is_end);
+                }
+                let beyond = out.length() - t.radius;
+                EdgeFoot { distance: beyond.abs(), side: -sense * beyond, place: FootPlace::Towards(out) }
+            }
+        }
+    }
+
+    /// Unit direction of travel at the start or the end.
+    fn direction_at(&self, is_end: bool) -> DVec2 {
+        match self.turn {
+            None => (self.end - self.start).normalize_or_zero(),
+            Some(t) => {
+                let out = (if is_end { self.end } else { self.start } - t.centre) / t.radius;
+                t.sweep.signum() * out.perp()
+            }
+        }
+    }
+
     /// The points that lie on a circle too, two at most; where they only touch, one, none or two.
     ///
     /// ```
@@ -277,10 +331,51 @@ impl OutlineEdge {
         found.into_iter().flatten()
     }
 
+    /// Its curvature, to the left positive (1/mm).
+    pub(in crate::geom) fn curvature(&self) -> f64 {
+        self.turn.map_or(0.0, |t| t.sweep.signum() / t.radius)
+    }
+
     /// Twice the area between the edge and the origin, counter-clockwise positive [mm2].
     pub(in crate::geom) fn twice_area(&self) -> f64 {
         let triangle = self.start.perp_dot(self.end);
         triangle + self.turn.map_or(0.0, |t| t.radius * t.radius * (t.sweep - t.sweep.sin()))
+    }
+}
+
+/// The place of an edge that is nearest to a point.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct EdgeFoot {
+    /// Distance of the point [mm].
+    pub(super) distance: f64,
+    /// How far the point is beyond it on the side away from the material [mm].
+    pub(super) side: f64,
+    place: FootPlace,
+}
+
+/// A place on an edge.
+#[derive(Clone, Copy, Debug)]
+enum FootPlace {
+    /// At a share of the length.
+    Share(f64),
+    /// Of an arc, in a direction from its centre.
+    Towards(DVec2),
+}
+
+impl EdgeFoot {
+    /// The share of the length at which it is, on its edge.
+    pub(super) fn share(&self, edge: &OutlineEdge) -> f64 {
+        match (self.place, edge.turn) {
+            (FootPlace::Share(share), _) => share,
+            (FootPlace::Towards(out), Some(t)) => {
+                let towards = out.y.atan2(out.x);
+                let gone = if t.sweep > 0.0 { towards - t.from } else { t.from - towards };
+                let share = wrap_positive(gone) / t.sweep.abs();
+                // Within rounding before the start.
+                if share > 1.0 { f64::from(u8::from(share < 0.5 + PI / t.sweep.abs())) } else { share }
+            }
+            (FootPlace::Towards(_), None) => 0.0,
+        }
     }
 }
 

@@ -2,6 +2,7 @@
 
 use glam::DVec2;
 
+use super::edge::EdgeFoot;
 use super::{EdgeBins, OutlineEdge};
 
 /// Edges of an outline, sorted so that the one nearest to a point is found without a look at all of them.
@@ -26,6 +27,9 @@ pub struct NearestEdge {
     bins: EdgeBins,
     rounding: f64,
 }
+
+/// Sum of curvatures at a tip that is none of two straight edges (1/mm).
+const TIP: f64 = 1e-9;
 
 /// The nearest edge to a point.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -55,30 +59,75 @@ impl NearestEdge {
         &self.edges[index]
     }
 
+    /// On which side a point beyond a tip is, where one edge ends and the next goes back along it: outside (1) of a tip of the
+    /// material, inside (-1) of one that is cut into it; nothing where both are straight.
+    fn beyond_tip(&self, edges: [usize; 2]) -> Option<f64> {
+        let apart = edges.map(|edge| self.edges[edge].curvature()).iter().sum::<f64>();
+        (apart.abs() > TIP).then(|| apart.signum())
+    }
+
     /// The nearest edge, if there is one within a distance [mm].
     pub fn at(&self, p: DVec2, within: f64) -> Option<EdgeDistance> {
-        let mut best: Option<(f64, EdgeDistance)> = None;
-        let limit = |best: &Option<(f64, EdgeDistance)>| {
-            best.map_or(within, |(_, found)| found.distance.abs() + self.rounding)
+        let mut best: Option<(usize, EdgeFoot)> = None;
+        let limit = |best: &Option<(usize, EdgeFoot)>| {
+            best.map_or(within, |(_, found)| found.distance + self.rounding)
         };
         self.bins.outwards(p, within, &mut |edge| {
-            let e = &self.edges[edge];
-            let (share, distance) = e.nearest(p);
-            if distance > within {
+            let foot = self.edges[edge].foot(p);
+            if foot.distance > within {
                 return limit(&best);
             }
-            let out = DVec2::from_angle(e.outward(share));
-            let side = out.dot(p - e.at(share));
             // At a corner two edges are as near: the one that sees the point more squarely knows its side.
-            let better = best.is_none_or(|(of, old)| {
-                let (a, b) = (distance, old.distance.abs());
-                a < b - self.rounding || (a <= b + self.rounding && side.abs() > of + self.rounding)
+            let better = best.is_none_or(|(known, old)| {
+                let (a, b) = (foot.distance, old.distance);
+                let more = foot.side.abs() - old.side.abs();
+                if a > b + self.rounding || a < b - self.rounding || more.abs() > self.rounding {
+                    return a < b - self.rounding || (a <= b + self.rounding && more > self.rounding);
+                }
+                // At a tip both see it as squarely, from either side.
+                let is_tip = foot.side * old.side < 0.0 && foot.side.abs() > self.rounding;
+                is_tip && self.beyond_tip([known, edge]).is_some_and(|side| side == foot.side.signum())
             });
             if better {
-                best = Some((side.abs(), EdgeDistance { edge, share, distance: distance.copysign(side) }));
+                best = Some((edge, foot));
             }
             limit(&best)
         });
-        best.map(|(_, found)| found)
+        best.map(|(edge, foot)| {
+            let share = foot.share(&self.edges[edge]);
+            EdgeDistance { edge, share, distance: foot.distance.copysign(foot.side) }
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::f64::consts::TAU;
+
+    use glam::dvec2;
+    use proptest::prelude::*;
+
+    use super::*;
+
+    proptest! {
+        #![proptest_config(kinecut_cases::property(512))]
+        /// The edge found without angles is the one found with them, for lines and for arcs of any sweep.
+        #[test]
+        fn the_nearest_place_is_that_of_angles(
+            x in -20.0..20.0f64, y in -20.0..20.0f64, r in 0.5..12.0f64, from in -4.0..4.0f64, sweep in -TAU..TAU,
+        ) {
+            let p = dvec2(x, y);
+            let line = OutlineEdge::line(dvec2(15.0, 1.0), dvec2(r - 10.0, from));
+            for edge in [OutlineEdge::arc(dvec2(1.0, -2.0), r, from, sweep), line] {
+                let found = NearestEdge::new(&[edge]).at(p, f64::INFINITY).unwrap();
+                let (share, distance) = edge.nearest(p);
+                let side = DVec2::from_angle(edge.outward(share)).dot(p - edge.at(share));
+                prop_assert!((found.distance.abs() - distance).abs() < 1e-9);
+                // From a point at the same distance of both ends either is right.
+                let other = edge.at(found.share).distance(p);
+                prop_assert!((found.share - share).abs() < 1e-6 || (other - distance).abs() < 1e-9);
+                prop_assert!(side.abs() < 1e-9 || (found.share - share).abs() > 1e-6 || (found.distance > 0.0) == (side > 0.0));
+            }
+        }
     }
 }

@@ -7,6 +7,7 @@ use glam::DVec2;
 use super::crossing::first_crossing;
 use super::{OutlineEdge, OutlineLoop};
 use crate::base::{Code, Finding, Result};
+use crate::geom::OffsetLoop;
 
 /// The outline of a face: outer loops clockwise, holes counter-clockwise, so that the material always lies on the
 /// right of the direction of travel. Edges are numbered loop after loop.
@@ -44,6 +45,22 @@ impl Outline {
     /// its ends.
     pub fn new(loops: Vec<Vec<OutlineEdge>>, labels: Vec<String>) -> Result<Outline> {
         Outline::named(loops, labels, &|i| i.to_string())
+    }
+
+    /// The face of loops that were checked as an offset, which has them on its right: edges that are no longer than the rounding
+    /// of offsets are left out, joints are closed, and loops may touch or overlap by that. Nothing is checked again.
+    pub fn of_offset<'a>(loops: impl IntoIterator<Item = &'a OffsetLoop>) -> Outline {
+        let mut outline = Outline { edges: Vec::new(), loops: Vec::new(), labels: Vec::new() };
+        for one in loops {
+            let first = outline.edges.len();
+            outline.edges.extend(one.joined());
+            if outline.edges.len() > first {
+                outline
+                    .loops
+                    .push(OutlineLoop { edges: first..outline.edges.len(), outer: one.area() > 0.0 });
+            }
+        }
+        outline
     }
 
     /// As [`Outline::new`], with words for an edge by its number in messages.

@@ -176,6 +176,74 @@ fn a_slot_as_wide_as_the_cutter_keeps_its_centre_line() {
     assert!(!offset(&slot(5.0), 4.99).unwrap().loops[0].collapsed);
 }
 
+/// An arc that touches the edge after it: the face is the tip between them, or all around it.
+#[test]
+fn a_tip_without_angle_has_its_offset() {
+    let plate = |bulge: f64| {
+        let points = [
+            (dvec2(-60.0, 0.0), 0.0),
+            (dvec2(-20.0, 0.0), bulge),
+            (dvec2(-20.0, 40.0), 0.0),
+            (dvec2(20.0, 0.0), 0.0),
+            (dvec2(60.0, 0.0), 0.0),
+            (dvec2(60.0, 60.0), 0.0),
+            (dvec2(-60.0, 60.0), 0.0),
+        ];
+        let edge = |i: usize| OutlineEdge::bulge(points[i].0, points[(i + 1) % points.len()].0, points[i].1);
+        Outline::new(vec![(0..points.len()).map(edge).collect()], vec![]).unwrap()
+    };
+    // A half circle ends along the line that follows where that goes back: bent to the left or to the right.
+    let horn = |side: f64| {
+        let tip = dvec2(0.0, 20.0);
+        let edges = vec![
+            OutlineEdge::line(dvec2(30.0, 20.0 * side), dvec2(30.0, 40.0 * side)),
+            OutlineEdge::line(dvec2(30.0, 40.0 * side), dvec2(0.0, 40.0 * side)),
+            OutlineEdge::bulge(dvec2(0.0, 40.0 * side), tip * side, side),
+            OutlineEdge::line(tip * side, dvec2(30.0, 20.0 * side)),
+        ];
+        Outline::new(vec![edges], vec![]).unwrap()
+    };
+    for (name, of, near) in [
+        ("plate", plate(-1.0), Some(plate(-0.999_999))),
+        ("horn", horn(1.0), None),
+        ("horn below", horn(-1.0), None),
+    ] {
+        for distance in [-6.0, -1.0, 1.0, 4.0] {
+            for (way, made) in [("library", offset(&of, distance)), ("direct", offset_direct(&of, distance))]
+            {
+                let made = made.unwrap_or_else(|e| panic!("{name} {way} {distance}: {e}"));
+                let other = near.as_ref().map(|near| offset(near, distance).unwrap().area());
+                let off = other.map_or(0.0, |area| (area - made.area()).abs());
+                assert!(off < 0.05, "{name} {way} {distance}: {off}");
+                // Co-area: the area changes by the length.
+                let at = |d: f64| offset(&of, d).unwrap().area();
+                let length = (at(distance - 1e-4) - at(distance + 1e-4)) / 2e-4;
+                assert!(
+                    (length - made.length()).abs() < 1e-2,
+                    "{name} {way} {distance}: {length} {}",
+                    made.length()
+                );
+            }
+        }
+    }
+}
+
+/// A hole whose radius is the distance but for the last digits.
+#[test]
+fn a_hole_as_wide_as_the_cutter_vanishes() {
+    let plate = |radius: f64| {
+        let corners = [dvec2(-20.0, -20.0), dvec2(20.0, -20.0), dvec2(20.0, 20.0), dvec2(-20.0, 20.0)];
+        let hole = vec![OutlineEdge::arc(dvec2(5.0, 3.0), radius, 0.0, TAU)];
+        Outline::new(vec![Outline::polygon(&corners).unwrap().edges().to_vec(), hole], vec![]).unwrap()
+    };
+    for more in [0.0, 4e-16, 2.8e-14, 1e-9, 1e-7, -1e-9] {
+        let made = offset(&plate(2.0 + more), -2.0).unwrap_or_else(|e| panic!("{more}: {e}"));
+        let kept: Vec<_> = made.loops.iter().filter(|l| !l.collapsed && l.length() > 1e-5).collect();
+        assert_eq!(kept.len(), 1, "{more}: {kept:?}");
+    }
+    assert_eq!(wide(&offset(&plate(2.01), -2.0).unwrap()).len(), 2);
+}
+
 #[test]
 fn long_outlines_with_many_islands_are_offset() {
     // 10,000 edges: a wavy ring, and 50 round islands.

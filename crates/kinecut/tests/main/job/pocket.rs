@@ -134,6 +134,33 @@ fn islands_open_sides_and_holes_are_what_they_are() {
 }
 
 #[test]
+fn a_pocket_within_an_island_has_its_own_way_in() {
+    let frame = "outline = { loops = [ [[-36, -36], [36, -36], [36, 36], [-36, 36]], \
+        [[-22, -22], [22, -22], [22, 22], [-22, 22]], { centre = [0, 0], radius = 14 } ] }\ndepth = 5\n";
+    let outcome = cut("fanuc", frame);
+    assert!(outcome.verdict.is_safe(), "{:?}", outcome.verdict.found);
+    assert_eq!(pocket(&outcome)["entries"].as_u64(), Some(2));
+    let area = 72.0 * 72.0 - 44.0 * 44.0 + PI * 14.0 * 14.0;
+    assert!((removed(&outcome) - 5.0 * area).abs() < 0.02 * 5.0 * area, "{}", removed(&outcome));
+}
+
+/// The loop of the cutter's centre has edges that are rounding where an arc of an island nearly touches the wall's own line.
+#[test]
+fn crumbs_of_an_offset_are_no_fault_of_the_drawing() {
+    for radius in [1.599_999_999_999_998, 1.6, 1.600_000_000_000_002] {
+        let keys = format!(
+            "outline = {{ loops = [ [[-59.5, 36.75], [-59.5, -36.75], [59.5, -36.75], [59.5, 36.75]], \
+             {{ centre = [-56.75, -27.0], radius = {radius} }} ] }}\ndepth = 2\n"
+        );
+        let text = job("fanuc", &format!("{POCKET}{keys}")).replacen("diameter = 10", "diameter = 4", 1);
+        let text = text.replace("step = 0.5", "step = 1");
+        let outcome =
+            run("job.toml", &text, &MemoryLoader::default(), &Silent).unwrap_or_else(|e| panic!("{e}"));
+        assert!(outcome.verdict.is_safe(), "{radius}: {:?}", outcome.verdict.found);
+    }
+}
+
+#[test]
 fn a_drilled_hole_is_the_way_in() {
     let drilled = "[[setup.operation]]\ntype = \"drill\"\ntool = 3\nspeed = 1500\nfeed_per_rev = { steady = 0.15 }\n\
         points = [[10, 5]]\n";
