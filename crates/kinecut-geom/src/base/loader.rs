@@ -32,6 +32,11 @@ pub trait Loader: Sync {
         self.read_as(path, kind).map(Cow::Owned)
     }
 
+    /// Unit of the lengths in meshes that do not say theirs [mm].
+    fn mesh_unit(&self) -> f64 {
+        1.0
+    }
+
     /// The text of a job file, a machine file and the like.
     ///
     /// # Errors
@@ -46,6 +51,32 @@ pub trait Loader: Sync {
     /// As [`Loader::read_text`].
     fn read_text_as(&self, path: &str, kind: FileKind) -> Result<String> {
         text_of(path, self.read_as(path, kind)?)
+    }
+}
+
+/// A loader for meshes in a unit of their own.
+pub struct MeshesIn<'a> {
+    /// The loader of the files.
+    pub loader: &'a dyn Loader,
+    /// Unit of the lengths in meshes that do not say theirs [mm].
+    pub unit: f64,
+}
+
+impl Loader for MeshesIn<'_> {
+    fn read_as(&self, path: &str, kind: FileKind) -> Result<Vec<u8>> {
+        self.loader.read_as(path, kind)
+    }
+
+    fn lend_as(&self, path: &str, kind: FileKind) -> Result<Cow<'_, [u8]>> {
+        self.loader.lend_as(path, kind)
+    }
+
+    fn read_text_as(&self, path: &str, kind: FileKind) -> Result<String> {
+        self.loader.read_text_as(path, kind)
+    }
+
+    fn mesh_unit(&self) -> f64 {
+        self.unit
     }
 }
 

@@ -18,7 +18,7 @@ pub use file_kind::FileKind;
 pub use files_read::FilesRead;
 pub use finding::{Error, Finding, Quantity, Result, Severity};
 pub use gate::{CountBound, Sum, bytes_asked};
-pub use loader::{DiskLoader, Loader, MemoryLoader, read_stream, read_text_stream};
+pub use loader::{DiskLoader, Loader, MemoryLoader, MeshesIn, read_stream, read_text_stream};
 pub use progress::{Progress, Silent};
 pub use span::{FileId, Location, Sources, Span};
 pub use text::at_most;

@@ -17,13 +17,21 @@ pub(super) struct Grid {
     point: bool,
     /// Whether a positive number gets its sign.
     plus: bool,
+    /// Unit of the written numbers [mm]; of angles one degree.
+    unit: f64,
 }
 
 /// Largest number written [mm]: a kilometre. Controls read at least six digits before the point.
-const LARGEST: f64 = 999_999.0;
+pub(super) const LARGEST: f64 = 999_999.0;
 
 impl Grid {
+    /// Of coordinates in millimetres, or of angles.
     pub(super) fn new(decimals: u8, resolution: Option<f64>, point: bool) -> Result<Grid> {
+        Grid::in_units(decimals, resolution, point, 1.0)
+    }
+
+    /// Of coordinates in a unit [mm]; the resolution is in mm.
+    pub(super) fn in_units(decimals: u8, resolution: Option<f64>, point: bool, unit: f64) -> Result<Grid> {
         if !(3..=6).contains(&decimals) {
             return Err(Finding::error(Code::POST_NUMBER, "coordinates need 3 to 6 decimals")
                 .value(f64::from(decimals), "decimals")
@@ -34,21 +42,21 @@ impl Grid {
         let multiple = match resolution {
             None => 1.0,
             Some(step) => {
-                let multiple = (step * scale).round();
+                let multiple = (step / unit * scale).round();
                 if !(multiple >= 1.0
                     && step <= COARSEST
-                    && (step * scale - multiple).abs() < EXACT * multiple)
+                    && (step / unit * scale - multiple).abs() < EXACT * multiple)
                 {
                     let finding = Finding::error(
                         Code::POST_NUMBER,
                         "the resolution must be a whole multiple of the last decimal, at most 0.1 mm",
                     );
-                    return Err(finding.value_mm(step).bound_mm(1.0 / scale).into());
+                    return Err(finding.value_mm(step).bound_mm(unit / scale).into());
                 }
                 multiple
             }
         };
-        Ok(Grid { decimals, scale, multiple: multiple as i64, point, plus: false })
+        Ok(Grid { decimals, scale, multiple: multiple as i64, point, plus: false, unit })
     }
 
     /// The same with a sign before every number.
@@ -58,12 +66,12 @@ impl Grid {
 
     /// Least step [mm].
     pub(super) fn unit(&self) -> f64 {
-        self.multiple as f64 / self.scale
+        self.multiple as f64 / self.scale * self.unit
     }
 
     /// The number in steps, not rounded.
     pub(super) fn steps(&self, value: f64) -> f64 {
-        value * self.scale / self.multiple as f64
+        value / self.unit * self.scale / self.multiple as f64
     }
 
     /// The nearest count of steps.
@@ -78,9 +86,19 @@ impl Grid {
             .into())
     }
 
-    /// The double nearest to the decimal number: what a reader gets from [`Grid::word`].
+    /// The double nearest to the decimal number: what a reader gets from [`Grid::word`] [mm].
     pub(super) fn value(&self, count: i64) -> f64 {
+        self.written(count) * self.unit
+    }
+
+    /// The double nearest to the decimal number, in the unit of the text.
+    pub(super) fn written(&self, count: i64) -> f64 {
         (count * self.multiple) as f64 / self.scale
+    }
+
+    /// A length that is no coordinate [mm], in the unit of the text, with seven significant digits.
+    pub(super) fn length(&self, value: f64) -> String {
+        plain(value / self.unit)
     }
 
     /// The number alone.

@@ -46,5 +46,5 @@ pub use kept::Kept;
 pub use linuxcnc::parameters::{Parameters, parameters};
 pub use linuxcnc::tool_table::{TableTool, tool_table};
 pub use read::{NumberInput, ReadSettings, Reading, called, read, read_source};
-pub use settings::{PostNotes, PostSettings, Posted};
+pub use settings::{PostNotes, PostSettings, Posted, Units};
 pub use write::write;

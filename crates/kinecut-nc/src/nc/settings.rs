@@ -4,11 +4,63 @@ use std::sync::Arc;
 
 use super::Control;
 
+/// Unit of the lengths in a text, and of its feeds.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Units {
+    /// Millimetres, mm/min, mm/rev.
+    #[default]
+    Millimetres,
+    /// Inches, in/min, in/rev; HEIDENHAIN's feeds are tenths of an inch in a minute.
+    Inches,
+}
+
+impl Units {
+    /// Millimetres of one: 1 or 25.4.
+    ///
+    /// ```
+    /// assert_eq!(kinecut_nc::nc::Units::Inches.mm(), 25.4);
+    /// ```
+    pub fn mm(self) -> f64 {
+        match self {
+            Units::Millimetres => 1.0,
+            Units::Inches => 25.4,
+        }
+    }
+
+    /// Its sign: `mm` or `in`.
+    pub fn sign(self) -> &'static str {
+        match self {
+            Units::Millimetres => "mm",
+            Units::Inches => "in",
+        }
+    }
+
+    /// A block that says millimetres (`G21`, `G710`), with the word of this unit.
+    pub(super) fn said_in(self, block: &str) -> String {
+        if !self.is_inch() {
+            return block.to_owned();
+        }
+        let word = |word| match word {
+            "G21" => "G20",
+            "G710" => "G700",
+            other => other,
+        };
+        block.split(' ').map(word).collect::<Vec<_>>().join(" ")
+    }
+
+    /// Whether numbers are inches.
+    pub fn is_inch(self) -> bool {
+        self == Units::Inches
+    }
+}
+
 /// Settings for writing a program.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PostSettings {
     /// The control.
     pub control: Control,
+    /// Unit of the text's lengths and feeds; everything else here is in mm.
+    pub units: Units,
     /// Decimals of coordinates, 3 to 6.
     pub decimals: u8,
     /// Whether blocks are numbered.
@@ -36,7 +88,7 @@ pub struct PostSettings {
     pub program_number: u32,
     /// Template of the blocks that put the control into a known state, in place of the built-in ones.
     ///
-    /// Variables: `program_name`, `program_number`, `control`, `units` ("mm"), `decimals`, `offsets` (work offsets in
+    /// Variables: `program_name`, `program_number`, `control`, `units` ("mm" or "in"), `decimals`, `offsets` (work offsets in
     /// the order of use), `offset` (the first), `tools` (in the order of use: `number`, `name`, `diameter`, `length` or
     /// none), `version`. Syntax of Jinja; a name that does not exist is an error.
     pub start_template: Option<String>,
@@ -50,6 +102,18 @@ pub struct PostSettings {
 }
 
 impl PostSettings {
+    /// The settings that are usual on a control, in a unit: numbers in inches have one more decimal.
+    ///
+    /// ```
+    /// use kinecut_nc::nc::{Control, PostSettings, Units};
+    /// let decimals = |control| PostSettings::in_units(control, Units::Inches).decimals;
+    /// assert_eq!((decimals(Control::Fanuc), decimals(Control::Heidenhain)), (4, 5));
+    /// ```
+    pub fn in_units(control: Control, units: Units) -> PostSettings {
+        let decimals = control.usual_decimals() + u8::from(units.is_inch());
+        PostSettings { units, decimals, ..PostSettings::new(control) }
+    }
+
     /// Half a micrometre: below what a machine can follow, and with the rounding of the points still below 1 um.
     pub const ARC_TOLERANCE: f64 = 0.0005;
 
@@ -57,10 +121,11 @@ impl PostSettings {
     /// rest.
     pub const CHORD_TOLERANCE: f64 = 0.005;
 
-    /// The settings that are usual on a control.
+    /// The settings that are usual on a control, in millimetres.
     pub fn new(control: Control) -> PostSettings {
         PostSettings {
             control,
+            units: Units::Millimetres,
             decimals: control.usual_decimals(),
             resolution: None,
             block_numbers: matches!(control, Control::Sinumerik840d | Control::Heidenhain),

@@ -16,6 +16,7 @@ pub(crate) mod following;
 mod forms;
 pub(crate) mod held_feed;
 mod holes;
+mod inches;
 pub mod inspect;
 pub(crate) mod items;
 mod lacking;

@@ -10,6 +10,7 @@ use crate::operations::{
     Attempt, Clamping, MadeHole, Milling, Operation, OperationPlan, Pen, PlacedMouth, PlacedPlane, Setting,
     WearRegister,
 };
+use crate::page::inches;
 use crate::program::{
     Coolant, Frame, FrameId, Move, Origin, Path, Program, Role, SetupId, Speed, Spindle, State, StopKind,
     Target, ToolNumber,
@@ -208,7 +209,11 @@ impl<'a> Writer<'a> {
         self.tilt(milling, origin)?;
         let hand = if operation.is_left_hand() { Hand::Left } else { Hand::Right };
         self.state.spindle = Spindle::turning(hand, milling.spindle);
-        self.program.push_text(operation.name().to_uppercase(), &self.state, origin);
+        let name = match self.job.post.units.is_inch() {
+            true => inches::name(&operation.name()),
+            false => operation.name(),
+        };
+        self.program.push_text(name.to_uppercase(), &self.state, origin);
         let (program, state, lowered) = (&mut self.program, &mut self.state, &mut self.lowered);
         plan.write(&mut Pen { program, state, origin, retract: self.retract, lowered, setting })?;
         self.turned_axes |= plan.leaves_axes_turned();

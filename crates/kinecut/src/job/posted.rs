@@ -2,6 +2,7 @@
 
 use super::JobText;
 use super::check::{Job, check};
+use super::inches::error_in_its_units;
 use super::plan::plan;
 use super::run::{head_line, post_all, stem, still_wanted};
 use super::setup_outcome::SetupOutcome;
@@ -12,6 +13,15 @@ use crate::base::{Error, Loader, Progress, Result, Sources};
 /// # Errors
 /// Those of [`run`](super::run()) before it cuts.
 pub(crate) fn posted(
+    name: &str,
+    text: &str,
+    loader: &dyn Loader,
+    progress: &dyn Progress,
+) -> Result<(Job, Vec<SetupOutcome>)> {
+    posted_text(name, text, loader, progress).map_err(|e| error_in_its_units(text, e))
+}
+
+fn posted_text(
     name: &str,
     text: &str,
     loader: &dyn Loader,

@@ -10,6 +10,7 @@ use toml::de::{DeTable, DeValue, Deserializer};
 
 use super::cutting::ShopTable;
 use super::file::{HoleTable, JobFile, MachineEntry, MachineTable, OperationEntry};
+use super::forms::InMm;
 use super::holes::expand;
 use super::library::Shop;
 use super::places::{Places, parse, span};
@@ -42,11 +43,14 @@ impl JobText {
 
     fn read_with_files(sources: &mut Sources, id: FileId, loader: &dyn Loader) -> Result<JobText> {
         let text = sources.text(id).to_owned();
+        let (in_mm, machine_in_mm, machine_text);
         let mut root = parse(sources, id, &text)?;
         let mut places = Places::of(id, &root);
         if let Some(error) = too_long::<JobFile>(sources, id, &root) {
             return Err(error);
         }
+        in_mm = InMm::of::<JobFile>(&mut root);
+        in_mm.put_into::<JobFile>(&mut root);
         let whole = root.span();
         // Whatever is wrong with a part is said of the whole text, with all that it lacks.
         let wrong = |e: &toml::de::Error| wrong_table::<JobFile>(sources, id, &whole, e);
@@ -71,11 +75,14 @@ impl JobText {
             None => None,
             Some((_, DeValue::String(name))) => {
                 let name = name.into_owned();
-                let text = loader.read_text(&name).map_err(|e| places.locate(sources, e.under("machine")))?;
+                machine_text =
+                    loader.read_text(&name).map_err(|e| places.locate(sources, e.under("machine")))?;
                 let file_name = name.clone();
-                let machine_id = sources.add(name, text.clone());
-                let table = parse(sources, machine_id, &text)?;
+                let machine_id = sources.add(name, machine_text.clone());
+                let mut table = parse(sources, machine_id, &machine_text)?;
                 places.include("machine", machine_id, &table);
+                machine_in_mm = InMm::of::<MachineTable>(&mut table);
+                machine_in_mm.put_into::<MachineTable>(&mut table);
                 let mut table = decode::<MachineTable>(sources, machine_id, table)?;
                 in_folder_of(&file_name, &mut table);
                 Some(MachineEntry::Table(Box::new(table)))

@@ -16,6 +16,7 @@ use super::contacts;
 use super::external::{GivenJob, external_setup};
 use super::facets::facets_note;
 use super::following::{LinePlaces, line_place, trace_options};
+use super::inches::{InInches, error_in_its_units};
 use super::measure::{self, Measured, loose_cores, tallies};
 use super::outcome::Outcome;
 use super::part_surface::part_surface;
@@ -53,6 +54,16 @@ pub struct RunWants {
 /// # Errors
 /// As [`run`]; `KC0103` for a setting out of range.
 pub fn run_with(
+    name: &str,
+    text: &str,
+    wants: &RunWants,
+    loader: &dyn Loader,
+    progress: &dyn Progress,
+) -> Result<Outcome> {
+    run_text(name, text, wants, loader, progress).map_err(|e| error_in_its_units(text, e))
+}
+
+fn run_text(
     name: &str,
     text: &str,
     wants: &RunWants,
@@ -151,8 +162,23 @@ pub(crate) fn run_checked(
     }
     let files: Vec<String> = setups.iter().map(|s| s.file.clone()).collect();
     let scope = scope(&job, &setups, &simulation, &deviation);
-    let verdict = Verdict::new(subjects, &files, scope, proven, found, unchecked.groups())
-        .ensuring(to_ensure(&job, &setups, &simulation));
+    let mut unchecked = unchecked.groups();
+    let mut ensured = to_ensure(&job, &setups, &simulation);
+    if job.units.is_inch() {
+        let inches = InInches::of(Some(&job));
+        found.iter_mut().for_each(|finding| inches.finding(finding));
+        proven.iter_mut().for_each(|proof| {
+            inches.text(&mut proof.claim);
+            inches.text(&mut proof.bound);
+        });
+        unchecked.iter_mut().flat_map(|group| &mut group.items).for_each(|item| inches.text(&mut item.what));
+        ensured.iter_mut().for_each(|item| {
+            inches.text(&mut item.what);
+            inches.text(&mut item.value);
+            item.room.iter_mut().for_each(|room| inches.text(room));
+        });
+    }
+    let verdict = Verdict::new(subjects, &files, scope, proven, found, unchecked).ensuring(ensured);
     Ok(Outcome {
         job_file: name.to_owned(),
         job,

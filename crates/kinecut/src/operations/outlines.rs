@@ -137,7 +137,17 @@ impl OutlineKeys<'_> {
     }
 }
 
+/// Distance of the arcs of a spline or an ellipse from it [mm]: a wall is cut along them.
+const CURVE_TOLERANCE: f64 = 0.001;
+
 impl Drawn<'_> {
+    /// The unit of a mesh, which does not say it, in a job that is in inches.
+    fn unit_of_mesh(&self, loader: &dyn Loader) -> Option<LengthUnit> {
+        let OutlineEntry::Name(name) = self.outline else { return None };
+        let is_mesh = FileKind::of_outline(name) == FileKind::Mesh;
+        (is_mesh && loader.mesh_unit() == LengthUnit::Inch.mm()).then_some(LengthUnit::Inch)
+    }
+
     /// The outline, turned and moved to its place.
     ///
     /// # Errors
@@ -145,9 +155,10 @@ impl Drawn<'_> {
     pub(crate) fn read(self, loader: &dyn Loader) -> Result<OutlineRead> {
         let under = |e: Error| e.under("outline");
         let options = OutlineOptions {
-            unit: self.unit,
+            unit: self.unit.or_else(|| self.unit_of_mesh(loader)),
             layers: self.layers.unwrap_or_default().to_vec(),
             snap: length("snap", self.snap.unwrap_or(OutlineOptions::default().snap), 0.0, 10.0)?,
+            curve_tolerance: CURVE_TOLERANCE,
             ..OutlineOptions::default()
         };
         let read = match self.outline {

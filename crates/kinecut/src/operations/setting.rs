@@ -137,7 +137,8 @@ impl Setting<'_> {
 
     /// Least step of the control's coordinates [mm].
     pub(crate) fn resolution(&self) -> f64 {
-        self.post.resolution.unwrap_or(self.post.control.resolution(self.post.decimals))
+        let last = self.post.units.mm() * self.post.control.resolution(self.post.decimals);
+        self.post.resolution.unwrap_or(last)
     }
 }
 

@@ -6,6 +6,7 @@ pub(crate) mod chart;
 pub(crate) mod draw;
 pub(crate) mod drawing;
 mod fact;
+pub(crate) mod inches;
 pub(crate) mod picture;
 pub(crate) mod plan;
 mod section;

@@ -15,6 +15,7 @@ use crate::base::Result;
 use crate::geom::{Arc, Curve};
 use crate::nc::arc_fit::fit;
 use crate::nc::dialect::{OFFSETS, Plane};
+use crate::nc::grid::LARGEST;
 use crate::program::Speed;
 
 use super::{Writer, unsupported};
@@ -127,17 +128,18 @@ impl Writer<'_> {
         if (self.klartext() || self.turned_plane_only()) && plane != Plane::Xy {
             return self.arc_as_chords(arc, point, speed);
         }
-        let end = point.to_array();
+        let (end, exact_centre) = (point.to_array(), arc.centre.to_array());
         let start = [self.written(a)?, self.written(b)?];
         let goal = [self.grid.round(end[a])? - start[0], self.grid.round(end[b])? - start[1]];
-        let exact = arc.centre.to_array();
         let centre = DVec2::new(
-            self.grid.steps(exact[a]) - start[0] as f64,
-            self.grid.steps(exact[b]) - start[1] as f64,
+            self.grid.steps(exact_centre[a]) - start[0] as f64,
+            self.grid.steps(exact_centre[b]) - start[1] as f64,
         );
         let least = LEAST_RADIUS.max(self.grid.steps(LEAST_RADIUS_MM));
         let level = self.grid.round(end[normal])? == self.written(normal)?;
-        if self.klartext() && !level {
+        // No number of the control reaches so far.
+        let far = exact_centre[a].abs().max(exact_centre[b].abs()).max(arc.radius()) > LARGEST;
+        if self.klartext() && !level && !far {
             return self.polar_arc(arc, sweep, least, point, speed);
         }
         let (centre, turns) = match round(goal, centre, sweep, least) {
@@ -145,14 +147,8 @@ impl Writer<'_> {
                 self.notes.straightened += 1;
                 return self.line(end, speed);
             }
-            Rounded::Chords => {
-                self.notes.straightened += 1;
-                let curve = Curve::from(*arc);
-                if arc.radius() > 0.0 && curve.length() > CHORD * self.grid.unit() {
-                    self.chords(&curve, CHORD * self.grid.unit(), speed)?;
-                }
-                return self.line(end, speed);
-            }
+            Rounded::Chords => return self.flat_arc(arc, point, speed),
+            Rounded::Arc { .. } | Rounded::Split { .. } if far => return self.flat_arc(arc, point, speed),
             // This control counts turns only on a helix, or not at all.
             Rounded::Arc { turns, .. }
                 if turns > 0 && (self.dialect.turns.is_none() || level && !self.dialect.turns_in_plane) =>
@@ -171,6 +167,16 @@ impl Writer<'_> {
         };
         let word = if sweep >= 0.0 { "G3" } else { "G2" };
         self.arc_block(plane, word, end, centre, turns, speed)
+    }
+
+    /// An arc that no arc of the control is near to, as lines.
+    pub(super) fn flat_arc(&mut self, arc: &Arc, point: DVec3, speed: Speed) -> Result<()> {
+        self.notes.straightened += 1;
+        let curve = Curve::from(*arc);
+        if arc.radius() > 0.0 && curve.length() > CHORD * self.grid.unit() {
+            self.chords(&curve, CHORD * self.grid.unit(), speed)?;
+        }
+        self.line(point.to_array(), speed)
     }
 
     /// An arc outside the planes of the control, as lines.

@@ -58,11 +58,11 @@ impl Writer<'_> {
             .iter()
             .map(|a| match *a {
                 Argument::Out => None,
-                Argument::Steps(count) => Some(self.grid.value(count)),
+                Argument::Steps(count) => Some(self.grid.written(count)),
                 Argument::Number(value) => plain(value).parse().ok(),
             })
             .collect();
-        let Ok(read) = call.read(&values, 1.0, None) else { return Ok(false) };
+        let Ok(read) = call.read(&values, self.settings.units.mm(), None) else { return Ok(false) };
         if read.disputed.is_some() || !self.same_moves(steps, &read.cycle) {
             return Ok(false);
         }
@@ -123,6 +123,7 @@ impl Writer<'_> {
             Cycle::Tap(Tapping { reference, bottom, retract, pitch, hand }) => {
                 let [top, low, up] = self.on_grid([reference, bottom, retract])?;
                 let surface = surface(top, low);
+                let pitch = pitch / self.settings.units.mm();
                 let (after, pitch) = if hand == Hand::Right { (3.0, pitch) } else { (4.0, -pitch) };
                 let speed = Number(spindle.rate() / TAU * 60.0);
                 let mut arguments = vec![Steps(up), Steps(surface), Steps(top - surface), Steps(low)];

@@ -7,7 +7,6 @@ use glam::DVec3;
 
 use crate::base::{Code, Finding, Result};
 use crate::nc::dialect::{CompWord, Plane};
-use crate::nc::grid::plain;
 use crate::program::{Comp, Move, Path, State};
 
 use super::{Writer, unsupported};
@@ -96,7 +95,7 @@ impl Writer<'_> {
                 Err(refused("D0 is no radius register").value(0.0, "").bound(1.0, "").into())
             }
             CompWord::Register | CompWord::ModalRegister => Ok(match self.own_radius(register)? {
-                Some(radius) => format!("{word}.1 D{}", plain(2.0 * radius)),
+                Some(radius) => format!("{word}.1 D{}", self.grid.length(2.0 * radius)),
                 None => format!("{word} D{register}"),
             }),
         }

@@ -93,10 +93,10 @@ impl Writer<'_> {
             }
             ControlData::Orient { degrees: 0.0, way: 0, .. } if fanuc => "M19".to_owned(),
             ControlData::Length { register, offset } if linuxcnc => {
-                format!("G10 L1 P{register}{}", plain_words(offset))
+                format!("G10 L1 P{register}{}", self.length_words(offset))
             }
             ControlData::Radius { register, radius } if linuxcnc => {
-                format!("G10 L1 P{register} R{}", plain(radius))
+                format!("G10 L1 P{register} R{}", self.grid.length(radius))
             }
             ControlData::Length { register, offset: [None, None, Some(length)] } if fanuc => {
                 format!("G10 L10 P{register} R{}", self.word_number(length))
@@ -160,7 +160,7 @@ impl Writer<'_> {
             before => self.length_blocks(before, behind)?,
         };
         if own.set != [None; 3] {
-            blocks.push(format!("G43.1{}", plain_words(own.set)));
+            blocks.push(format!("G43.1{}", self.length_words(own.set)));
         }
         if let Some(register) = own.add {
             blocks.push(format!("G43.2 H{register}"));
@@ -186,18 +186,18 @@ impl Writer<'_> {
     }
 
     fn word_number(&self, value: f64) -> String {
-        let mut number = plain(value);
+        let mut number = self.grid.length(value);
         if self.dialect.point && !number.contains('.') {
             number.push('.');
         }
         number
     }
-}
 
-/// Words of the axes that are said, with all digits.
-fn plain_words(values: [Option<f64>; 3]) -> String {
-    let words = AXES.iter().zip(values);
-    words.filter_map(|(axis, value)| Some(format!(" {axis}{}", plain(value?)))).collect()
+    /// Words of the axes that are said, with all digits.
+    fn length_words(&self, values: [Option<f64>; 3]) -> String {
+        let words = AXES.iter().zip(values);
+        words.filter_map(|(axis, value)| Some(format!(" {axis}{}", self.grid.length(value?)))).collect()
+    }
 }
 
 fn cannot(what: &str) -> Finding {

@@ -84,7 +84,8 @@ pub fn write(program: &Program, tools: &[Tool], settings: &PostSettings) -> Resu
             .help("leave `cubic` out")
             .into());
     }
-    let grid = Grid::new(settings.decimals, settings.resolution, dialect.point)?;
+    let unit = settings.units.mm();
+    let grid = Grid::in_units(settings.decimals, settings.resolution, dialect.point, unit)?;
     let supported = turn::supported(program, settings, dialect, &grid)?;
     let (program, turns, planes) = match &supported {
         Some(said) => (&said.program, said.turns.as_slice(), said.planes.as_slice()),
@@ -247,9 +248,10 @@ impl Writer<'_> {
             .collect();
         for number in used {
             let about = tools.iter().find(|t| t.number == number).map_or_else(String::new, |t| {
-                let length = t.gauge_length.map_or_else(String::new, |l| format!(", length {l}"));
-                // That of a cone is worked out: without the rounding of its tangent.
-                let diameter = (t.cutter.diameter(t.flute_length) * 1e6).round() / 1e6;
+                // Without the rounding of a cone's tangent, and of inches.
+                let shown = |length: f64| (length / settings.units.mm() * 1e6).round() / 1e6;
+                let length = t.gauge_length.map_or_else(String::new, |l| format!(", length {}", shown(l)));
+                let diameter = shown(t.cutter.diameter(t.flute_length));
                 format!(" {}, diameter {diameter}{length}", t.name)
             });
             self.comment(&format!("{number}{about}"));
@@ -262,7 +264,7 @@ impl Writer<'_> {
         match &settings.start_template {
             None => {
                 for block in self.dialect.start {
-                    self.page.block((*block).to_owned());
+                    self.page.block(settings.units.said_in(block));
                 }
                 self.modal.start();
                 Ok(())

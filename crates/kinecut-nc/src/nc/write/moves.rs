@@ -99,6 +99,7 @@ impl Writer<'_> {
         if axes.is_empty() {
             return Ok(());
         }
+        self.of_length(&axes, state.speed)?;
         if joints[0].is_some() != joints[1].is_some() && self.modal.placed_in.is_some_and(|p| p.1.ticks != 0)
         {
             // Both coordinates of a turned frame change.
@@ -129,6 +130,18 @@ impl Writer<'_> {
         }
         self.page.block(block);
         Ok(())
+    }
+
+    /// Refuses a feed per minute of rotary axes alone in a program in inches: controls take it in degrees, or as if degrees were
+    /// inches.
+    fn of_length(&self, axes: &str, speed: Speed) -> Result<()> {
+        let alone = !axes.contains(['X', 'Y', 'Z']);
+        if !(alone && self.settings.units.is_inch() && matches!(speed, Speed::PerMinute(_))) {
+            return Ok(());
+        }
+        Err(unsupported("rotary axes alone turn at a feed per minute, which is not written in inches")
+            .help("post the program in millimetres, or turn them in rapid or in inverse time")
+            .into())
     }
 
     /// The words that a move in the frame of the program needs before it.
@@ -237,6 +250,7 @@ impl Writer<'_> {
         if axes.is_empty() {
             return Ok(());
         }
+        self.of_length(&axes, speed)?;
         let speed = self.timed(speed, self.straight_length(before));
         if self.klartext() {
             return self.klartext_line(&axes, speed);

@@ -59,7 +59,8 @@ impl Writer<'_> {
         let start = self.grid.value(1) * (offset[0] as f64).hypot(offset[1] as f64);
         let end = (point.truncate() - centre).length();
         // Nearer to the bound than its rounding the control could refuse it.
-        let bound = self.dialect.mismatch.bound(start, end, false) - 4.0 * self.grid.unit();
+        let bound =
+            self.dialect.mismatch.bound(start, end, self.settings.units.is_inch()) - 4.0 * self.grid.unit();
         Ok(((start - end).abs() <= bound).then_some((offset, sweep > 0.0)))
     }
 }

@@ -114,8 +114,8 @@ impl Writer<'_> {
                 let Some([before, after]) = self.dialect.rounded else {
                     return Err(unsupported("this control has no tolerance of a continuous path").into());
                 };
-                let merge = if self.dialect.merges { plain(merge) } else { String::new() };
-                format!("{before}{}{after}{merge}", plain(path))
+                let merge = if self.dialect.merges { self.grid.length(merge) } else { String::new() };
+                format!("{before}{}{after}{merge}", self.grid.length(path))
             }
         }))
     }
@@ -173,6 +173,12 @@ impl Writer<'_> {
         Ok(Some(word.to_owned()))
     }
 
+    /// Unit of a written feed per minute [mm/min]: on HEIDENHAIN tenths of an inch, for its resolution.
+    pub(super) fn feed_unit(&self) -> f64 {
+        let units = self.settings.units;
+        if units.is_inch() && self.klartext() { 0.1 * units.mm() } else { units.mm() }
+    }
+
     /// The feed word of a block, and the word of its mode when that changes.
     pub(super) fn feed_words(&mut self, speed: Speed) -> Result<(Option<&'static str>, Option<String>)> {
         let (mode, value, unit) = match speed {
@@ -186,7 +192,11 @@ impl Writer<'_> {
             let finding = unsupported(format!("{title} has no feed per revolution"));
             return Err(finding.help("give the feed per minute").into());
         }
-        let mut word = plain(value);
+        let mut word = match speed {
+            Speed::PerMinute(_) => plain(value / self.feed_unit()),
+            Speed::PerRevolution(_) => self.grid.length(value),
+            _ => plain(value),
+        };
         if self.dialect.point && !word.contains('.') {
             word.push('.');
         }

@@ -57,8 +57,8 @@ impl Writer<'_> {
     pub(super) fn thread_on_grid(&self, tapping: &Tapping) -> Result<(Tapping, [i64; 3], String)> {
         let counts = self.on_grid([tapping.reference, tapping.bottom, tapping.retract])?;
         let [reference, bottom, retract] = counts.map(|c| self.grid.value(c));
-        let pitch = plain(tapping.pitch);
-        let read = pitch.parse().unwrap_or(0.0);
+        let pitch = self.grid.length(tapping.pitch);
+        let read = pitch.parse::<f64>().unwrap_or(0.0) * self.settings.units.mm();
         Ok((Tapping { reference, bottom, retract, pitch: read, ..*tapping }, counts, pitch))
     }
 

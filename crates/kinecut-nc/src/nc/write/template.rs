@@ -92,8 +92,8 @@ fn context<'a>(program: &Program, tools: &'a [Tool], settings: &'a PostSettings)
         About {
             number: number.0,
             name: tool.map_or("", |t| t.name.as_str()),
-            diameter: tool.map(|t| t.cutter.diameter(t.flute_length)),
-            length: tool.and_then(|t| t.gauge_length),
+            diameter: tool.map(|t| t.cutter.diameter(t.flute_length) / settings.units.mm()),
+            length: tool.and_then(|t| t.gauge_length).map(|length| length / settings.units.mm()),
         }
     };
     Context {
@@ -101,7 +101,7 @@ fn context<'a>(program: &Program, tools: &'a [Tool], settings: &'a PostSettings)
         program_number: settings.program_number,
         control: settings.control.name(),
         version: crate::VERSION,
-        units: "mm",
+        units: settings.units.sign(),
         decimals: settings.decimals,
         offset: offsets.first().cloned().unwrap_or_default(),
         offsets,
@@ -251,13 +251,20 @@ fn check(lines: &[String], part: TemplatePart, settings: &PostSettings) -> Resul
         let place = e.0.place.as_ref().map_or(0, |p| p.line);
         Error(Box::new(bad(&format!("line {place} of its result: {}", e.0.message))))
     })?;
+    let inches = settings.units.is_inch();
     let wrong = match (part, left) {
         (_, Left { tape: true, .. }) => "a line with % ends the program",
         (TemplatePart::End, Left { ended: false, .. }) => "it does not end the program (M30)",
         (TemplatePart::Start, Left { ended: true, .. }) => "it ends the program",
         (TemplatePart::Start, Left { absolute: false, .. }) => "it leaves the control in increments (G91)",
-        (TemplatePart::Start, Left { inch: true, .. }) => "it leaves the control in inches",
+        (TemplatePart::Start, Left { units_said: false, .. }) if inches => {
+            "it does not say the units (G20, G700)"
+        }
         (TemplatePart::Start, Left { units_said: false, .. }) => "it does not say the units (G21, G710)",
+        (TemplatePart::Start, Left { inch: true, .. }) if !inches => "it leaves the control in inches",
+        (TemplatePart::Start, Left { inch: false, .. }) if inches => {
+            "it leaves the control in millimetres, and the program is in inches"
+        }
         (TemplatePart::Start, Left { centre_absolute: true, .. }) => {
             "it leaves the centres of arcs absolute (G90.1)"
         }

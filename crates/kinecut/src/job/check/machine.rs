@@ -8,7 +8,7 @@ use super::control::control;
 use super::joint::{axis, linear_axes, travel, usual_letters};
 use super::setup::rotation;
 use crate::base::bounded::text;
-use crate::base::{Code, Error, Finding, Loader, Result};
+use crate::base::{Code, Error, Finding, Loader, MeshesIn, Result};
 use crate::geom::Rigid;
 use crate::job::file::{AxisTable, FrameTable, MachineTable, SpindleTable};
 use crate::machine::{CoordinateCode, Elementary, Machine, OwnCode};
@@ -79,7 +79,8 @@ pub(crate) fn machine(t: &MachineTable, loader: &dyn Loader) -> Result<Machine> 
         machine.work = frame(table)?;
     }
     independent(&machine)?;
-    machine.bodies = super::body::bodies(&t.bodies, &machine, loader)?.into();
+    let unit = t.units.map_or(loader.mesh_unit(), |units| units.units().mm());
+    machine.bodies = super::body::bodies(&t.bodies, &machine, &MeshesIn { loader, unit })?.into();
     machine.check()?;
     Ok(machine)
 }

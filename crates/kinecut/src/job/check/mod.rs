@@ -30,12 +30,12 @@ use feed_limit::feed_limit;
 use super::cutting::TakenData;
 use super::file::{DrilledTable, JobFile, MachineEntry, StockTable};
 use crate::base::bounded::{MAX_LENGTH, length, positive, text};
-use crate::base::{Code, Finding, Loader, Result};
+use crate::base::{Code, Finding, Loader, MeshesIn, Result};
 use crate::geom::{Aabb, Solid, load_mesh};
 use crate::job::part_surface::PartSurface;
 use crate::machine::Machine;
 use crate::motion::AxisLimit;
-use crate::nc::{Control, PostSettings};
+use crate::nc::{Control, PostSettings, Units};
 use crate::operations::{Clamping, Drilled, Operation, OrientationName};
 use crate::stock::surface::SurfaceOptions;
 use crate::tool::Tool;
@@ -45,6 +45,8 @@ use crate::tool::Tool;
 pub struct Job {
     /// Title.
     pub title: String,
+    /// Unit of the job's own lengths, in which its messages and report are; all else here is in mm.
+    pub units: Units,
     /// Settings for writing the program.
     pub post: PostSettings,
     /// Form in which the program gives the directions of its tool.
@@ -135,6 +137,7 @@ pub fn check(file: &JobFile, name: &str, loader: &dyn Loader) -> Result<Job> {
             .into());
     }
     numbers::within(file)?;
+    let loader = &MeshesIn { loader, unit: file.units.unwrap_or_default().units().mm() };
     let stock = stock(&file.stock, loader).map_err(|e| e.under("stock"))?;
     text("material", file.material.as_deref().unwrap_or_default())?;
     let holders = super::file::holders(&file.holders)?;
@@ -185,6 +188,7 @@ pub fn check(file: &JobFile, name: &str, loader: &dyn Loader) -> Result<Job> {
     }
     Ok(Job {
         title: text("title", file.title.as_deref().unwrap_or(name))?,
+        units: file.units.unwrap_or_default().units(),
         post: post(file, name, loader)?,
         orientation: said.0,
         feed_limit: feed_limit(file.post.feeds, machine.as_ref())?,
@@ -231,7 +235,8 @@ fn orientation(said: Option<OrientationName>, control: Control) -> Result<Orient
 fn post(file: &JobFile, name: &str, loader: &dyn Loader) -> Result<PostSettings> {
     let post = &file.post;
     let control = Control::parse(&post.control).map_err(|e| e.under("post.control"))?;
-    let mut settings = PostSettings::new(control);
+    let units = post.units.or(file.units).unwrap_or_default().units();
+    let mut settings = PostSettings::in_units(control, units);
     if let Some(decimals) = post.decimals {
         if !(3..=6).contains(&decimals) {
             return Err(Finding::error(Code::JOB_VALUE, "the decimals of coordinates are out of range")
@@ -257,7 +262,7 @@ fn post(file: &JobFile, name: &str, loader: &dyn Loader) -> Result<PostSettings>
             .into());
     }
     if let Some(step) = post.resolution {
-        let last = 10f64.powi(-i32::from(settings.decimals));
+        let last = units.mm() * 10f64.powi(-i32::from(settings.decimals));
         let steps = length("post.resolution", step, 1e-6, 0.1)? / last;
         /// A multiple but for rounding of the decimal number.
         const EXACT: f64 = 1e-6;

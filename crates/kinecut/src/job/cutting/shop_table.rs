@@ -3,6 +3,7 @@
 use crate::base::{Code, Finding, Loader, Result, Sources};
 use crate::cutting::{EdgeMaterial, Material, StartCut};
 use crate::job::file::{CuttingFileTable, CuttingRow, CuttingTool, EdgeName, JobFile, ToolTable};
+use crate::job::forms::InMm;
 use crate::job::places::{Places, parse};
 use crate::job::read::decode;
 use crate::operations::plain_name;
@@ -41,8 +42,10 @@ impl ShopTable {
         let Some(name) = &file.cutting else { return Ok(ShopTable::default()) };
         let text = loader.read_text(name).map_err(|e| places.locate(sources, e.under("cutting")))?;
         let id = sources.add(name.clone(), text.strip_prefix('\u{feff}').unwrap_or(&text).to_owned());
-        let root = parse(sources, id, sources.text(id))?;
+        let mut root = parse(sources, id, sources.text(id))?;
         let own = Places::of(id, &root);
+        let in_mm = InMm::of::<CuttingFileTable>(&mut root);
+        in_mm.put_into::<CuttingFileTable>(&mut root);
         let table: CuttingFileTable = decode(sources, id, root)?;
         if table.rows.len() > MOST_ROWS {
             let finding = Finding::error(Code::JOB_VALUE, "a file of cutting data has too many rows");

@@ -349,6 +349,7 @@ pub fn given_alone(program: GivenFile<'_>, wants: &ProgramWants, needs_stock: bo
     });
     let file = JobFile {
         format: 1,
+        units: None,
         title: Some(title(program.name)),
         material: None,
         libraries: None,

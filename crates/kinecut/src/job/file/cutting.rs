@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::EdgeName;
+use super::{EdgeName, UnitsName};
 use crate::base::Result;
 use crate::base::bounded::{positive, text};
 
@@ -11,6 +11,9 @@ use crate::base::bounded::{positive, text};
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct CuttingFileTable {
+    /// Unit of its lengths: "mm", or "in" for inches, with feeds in in/min and cutting speeds in ft/min; default mm.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub units: Option<UnitsName>,
     /// The rows.
     #[serde(default, rename = "cutting")]
     pub rows: Vec<CuttingRow>,

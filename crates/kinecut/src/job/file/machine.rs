@@ -8,7 +8,7 @@ use std::collections::BTreeMap;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::BodyTable;
+use super::{BodyTable, UnitsName};
 use crate::machine::{CodeEffect, Interpolator, Rapids};
 
 /// A machine, or the name of a file with one.
@@ -25,6 +25,10 @@ pub enum MachineEntry {
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct MachineTable {
+    /// Unit of its lengths: "mm", or "in" for inches, with feeds in in/min and cutting speeds in ft/min, acceleration in in/s2;
+    /// default: that of the job where the table is a part of it, else mm.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub units: Option<UnitsName>,
     /// Name.
     #[serde(default)]
     pub name: Option<String>,

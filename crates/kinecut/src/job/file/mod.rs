@@ -12,6 +12,7 @@ mod machine;
 mod program;
 mod tool;
 mod tools;
+mod units;
 
 pub use body::*;
 pub use contour::*;
@@ -22,6 +23,7 @@ pub use machine::*;
 pub use program::*;
 pub use tool::*;
 pub use tools::*;
+pub use units::*;
 
 use std::collections::BTreeMap;
 
@@ -40,6 +42,10 @@ pub struct JobFile {
     /// Version of this file's form: 1.
     #[schemars(example = 1)]
     pub format: u32,
+    /// Unit of the job's lengths: "mm", or "in" for inches, with feeds in in/min and cutting speeds in ft/min; default mm. Its program
+    /// is written in it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub units: Option<UnitsName>,
     /// Title of the job in program and report.
     #[serde(default)]
     pub title: Option<String>,
@@ -190,7 +196,11 @@ pub struct PostTable {
     /// The control: "sinumerik-840d", "fanuc", "linuxcnc", "grbl" or "heidenhain".
     #[schemars(example = &"fanuc")]
     pub control: String,
-    /// Decimals of coordinates, 3 to 6; default: as usual on the control (FANUC 3, others 4).
+    /// Unit of the program and of the lengths in this table: "mm" or "in"; default: that of the job.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub units: Option<UnitsName>,
+    /// Decimals of coordinates, 3 to 6; default: as usual on the control (FANUC 3, others 4; one more in
+    /// inches).
     #[serde(default)]
     pub decimals: Option<u8>,
     /// Least step of coordinates where it is coarser than the last decimal: 0.005; all coordinates are multiples of it.

@@ -3,13 +3,16 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::ToolTable;
+use super::{ToolTable, UnitsName};
 use crate::tool::Holder;
 
 /// Tools and holders in a file of their own; lengths in mm, feeds in mm/min, angles in degrees, speeds in rev/min.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ToolLibraryTable {
+    /// Unit of its lengths: "mm", or "in" for inches, with feeds in in/min and cutting speeds in ft/min; default mm.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub units: Option<UnitsName>,
     /// Tool holders, named by tools.
     #[serde(default, rename = "holder", skip_serializing_if = "Vec::is_empty")]
     pub holders: Vec<Holder>,

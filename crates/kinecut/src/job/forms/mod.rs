@@ -5,6 +5,7 @@
 
 mod example;
 mod fit;
+mod inches;
 mod mend;
 mod unit;
 mod words;
@@ -18,6 +19,7 @@ use toml::de::{DeTable, DeValue};
 
 pub(super) use example::toml_text;
 pub(super) use fit::{KeyAt, Misfit};
+pub(super) use inches::{InMm, factors};
 pub(super) use unit::{Unit, number_with_unit};
 pub(super) use words::given;
 

@@ -105,7 +105,7 @@ fn made(
     places: &mut Places,
     shop: &mut Shop,
 ) -> Result<(Vec<Step>, Vec<Finding>)> {
-    let size = Size::of(&hole.size)?;
+    let size = Size::of(&hole.size, file.units.unwrap_or_default().units().mm())?;
     // Tools by name are taken first: the rest knows them by their numbers.
     let mut numbers = [None; 3];
     for (number, (key, called)) in numbers.iter_mut().zip([

@@ -17,11 +17,11 @@ pub(super) enum Size {
 }
 
 impl Size {
-    /// Of a size as it is written.
+    /// Of a size as it is written, a text in a unit [mm].
     ///
     /// # Errors
     /// `KC0103` for a text that is no size, with the key `size`.
-    pub(super) fn of(written: &HoleSize) -> Result<Size> {
+    pub(super) fn of(written: &HoleSize, unit: f64) -> Result<Size> {
         let text = match written {
             HoleSize::Diameter(diameter) => {
                 return Ok(Size::Plain(positive("size", *diameter, MAX_LENGTH, "mm")?));
@@ -34,7 +34,7 @@ impl Size {
         let end = text.find(|c: char| !(c.is_ascii_digit() || c == '.')).unwrap_or(text.len());
         let (number, fit) = text.split_at(end);
         let diameter =
-            number.parse::<f64>().ok().map(|d| positive("size", d, MAX_LENGTH, "mm")).transpose()?;
+            number.parse::<f64>().ok().map(|d| positive("size", d * unit, MAX_LENGTH, "mm")).transpose()?;
         match (diameter, fit.trim()) {
             (Some(diameter), "") => Ok(Size::Plain(diameter)),
             (Some(diameter), fit) if is_fit(fit) => Ok(Size::Fit(diameter, fit.to_owned())),
@@ -107,13 +107,17 @@ mod tests {
     use super::*;
 
     fn of(text: &str) -> Result<Size> {
-        Size::of(&HoleSize::Text(text.to_owned()))
+        Size::of(&HoleSize::Text(text.to_owned()), 1.0)
     }
 
     #[test]
     fn sizes_are_diameters_fits_and_threads() {
         assert_eq!(of("6.6").unwrap(), Size::Plain(6.6));
-        assert_eq!(Size::of(&HoleSize::Diameter(6.6)).unwrap(), Size::Plain(6.6));
+        assert_eq!(Size::of(&HoleSize::Diameter(6.6), 25.4).unwrap(), Size::Plain(6.6));
+        assert_eq!(
+            Size::of(&HoleSize::Text("0.5H7".to_owned()), 25.4).unwrap(),
+            Size::Fit(12.7, "H7".to_owned())
+        );
         assert_eq!(of(" 8H7 ").unwrap(), Size::Fit(8.0, "H7".to_owned()));
         assert_eq!(of("12.5 JS6").unwrap(), Size::Fit(12.5, "JS6".to_owned()));
         assert_eq!(of("M8").unwrap(), Size::Thread(ThreadSize { diameter: 8.0, pitch: 1.25 }));

@@ -9,17 +9,20 @@ use super::read::json_error;
 use super::write::{NOT_NEEDED, OPEN};
 use super::{Library, LibraryFormat, LibraryTool, MOST_TOOLS};
 use crate::base::{Code, FileId, Finding, Location, Result, Sources};
-use crate::job::file::ToolLibraryTable;
+use crate::job::file::{ToolLibraryTable, UnitsName};
+use crate::job::forms::InMm;
 use crate::job::places::{Places, parse};
 use crate::job::read::decode;
 
 /// Reads TOML.
 pub(super) fn toml(sources: &Sources, id: FileId, file: &str) -> Result<Library> {
-    let root = parse(sources, id, sources.text(id))?;
+    let mut root = parse(sources, id, sources.text(id))?;
     let places = Places::of(id, &root);
     if let Some(finding) = open_key(root.get_ref()) {
         return Err(places.locate(sources, finding.into()));
     }
+    let in_mm = InMm::of::<ToolLibraryTable>(&mut root);
+    in_mm.put_into::<ToolLibraryTable>(&mut root);
     let table: ToolLibraryTable = decode(sources, id, root)?;
     let mut library = library(file, table).map_err(|finding| places.locate(sources, finding.into()))?;
     library.places = Some(Arc::new(places));
@@ -51,7 +54,13 @@ fn open_key(root: &DeTable<'_>) -> Option<Finding> {
 
 /// Reads JSON.
 pub(super) fn json(sources: &Sources, id: FileId, file: &str) -> Result<Library> {
-    let table = serde_json::from_str(sources.text(id)).map_err(|e| json_error(sources, id, &e))?;
+    let table: ToolLibraryTable =
+        serde_json::from_str(sources.text(id)).map_err(|e| json_error(sources, id, &e))?;
+    if table.units == Some(UnitsName::In) {
+        let finding = Finding::error(Code::JOB_SHAPE, "a tool file in JSON is in mm, not in inches");
+        let finding = finding.help("write it as TOML, or its lengths in mm").key("units");
+        return Err(finding.at(Location::whole_file(file)).into());
+    }
     library(file, table).map_err(|finding| finding.at(Location::whole_file(file)).into())
 }
 

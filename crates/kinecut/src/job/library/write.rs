@@ -104,6 +104,7 @@ fn text(value: &impl Serialize) -> Result<String> {
 pub fn library_json(library: &Library) -> String {
     let whole = library.tools.iter().filter(|tool| tool.missing.is_empty());
     json_text(&ToolLibraryTable {
+        units: None,
         holders: library.holders.clone(),
         tools: whole.map(|tool| tool.table.clone()).collect(),
     })

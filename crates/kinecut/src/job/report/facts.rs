@@ -1,7 +1,7 @@
 //! The row of numbers below the verdict: what the job says, completed by what the model knows.
 
 use super::{Report, bands, extremes};
-use crate::page::{Fact, duration, micrometres};
+use crate::page::{Fact, duration, inches, micrometres};
 
 /// The facts to show; one that the job gives itself (by its label) is not made again.
 pub(super) fn shown(report: &Report) -> Vec<Fact> {
@@ -21,6 +21,9 @@ pub(super) fn shown(report: &Report) -> Vec<Fact> {
         facts.push(Fact::new("Tools", numbers.len().to_string()).note(note));
     }
     facts.extend(given.iter().cloned());
+    if report.inches {
+        facts.iter_mut().for_each(|fact| inches::fact(fact, &inches::words));
+    }
     facts
 }
 

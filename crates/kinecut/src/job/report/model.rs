@@ -49,6 +49,9 @@ pub struct Report {
     pub sections: Vec<Section>,
     /// All findings.
     pub findings: Vec<Finding>,
+    /// Whether sections, facts and findings are in inches; the view of the part, charts, plans and drawings are in mm always.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub inches: bool,
 }
 
 impl Report {
@@ -70,6 +73,7 @@ impl Report {
             tools: Vec::new(),
             sections: Vec::new(),
             findings: Vec::new(),
+            inches: false,
         }
     }
 }

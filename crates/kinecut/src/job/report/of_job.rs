@@ -6,6 +6,7 @@ use crate::base::at_most;
 use crate::geom::ProfileElement;
 use crate::job::feeds::lowered_words;
 use crate::job::held_feed::HeldFeed;
+use crate::job::inches::report_in_inches;
 use crate::job::simulate::Simulation;
 use crate::job::time_terms::terms;
 use crate::job::{Outcome, PartSurface, SetupOutcome};
@@ -78,6 +79,9 @@ fn with(outcome: &Outcome, page: bool) -> Report {
     report.sections.extend(before_run::section(&outcome.verdict.to_ensure));
     count_in_own_programs(&mut report.sections, &first_lines);
     report.findings = outcome.verdict.found.clone();
+    if outcome.job.units.is_inch() {
+        report_in_inches(&mut report, &outcome.job);
+    }
     report
 }
 

@@ -6,8 +6,9 @@
 use maud::{DOCTYPE, Markup, PreEscaped, html as markup};
 
 use super::encode::{self, Scene};
-use super::{Report, ReportVerdict, ToolView, facts, findings, workspace};
+use super::{Report, ReportVerdict, facts, findings, workspace};
 use crate::job::Judgement;
+use crate::page::inches;
 use crate::page::shown::prose;
 use crate::page::{
     Cell, Row, Table, blocks, duration, fixed, inline_json, length, policy_of, style, visible,
@@ -44,11 +45,14 @@ pub fn html(report: &Report) -> String {
                 main {
                     (banner(report))
                     (blocks::facts(&facts::shown(report)))
+                    @if report.inches {
+                        p.quiet { "Lengths are in inches; in the view of the part, in drawings, charts and plans they are in millimetres." }
+                    }
                     (workspace::section(report, &scene, &plan))
                     @for (i, s) in report.sections.iter().enumerate() {
                         (blocks::section(s, &format!("section-{}", i + 1)))
                     }
-                    (tools(&report.tools))
+                    (tools(report))
                     section #findings {
                         h2 { "Findings" span.count { (findings::count(&report.findings)) } }
                         (findings::list(report))
@@ -140,7 +144,8 @@ fn outcome_class(outcome: Judgement) -> &'static str {
     }
 }
 
-fn tools(tools: &[ToolView]) -> Markup {
+fn tools(report: &Report) -> Markup {
+    let tools = &report.tools;
     if tools.is_empty() {
         return Markup::default();
     }
@@ -164,6 +169,9 @@ fn tools(tools: &[ToolView]) -> Markup {
             length(t.length).into(),
             t.note.clone().into(),
         ]));
+    }
+    if report.inches {
+        inches::table(&mut table, &inches::words);
     }
     markup! { section #tools { h2 { "Tools" } (blocks::table(&table)) } }
 }

@@ -2,7 +2,7 @@
 
 use super::{Report, before_run};
 use crate::base::Finding;
-use crate::page::{Block, Fact, Section, duration, length};
+use crate::page::{Block, Fact, Section, duration, inches, length};
 
 /// Most findings listed; the rest is counted.
 const FINDINGS: usize = 20;
@@ -46,7 +46,11 @@ fn facts(report: &Report) -> Vec<Fact> {
     facts.extend(super::facts::shown(report).into_iter().filter(|f| f.label != "Tools"));
     for (i, t) in report.tools.iter().enumerate() {
         let used = format!("T{} {}, {}, {} at feed", t.number, t.name, duration(t.time), length(t.length));
-        facts.push(Fact::new(if i == 0 { "Tools" } else { "" }, used));
+        let mut fact = Fact::new(if i == 0 { "Tools" } else { "" }, used);
+        if report.inches {
+            inches::fact(&mut fact, &inches::words);
+        }
+        facts.push(fact);
     }
     facts
 }

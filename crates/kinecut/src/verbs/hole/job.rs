@@ -43,6 +43,7 @@ pub(crate) fn job_file(table: &HoleTable, stock: StockTable, setup: SetupTable) 
     });
     JobFile {
         format: 1,
+        units: None,
         title: table.title.clone(),
         material: None,
         libraries: None,

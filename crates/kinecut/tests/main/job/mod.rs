@@ -15,6 +15,7 @@ mod feeds;
 mod five_axis;
 mod fixtures;
 mod hole;
+mod inches;
 mod inspect;
 mod kept;
 mod machine_bodies;

@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use glam::DVec3;
 use kinecut::base::Sources;
 use kinecut::geom::Rigid;
-use kinecut::nc::{self, Control, PostSettings, Reading};
+use kinecut::nc::{self, Control, PostSettings, Reading, Units};
 use kinecut::program::{
     Between, Cycle, CycleStep, DeepHole, Frame, Item, Move, Origin, Path, Program, Setup, SetupId,
     Shortening, Speed, Spindle, State, Target, ToolAxis, ToolNumber, WorkOffset,
@@ -78,7 +78,17 @@ fn holes(control: Control, speed: Speed, holes: &[([f64; 2], Cycle)]) -> Program
 }
 
 fn post(program: &Program, control: Control) -> String {
-    nc::write(program, &[], &PostSettings::new(control)).unwrap().text.to_string()
+    post_in(program, control, Units::Millimetres)
+}
+
+/// In inches with decimals that hold a thousandth of a millimetre.
+fn settings(control: Control, units: Units) -> PostSettings {
+    let usual = PostSettings::in_units(control, units);
+    PostSettings { decimals: usual.decimals + u8::from(units.is_inch()), ..usual }
+}
+
+fn post_in(program: &Program, control: Control, units: Units) -> String {
+    nc::write(program, &[], &settings(control, units)).unwrap().text.to_string()
 }
 
 fn read(text: &str, control: Control) -> Reading {
@@ -134,6 +144,11 @@ fn time(program: &Program) -> f64 {
 
 /// The same moves within half a unit of the number format.
 fn assert_same(wanted: &Program, found: &Program, control: Control, text: &str) {
+    assert_same_within(0.5 * control.resolution(control.usual_decimals()), (wanted, found), control, text);
+}
+
+/// The same moves within a length [mm].
+fn assert_same_within(half: f64, (wanted, found): (&Program, &Program), control: Control, text: &str) {
     // An expanded cycle has its dwells as items of their own: compare motion and dwells apart.
     let split = |program: &Program| {
         let all = steps(program);
@@ -142,11 +157,12 @@ fn assert_same(wanted: &Program, found: &Program, control: Control, text: &str) 
         (moves, dwells)
     };
     let (a, b) = (split(wanted), split(found));
-    let half = 0.5 * control.resolution(control.usual_decimals()) + 1e-9;
+    let half = half + 1e-9;
     // Moves shorter than the number format vanish.
     assert_eq!(a.0.len(), b.0.len(), "{control}\n{:?}\n{:?}\n{text}", a.0, b.0);
     for ((feed, end), (read_feed, read_end)) in a.0.iter().zip(&b.0) {
-        assert!((feed - read_feed).abs() <= 1e-6 * feed.max(1.0), "{control} {feed} {read_feed}\n{text}");
+        // Eight decimals of the smallest pitch, in inches.
+        assert!((feed - read_feed).abs() <= 2e-6 * feed.max(1.0), "{control} {feed} {read_feed}\n{text}");
         for (x, y) in end.unwrap().iter().zip(read_end.unwrap()) {
             assert!((x - y).abs() <= half, "{control} {end:?} {read_end:?}\n{text}");
         }
@@ -457,14 +473,16 @@ proptest! {
     fn the_text_of_any_cycles_runs_as_the_program(
         list in prop::collection::vec(((-9..9i32, -9..9i32), any_cycle(), 1..6usize), 1..4),
         feed in prop_oneof![(1..200i32).prop_map(|f| Speed::PerMinute(f64::from(f) * 0.1)), (1..50i32).prop_map(|f| Speed::PerRevolution(f64::from(f) * 0.01))],
-        own in any::<bool>(),
+        own in any::<bool>(), inches in any::<bool>(),
     ) {
+        let units = if inches { Units::Inches } else { Units::Millimetres };
         for control in Control::WRITTEN.iter().copied() {
             let speed = match feed {
                 Speed::PerRevolution(f) if !control.has_feed_per_revolution() => Speed::PerMinute(f * 10.0),
                 other => other,
             };
-            let unit = control.resolution(control.usual_decimals());
+            let decimals = settings(control, units).decimals;
+            let unit = units.mm() * control.resolution(decimals);
             let mut all = Vec::new();
             for ((x, y), cycle, count) in &list {
                 let cycle = if own { control.own_cycle(*cycle, unit) } else { *cycle };
@@ -473,12 +491,12 @@ proptest! {
                 }
             }
             let program = holes(control, speed, &all);
-            let text = post(&program, control);
+            let text = post_in(&program, control, units);
             let back = read(&text, control);
-            assert_same(&program, &back.program, control, &text);
+            assert_same_within(0.5 * unit, (&program, &back.program), control, &text);
             prop_assert!((time(&program) - time(&back.program)).abs() < 1e-3 * time(&program).max(1.0));
             // Written again it is the same text.
-            prop_assert_eq!(post(&back.program, control), text);
+            prop_assert_eq!(post_in(&back.program, control, units), text);
         }
     }
 }

@@ -23,7 +23,7 @@ impl Writer<'_> {
     ) -> Result<bool> {
         let Speed::PerMinute(feed) = state.speed else { return Ok(false) };
         let known = self.place.written[0].is_some() && self.place.written[1].is_some();
-        let number = plain(feed * 60.0);
+        let number = plain(feed * 60.0 / self.feed_unit());
         let simple = known && !matches!(state.blend, Blend::Stop | Blend::Exact) && state.comp == Comp::Off;
         let usable = feed.is_finite() && feed > 0.0 && number != "0";
         if !simple || !usable {

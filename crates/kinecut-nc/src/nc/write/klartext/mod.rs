@@ -80,7 +80,7 @@ impl Writer<'_> {
     /// First blocks: name, unit and the raw part for the control's graphics.
     pub(super) fn begin_program(&mut self) {
         let name = self.program_word();
-        self.page.block(format!("BEGIN PGM {name} MM"));
+        self.page.block(format!("BEGIN PGM {name} {}", self.unit_word()));
         let Some(part) = self.raw_part() else { return };
         let mut corners = [String::from("BLK FORM 0.1 Z"), String::from("BLK FORM 0.2")];
         for (text, corner) in corners.iter_mut().zip([part.min, part.max]) {
@@ -98,7 +98,11 @@ impl Writer<'_> {
     /// Last block.
     pub(super) fn end_program(&mut self) {
         let name = self.program_word();
-        self.page.block(format!("END PGM {name} MM"));
+        self.page.block(format!("END PGM {name} {}", self.unit_word()));
+    }
+
+    fn unit_word(&self) -> &'static str {
+        if self.settings.units.is_inch() { "INCH" } else { "MM" }
     }
 
     fn program_word(&self) -> String {

@@ -9,11 +9,11 @@ use std::f64::consts::TAU;
 use glam::{DVec2, DVec3};
 
 use crate::base::Result;
-use crate::geom::{Arc, Curve};
+use crate::geom::Arc;
 use crate::nc::dialect::AXES;
 use crate::nc::grid::{Grid, plain};
 use crate::nc::heidenhain::polar::{TICKS, TURN, degrees, turned};
-use crate::nc::write::arc::{CHORD, FLAT, Rounded, round};
+use crate::nc::write::arc::{FLAT, Rounded, round};
 use crate::nc::write::{Writer, unsupported};
 use crate::program::Speed;
 
@@ -161,12 +161,7 @@ impl Writer<'_> {
             Rounded::Arc { .. } | Rounded::Split { .. } => false,
         };
         if flat || radius < least_radius || total.abs() < LEAST_PARTS * back {
-            self.notes.straightened += 1;
-            let curve = Curve::from(*arc);
-            if arc.radius() > 0.0 && curve.length() > CHORD * self.grid.unit() {
-                self.chords(&curve, CHORD * self.grid.unit(), speed)?;
-            }
-            return self.line(point.to_array(), speed);
+            return self.flat_arc(arc, point, speed);
         }
         let short = ((total.abs() - back).to_degrees() * TICKS).floor().copysign(total) as i64;
         let there = turned(start, centre, degrees(short));

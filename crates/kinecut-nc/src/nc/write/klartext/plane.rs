@@ -25,7 +25,7 @@ impl Writer<'_> {
             return Err(unsupported("rotary axes turn to a plane straight").into());
         }
         self.uncompensated("a plane is tilted")?;
-        let turn = format!("TURN {}", turn_feed(state.speed)?);
+        let turn = format!("TURN {}", turn_feed(state.speed, self.feed_unit())?);
         self.klartext_tcp_off();
         self.modal.pen.leaves = self.program.in_tilted(state.frame).is_none();
         self.modal.pen.turn = Some(turn);
@@ -88,12 +88,12 @@ impl Writer<'_> {
     }
 }
 
-/// The feed at which rotary axes turn to a plane.
-fn turn_feed(speed: Speed) -> Result<String> {
+/// The feed at which rotary axes turn to a plane, in a unit [mm/min].
+fn turn_feed(speed: Speed, unit: f64) -> Result<String> {
     match speed {
         Speed::Rapid { .. } => Ok("FMAX".to_owned()),
         Speed::PerMinute(feed) if feed.is_finite() && feed > 0.0 => {
-            Ok(format!("F{}", crate::nc::grid::plain(feed * 60.0)))
+            Ok(format!("F{}", crate::nc::grid::plain(feed * 60.0 / unit)))
         }
         Speed::PerMinute(feed) => Err(Finding::error(Code::NC_STATE, "a feed move has no usable feed")
             .value(feed * 60.0, "mm/min")

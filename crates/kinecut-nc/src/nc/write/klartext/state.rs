@@ -84,7 +84,9 @@ impl Writer<'_> {
         }
         self.modal.pen.blend = Some(blend);
         let value = match blend {
-            Blend::Tolerance { path, .. } if path.is_finite() && path > 0.0 => format!(" T{}", plain(path)),
+            Blend::Tolerance { path, .. } if path.is_finite() && path > 0.0 => {
+                format!(" T{}", self.grid.length(path))
+            }
             Blend::Tolerance { path, .. } => {
                 return Err(Finding::error(
                     Code::POST_NUMBER,
