@@ -241,7 +241,7 @@ fn blocks_stand_where_they_are_inserted() {
     for (insert, scale, low, high) in [
         ("10 0 20 0", 1.0, (-1.0, -2.0), (9.0, 8.0)),
         // Twice as large, turned by a quarter.
-        ("10 100 20 50 41 2 42 2 43 2 50 90", 4.0, (88.0, 48.0), (108.0, 68.0)),
+        ("10 100 20 50 41 2 42 2 43 2 50 90", 4.0, (84.0, 48.0), (104.0, 68.0)),
         // Mirrored, and seen from below.
         ("10 100 20 50 41 -1", 1.0, (91.0, 48.0), (101.0, 58.0)),
         ("10 100 20 50 210 0 220 0 230 -1", 1.0, (-109.0, 48.0), (-99.0, 58.0)),
@@ -277,7 +277,7 @@ fn blocks_are_stretched_nested_and_repeated() {
     let [min, max] = read.outline.bounds();
     // Columns run along the turned X.
     assert!(
-        (max.y - min.y - (60.0 + 22.0)).abs() < 1e-9 && (max.x - min.x - (80.0 + 12.0)).abs() < 1e-9,
+        (max.y - min.y - (60.0 + 22.0)).abs() < 1e-9 && (max.x - min.x - (80.0 + 16.0)).abs() < 1e-9,
         "{min} {max}"
     );
 }
