@@ -27,6 +27,8 @@ const HOLE_ROOM: f64 = 0.5;
 /// Rings about a point on which a pass may begin, and those that are tried first, a tenth of a radius apart.
 const RINGS: u32 = 12;
 const FRONT_RINGS: u32 = 5;
+/// Share of the cutter's radius that the chords of a way may leave at a wall.
+const WALL: f64 = 0.02;
 /// How often slivers are looked for at most, and distance from the middle of the cutter at which one ends up, in its radii.
 const SLIVER_LOOKS: usize = 4;
 const OVER: f64 = 0.4;
@@ -269,6 +271,10 @@ impl Clearer<'_> {
         let mut rest = rest.unwrap_or_else(|| Rest::new(self.clearing, |p| self.is_reached(p)));
         rest.update(self.clearing);
         cleared.left_at(&rest.points(), self.clearing.cell_width());
+        // In all, up to the wall.
+        let border = (WALL - 1.0) * self.radius;
+        let up_to_wall = self.clearing.remains(|p| self.region.room(p) > border);
+        cleared.left = up_to_wall.len() as f64 * self.clearing.cell_width().powi(2);
         cleared
     }
 

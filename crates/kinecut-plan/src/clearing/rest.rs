@@ -34,12 +34,14 @@ struct Left {
     begun: bool,
     /// Number of passes when one was looked for in vain all around it.
     given_up: Option<usize>,
+    /// Number of passes when one that was begun beside it has cut nothing.
+    put_off: Option<usize>,
 }
 
 impl Rest {
     /// What is left of the area that `reached` has.
     pub(super) fn new(clearing: &Clearing, reached: impl Fn(DVec2) -> bool) -> Rest {
-        let left = |at| Left { at, fails: 0, begun: false, given_up: None };
+        let left = |at| Left { at, fails: 0, begun: false, given_up: None, put_off: None };
         Rest { points: clearing.remains(reached).into_iter().map(left).collect(), passes: Vec::new() }
     }
 
@@ -66,18 +68,18 @@ impl Rest {
         }
     }
 
-    /// A pass that was begun at a point has cut nothing: those beside it are given up too.
+    /// A pass that was begun at a point has cut nothing: those beside it come last.
     pub(super) fn cut_nothing(&mut self, p: DVec2, radius: f64) {
         let passes = self.passes.len();
         let beside = BESIDE * radius;
         for left in self.points.iter_mut().filter(|left| left.at.distance(p) <= beside) {
-            left.given_up = Some(passes);
+            left.put_off = Some(passes);
         }
     }
 
     /// The first point for which `start` finds a beginning of a pass, and that: those at which one was looked for in vain
-    /// the least come first, of them the nearest to `here`. Those that were given up come again only when a pass has come near
-    /// since; with `all` what is looked at in vain is given up. `start` gives nothing at all for a point that it does not look at.
+    /// the least come first, of them the nearest to `here`. Those that were put off come again only when a pass has come near
+    /// since; with `all` those that were given up, as all that is looked at in vain then is. `start` gives nothing at all for a point that it does not look at.
     pub(super) fn begin<T>(
         &mut self,
         clearing: &Clearing,
@@ -87,7 +89,7 @@ impl Rest {
     ) -> Option<(T, DVec2)> {
         let passes = &self.passes;
         let reach = DVec2::splat(if all { NEAR } else { NEAREST } * radius);
-        let came_near = |left: &Left| match left.given_up {
+        let came_near = |left: &Left| match if all { left.given_up } else { left.put_off } {
             Some(then) => passes[then..]
                 .iter()
                 .any(|[low, high]| (*low - reach).cmple(left.at).all() && left.at.cmple(*high + reach).all()),

@@ -279,9 +279,9 @@ fn close(a: f64, b: f64) -> bool {
 fn same_speed(a: Speed, b: Speed) -> bool {
     match (a, b) {
         (Speed::Rapid { .. }, Speed::Rapid { .. }) => true,
-        (Speed::PerMinute(x), Speed::PerMinute(y))
-        | (Speed::PerRevolution(x), Speed::PerRevolution(y))
-        | (Speed::Duration(x), Speed::Duration(y)) => close(x, y),
+        (Speed::PerMinute(x), Speed::PerMinute(y)) | (Speed::Duration(x), Speed::Duration(y)) => close(x, y),
+        // Eight decimals, of an inch at most.
+        (Speed::PerRevolution(x), Speed::PerRevolution(y)) => close(x, y) || (x - y).abs() < 1.3e-7,
         _ => false,
     }
 }
