@@ -313,7 +313,7 @@ mod tests {
             ("0 mm", "0 in"),
             ("-2.54 mm", "-0.1 in"),
             ("0.254 mm (0.508 x 0.5 (edge))", "0.01 in (0.02 x 0.5 (edge))"),
-            ("1436.7 mm at feed, 30.48 m", "56.56 in at feed, 100 ft"),
+            ("1436.7 mm at feed, 30.48 m", "56.563 in at feed, 100 ft"),
             ("\u{b1}0.254 mm", "\u{b1}0.01 in"),
             ("508 mm/min", "20 in/min"),
             ("120 m/min", "394 ft/min"),
@@ -331,7 +331,7 @@ mod tests {
             ("give feed = 600 (mm/min)", "give feed = 23.62205 (in/min)"),
             ("cutting_speed = 100 (m/min)", "cutting_speed = 328.08399 (ft/min)"),
             ("X12.5 stays, 3mm does not", "X12.5 stays, 0.118in does not"),
-            ("part_2.stl: 10.5 mm", "part_2.stl: 0.4134 in"),
+            ("part_2.stl: 10.5 mm", "part_2.stl: 0.413 in"),
         ] {
             assert_eq!(shown(text), inches, "{text}");
         }
