@@ -83,7 +83,7 @@ fn is_inch(table: &DeTable<'_>) -> Option<bool> {
 /// Calls `each` with every number in inches, and its factor to the unit that a key takes.
 fn walk<'t, T: JsonSchema>(root: &mut Spanned<DeTable<'t>>, each: &mut dyn FnMut(&mut DeValue<'t>, f64)) {
     let schema = SchemaGenerator::default().into_root_schema_for::<T>().to_value();
-    let place = Place { inch: false, axis: "", at: 0 };
+    let place = Place { inch: false, axis: "", at: 0, of_loops: false };
     in_table(root.get_mut(), Form::of_root(&schema), place, each);
 }
 
@@ -96,6 +96,8 @@ struct Place<'p> {
     axis: &'p str,
     /// Its index in the list that holds it.
     at: usize,
+    /// Whether it belongs to the loops of an outline, whose points may have a bulge: [x, y, bulge].
+    of_loops: bool,
 }
 
 fn in_table<'t>(
@@ -114,7 +116,8 @@ fn in_table<'t>(
         let Some(own) = form.key(name).or_else(renamed) else { continue };
         let inch = inch && !(own_unit && (name == "outline" || form.key("loops").is_some()));
         let axis = if name.len() == 1 { name } else { place.axis };
-        in_value(value, own, Place { inch, axis, at: 0 }, each);
+        let of_loops = place.of_loops || name == "loops";
+        in_value(value, own, Place { inch, axis, at: 0, of_loops }, each);
     }
 }
 
@@ -159,6 +162,9 @@ fn meant<'a>(form: Form<'a>, value: &Spanned<DeValue<'_>>) -> Form<'a> {
 /// The factor from the number of a text in inches to that of a key; nothing where it stays.
 fn factor(unit: Unit<'_>, place: Place<'_>) -> Option<f64> {
     let Unit::Of(unit) = unit else { return None };
+    if place.of_loops && place.at == 2 {
+        return None;
+    }
     let rotary = place.axis.starts_with(|c: char| matches!(c, 'A'..='C' | 'a'..='c' | '4'..='9'));
     Some(match unit {
         "mm" | "mm/min" | "mm/rev" => INCH,
@@ -183,7 +189,7 @@ pub(in crate::job) fn factors<T: JsonSchema>() -> BTreeMap<String, f64> {
                         while item.kind() == Kind::List {
                             item = item.item();
                         }
-                        let place = Place { inch: true, axis: "", at: 0 };
+                        let place = Place { inch: true, axis: "", at: 0, of_loops: false };
                         let own = item.unit().and_then(|unit| factor(unit, place));
                         let agreed = all.entry(key.to_owned()).or_insert(own);
                         if *agreed != own && item.unit().is_some() {

@@ -69,6 +69,12 @@ fn a_part_says_its_own_units() {
         depth = 1
         outline = { unit = "mm", loops = [{ centre = [1, 2], radius = 3 }] }
     "#;
+    // A bulge is no length.
+    let bulged = "units = \"in\"\n[[setup]]\n[[setup.operation]]\ntype = \"contour\"\n\
+        outline = { loops = [[[0, 1], [2, 0, -1], [2, 3]], { points = [[1, 1, 0.5], [2, 2]] }] }";
+    let l = 25.4;
+    let wanted = [0.0, l, 2.0 * l, 0.0, -1.0, 2.0 * l, 3.0 * l, l, l, 0.5, 2.0 * l, 2.0 * l];
+    assert_eq!(read::<JobFile>(bulged), wanted);
     assert_eq!(read::<JobFile>(job), [-90.0, 90.0, 0.0, 500.0, 0.005, 25.4, 1.0, 2.0, 3.0]);
     let machine = r#"
         units = "in"
@@ -155,7 +161,9 @@ fn leaf(form: Form<'_>, name: &str, lines: &mut Vec<String>) {
         }
         Kind::Number => {
             let of = |axis, at| {
-                form.unit().and_then(|unit| factor(unit, Place { inch: true, axis, at })).unwrap_or(1.0)
+                form.unit()
+                    .and_then(|unit| factor(unit, Place { inch: true, axis, at, of_loops: false }))
+                    .unwrap_or(1.0)
             };
             let all = [of("X", 0), of("X", 1), of("A", 0)];
             let shown = if all == [all[0]; 3] { format!("{}", all[0]) } else { format!("{all:?}") };
