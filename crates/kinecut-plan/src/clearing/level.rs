@@ -29,8 +29,9 @@ const RINGS: u32 = 12;
 const FRONT_RINGS: u32 = 5;
 /// Share of the cutter's radius that the chords of a way may leave at a wall.
 const WALL: f64 = 0.02;
-/// How often slivers are looked for at most, and distance from the middle of the cutter at which one ends up, in its radii.
+/// Most looks for slivers: each is followed by ways over them.
 const SLIVER_LOOKS: usize = 4;
+/// Distance between the middle of the cutter and a sliver at the end of the way over it, in radii of the cutter.
 const OVER: f64 = 0.4;
 /// Area that may be left at one place [mm2].
 const LEFT: f64 = 0.25;
@@ -70,6 +71,8 @@ pub(super) struct Cleared {
     pub(super) left: f64,
     /// The largest place that is left: its area [mm2], and a point of it.
     pub(super) largest_left: Option<(f64, DVec2)>,
+    /// A point of stock between passes, beyond the reach of the lap along the wall, over which no way goes.
+    pub(super) standing: Option<DVec2>,
 }
 
 impl Cleared {
@@ -78,7 +81,7 @@ impl Cleared {
         self.left_at(&clearing.remains(reached), clearing.cell_width());
     }
 
-    /// What is left are the middles of cells of a width [mm].
+    /// Keeps the area and the largest place of points that are left, the middles of cells of a width [mm].
     fn left_at(&mut self, points: &[DVec2], width: f64) {
         self.left = points.len() as f64 * width * width;
         self.largest_left = largest(points, width);
@@ -93,6 +96,7 @@ impl Cleared {
             }
         };
         self.largest_left = self.largest_left.map(|(area, p)| (area, flip(p)));
+        self.standing = self.standing.map(flip);
         for element in &mut self.elements {
             match element {
                 Element::Helix { middle, from, .. } => (*middle, *from) = (flip(*middle), -*from),
@@ -265,8 +269,10 @@ impl Clearer<'_> {
                 here = self.keep(&way, &mut cleared).or(here);
             }
         }
-        if most > 0 {
-            self.sweep_slivers(&mut cleared, here, &mut work);
+        match most {
+            // The steps were used up.
+            0 => cleared.standing = self.standing().first().copied(),
+            _ => self.sweep_slivers(&mut cleared, here, &mut work),
         }
         let mut rest = rest.unwrap_or_else(|| Rest::new(self.clearing, |p| self.is_reached(p)));
         rest.update(self.clearing);
@@ -282,7 +288,8 @@ impl Clearer<'_> {
     /// the lap along it takes it stays.
     fn sweep_slivers(&mut self, cleared: &mut Cleared, mut here: Option<Pose>, work: &mut Scratch) {
         for _ in 0..SLIVER_LOOKS {
-            let mut slivers = self.clearing.slivers(|p| self.region.room(p) >= self.radius);
+            let mut slivers = self.standing();
+            cleared.standing = slivers.first().copied();
             let mut swept = false;
             while let Some(i) = nearest(&slivers, here.map_or(DVec2::ZERO, |here| here.at)) {
                 let p = slivers.swap_remove(i);
@@ -304,36 +311,47 @@ impl Clearer<'_> {
                 return;
             }
         }
+        cleared.standing = self.standing().first().copied();
+    }
+
+    /// Points of stock that no pass has swept, and that the lap along the wall does not reach.
+    fn standing(&self) -> Vec<DVec2> {
+        self.clearing.slivers(|p| self.region.room(p) >= self.radius)
     }
 
     /// A straight way over a point within the wanted engagement, from where nothing is cut: its beginning, its end, and the
     /// largest engagement [rad].
     fn over(&self, p: DVec2, work: &mut Scratch) -> Option<(Pose, DVec2, f64)> {
-        for ring in 0..RINGS {
-            let far = self.radius * (1.0 + 0.1 * f64::from(ring) + 1e-3);
-            for k in 0..48 {
-                let out = f64::from(k) * TAU / 48.0;
-                let at = p + far * DVec2::from_angle(out);
-                if !self.region.holds(at) || self.touches(at, out, work) {
-                    continue;
-                }
-                let heading = out + PI;
-                let length = far - OVER * self.radius;
-                let count = (length / (LINK_STEP * self.radius)).ceil();
-                let mut largest = 0.0_f64;
-                let fits = (1..=count as usize).all(|k| {
-                    let at = at + k as f64 / count * length * DVec2::from_angle(heading);
-                    let engaged = self.clearing.engaged(at, heading, self.radius, work).total;
-                    largest = largest.max(engaged);
-                    self.region.holds(at) && engaged <= self.wanted
-                });
-                if fits {
-                    let end = at + length * DVec2::from_angle(heading);
-                    return Some((Pose { at, heading }, end, largest));
-                }
+        self.free_places(p, RINGS).find_map(|(at, out)| {
+            if self.touches(at, out, work) {
+                return None;
             }
-        }
-        None
+            let heading = out + PI;
+            let along = DVec2::from_angle(heading);
+            let length = at.distance(p) - OVER * self.radius;
+            let count = (length / (LINK_STEP * self.radius)).ceil();
+            let mut largest = 0.0_f64;
+            let fits = (1..=count as usize).all(|k| {
+                let at = at + k as f64 / count * length * along;
+                let engaged = self.clearing.engaged(at, heading, self.radius, work).total;
+                largest = largest.max(engaged);
+                self.region.holds(at) && engaged <= self.wanted
+            });
+            fits.then_some((Pose { at, heading }, at + length * along, largest))
+        })
+    }
+
+    /// Places of the region on rings about a point, the nearest ring first, each with its direction from the point [rad]: there the
+    /// cutter just does not touch the point.
+    fn free_places(&self, p: DVec2, rings: u32) -> impl Iterator<Item = (DVec2, f64)> + '_ {
+        const PLACES: u32 = 48;
+        let places = (0..rings).flat_map(|ring| (0..PLACES).map(move |k| (ring, k)));
+        places.filter_map(move |(ring, k)| {
+            let far = self.radius * (1.0 + 0.1 * f64::from(ring) + 1e-3);
+            let out = f64::from(k) * TAU / f64::from(PLACES);
+            let at = p + far * DVec2::from_angle(out);
+            self.region.holds(at).then_some((at, out))
+        })
     }
 
     /// The hole in a part of the region, if there is one, in which the cutter goes down with room around it: its centre, and
@@ -466,18 +484,9 @@ impl Clearer<'_> {
 
     /// A place from which the cutter touches a point with nothing cut yet, the point on its right.
     fn start_at(&self, p: DVec2, rings: u32, work: &mut Scratch) -> Option<Pose> {
-        for ring in 0..rings {
-            let far = self.radius * (1.0 + 0.1 * f64::from(ring) + 1e-3);
-            for k in 0..48 {
-                let out = f64::from(k) * TAU / 48.0;
-                let at = p + far * DVec2::from_angle(out);
-                if self.region.holds(at) && !self.touches(at, out, work) {
-                    // The heading is a quarter turn before the way from the point.
-                    return Some(Pose { at, heading: out - FRAC_PI_2 });
-                }
-            }
-        }
-        None
+        let (at, out) = self.free_places(p, rings).find(|(at, out)| !self.touches(*at, *out, work))?;
+        // The heading is a quarter turn before the way from the point.
+        Some(Pose { at, heading: out - FRAC_PI_2 })
     }
 }
 

@@ -152,6 +152,7 @@ pub fn plan_pocket(spec: &PocketSpec) -> Result<PocketPlan> {
     let uncut = if stock.is_none() && holes.is_empty() { area } else { stock_area.min(area) };
     let figures = figures(spec, [area, uncut], &cleared);
     let mut findings: Vec<Finding> = parts(&region).into_iter().collect();
+    findings.extend(cleared.standing.map(standing));
     if let Some((area, at)) = cleared.largest_left
         && area > LEFT * a * a
     {
@@ -321,6 +322,16 @@ fn parts(region: &CentreRegion) -> Option<Finding> {
     let what = format!("the pocket has {count} parts for this cutter: each is entered by itself");
     let help = "a smaller cutter may pass between them";
     (count > 1).then(|| Finding::note(Code::POCKET_PARTS, what).help(help).key("tool"))
+}
+
+/// A warning about stock that stands between passes and is not swept.
+fn standing(at: DVec2) -> Finding {
+    let what =
+        format!("stock stands between passes at {}: no way goes over it within the engagement", place(at));
+    Finding::warning(Code::POCKET_LEFT, what)
+        .point([at.x, at.y, 0.0])
+        .help("allow a larger engagement, or take another cutter")
+        .key("engagement")
 }
 
 /// A finding about stock that passes leave to the lap along the wall.

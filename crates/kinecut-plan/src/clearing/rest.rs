@@ -1,4 +1,4 @@
-//! What passes have left of a level, kept from pass to pass.
+//! Stock that the passes of a level have left so far.
 
 use glam::DVec2;
 
@@ -28,7 +28,7 @@ pub(super) struct Rest {
 #[derive(Clone, Copy, Debug)]
 struct Left {
     at: DVec2,
-    /// How often a pass was looked for in vain.
+    /// Number of vain looks for a pass.
     fails: u32,
     /// Whether a pass was begun here.
     begun: bool,
@@ -39,7 +39,7 @@ struct Left {
 }
 
 impl Rest {
-    /// What is left of the area that `reached` has.
+    /// The stock that is left where `reached` is true.
     pub(super) fn new(clearing: &Clearing, reached: impl Fn(DVec2) -> bool) -> Rest {
         let left = |at| Left { at, fails: 0, begun: false, given_up: None, put_off: None };
         Rest { points: clearing.remains(reached).into_iter().map(left).collect(), passes: Vec::new() }

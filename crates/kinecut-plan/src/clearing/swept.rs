@@ -16,7 +16,7 @@ const SLOTS: usize = 72;
 const MARGIN: f64 = 0.27;
 /// Longest piece, in radii of the cutter: what it covers of a circle is one stretch without doubt.
 const LONGEST: f64 = 0.5;
-/// How often a cell is halved where slivers are looked for: down to a hundredth of the cutter's radius.
+/// Number of times by which a cell is halved in the search for slivers: down to a hundredth of the cutter's radius.
 const FINEST: u32 = 4;
 /// Share of the cutter's radius below which a piece of stock is rounding.
 const ROUNDING: f64 = 1e-9;

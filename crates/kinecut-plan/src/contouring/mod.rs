@@ -14,6 +14,7 @@ mod ball;
 mod chamfer;
 mod check;
 mod corners;
+mod covered;
 mod edge_break;
 mod feed;
 mod lead;

@@ -8,8 +8,13 @@ use super::check::Job;
 use super::file::JobFile;
 use super::forms::factors;
 use super::report::Report;
-use crate::base::{Error, Finding, Quantity};
-use crate::page::inches;
+use super::wrong_table::names;
+use crate::base::{Error, Finding, Loader, Quantity};
+use crate::page::{self, inches};
+
+/// Units of the numbers of findings: metric, in inches, and one of the second in the first.
+const LENGTHS: [(&str, &str, f64); 4] =
+    [("mm/min", "in/min", 25.4), ("mm/rev", "in/rev", 25.4), ("m/min", "ft/min", 0.3048), ("mm", "in", 25.4)];
 
 /// Texts of a job in inches: lengths, the numbers of keys that a message says to write, and the names that operations give
 /// themselves.
@@ -26,7 +31,7 @@ impl InInches {
         let operations = job.into_iter().flat_map(|job| &job.setups).flat_map(|setup| &setup.operations);
         let names = operations.map(|operation| operation.name()).flat_map(|name| {
             let inch = inches::name(&name);
-            [[heading(&name), heading(&inch)], [name, inch]]
+            [[page::heading(&name), page::heading(&inch)], [name, inch]]
         });
         InInches { keys: factors::<JobFile>(), names: names.collect() }
     }
@@ -51,29 +56,42 @@ impl InInches {
         self.text(&mut finding.message);
         self.text(&mut finding.help);
         for quantity in [&mut finding.value, &mut finding.bound].into_iter().flatten() {
-            let (mm, unit) = match quantity.unit.as_str() {
-                "mm" => (25.4, "in"),
-                "mm/min" => (25.4, "in/min"),
-                "mm/rev" => (25.4, "in/rev"),
-                "m/min" => (0.3048, "ft/min"),
-                _ => continue,
-            };
-            *quantity = Quantity::new(quantity.value / mm, unit);
+            // Words may follow: "mm of edge".
+            let unit = LENGTHS.iter().find_map(|(metric, inch, size)| {
+                let rest = quantity.unit.strip_prefix(metric)?;
+                let ends = !rest.starts_with(|c: char| c.is_alphanumeric() || c == '/');
+                ends.then(|| (format!("{inch}{rest}"), size))
+            });
+            if let Some((unit, size)) = unit {
+                *quantity = Quantity::new(quantity.value / size, &unit);
+            }
         }
     }
 }
 
-/// A name as a heading.
-fn heading(name: &str) -> String {
-    let mut letters = name.chars();
-    letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
+/// Whether the lengths of a TOML text are in inches.
+fn is_inch(text: &str) -> bool {
+    let units = |root: &DeTable<'_>| Some(root.get("units")?.get_ref().as_str()? == "in");
+    DeTable::parse(text).is_ok_and(|root| units(root.get_ref()) == Some(true))
 }
 
-/// An error of a job in the units of its text.
-pub(super) fn error_in_its_units(text: &str, mut error: Error) -> Error {
-    let units = |root: &DeTable<'_>| Some(root.get("units")?.get_ref().as_str()? == "in");
-    let says_inches = DeTable::parse(text).is_ok_and(|root| units(root.get_ref()) == Some(true));
-    if says_inches {
+/// The files that a job names whose lengths are in the other unit than its own: of its machine, its tools and its cutting data.
+pub(super) fn in_other_unit(text: &str, loader: &dyn Loader) -> Vec<String> {
+    let own = is_inch(text);
+    let Ok(root) = DeTable::parse(text) else { return Vec::new() };
+    let named = |key: &str| root.get_ref().get(key).map(names).unwrap_or_default();
+    let files = ["machine", "tools", "cutting"].into_iter().flat_map(named);
+    let other = |name: &String| {
+        name.ends_with(".toml") && loader.read_text(name).is_ok_and(|text| is_inch(&text) != own)
+    };
+    files.filter(other).collect()
+}
+
+/// An error of a job in the units of the text that it is about.
+pub(super) fn error_in_its_units(text: &str, loader: &dyn Loader, mut error: Error) -> Error {
+    let place = error.0.place.as_ref().map_or("", |place| place.file.as_str());
+    let is_other = || in_other_unit(text, loader).iter().any(|file| file == place);
+    if is_inch(text) != is_other() {
         InInches::of(None).finding(&mut error.0);
     }
     error

@@ -18,7 +18,7 @@ pub(crate) fn posted(
     loader: &dyn Loader,
     progress: &dyn Progress,
 ) -> Result<(Job, Vec<SetupOutcome>)> {
-    posted_text(name, text, loader, progress).map_err(|e| error_in_its_units(text, e))
+    posted_text(name, text, loader, progress).map_err(|e| error_in_its_units(text, loader, e))
 }
 
 fn posted_text(

@@ -16,7 +16,7 @@ use super::contacts;
 use super::external::{GivenJob, external_setup};
 use super::facets::facets_note;
 use super::following::{LinePlaces, line_place, trace_options};
-use super::inches::{InInches, error_in_its_units};
+use super::inches::{InInches, error_in_its_units, in_other_unit};
 use super::measure::{self, Measured, loose_cores, tallies};
 use super::outcome::Outcome;
 use super::part_surface::part_surface;
@@ -60,7 +60,7 @@ pub fn run_with(
     loader: &dyn Loader,
     progress: &dyn Progress,
 ) -> Result<Outcome> {
-    run_text(name, text, wants, loader, progress).map_err(|e| error_in_its_units(text, e))
+    run_text(name, text, wants, loader, progress).map_err(|e| error_in_its_units(text, loader, e))
 }
 
 fn run_text(
@@ -76,6 +76,7 @@ fn run_text(
     let locate = |e: Error| job_text.locate(&sources, e);
     let mut job =
         Job { compare: wants.compare, ..check(&job_text.file, &stem(name), loader).map_err(locate)? };
+    job.in_other_unit = in_other_unit(text, loader);
     let design = wants.stock.apply(&mut job)?;
     let mut inputs = vec![Subject {
         role: "job".to_owned(),
@@ -164,19 +165,23 @@ pub(crate) fn run_checked(
     let scope = scope(&job, &setups, &simulation, &deviation);
     let mut unchecked = unchecked.groups();
     let mut ensured = to_ensure(&job, &setups, &simulation);
-    if job.units.is_inch() {
-        let inches = InInches::of(Some(&job));
-        found.iter_mut().for_each(|finding| inches.finding(finding));
-        proven.iter_mut().for_each(|proof| {
-            inches.text(&mut proof.claim);
-            inches.text(&mut proof.bound);
-        });
-        unchecked.iter_mut().flat_map(|group| &mut group.items).for_each(|item| inches.text(&mut item.what));
-        ensured.iter_mut().for_each(|item| {
-            inches.text(&mut item.what);
-            inches.text(&mut item.value);
-            item.room.iter_mut().for_each(|room| inches.text(room));
-        });
+    let inches = (job.units.is_inch() || !job.in_other_unit.is_empty()).then(|| InInches::of(Some(&job)));
+    if let Some(inches) = inches {
+        for finding in &mut found {
+            let place = finding.place.as_ref().map(|place| &place.file);
+            let is_other = place.is_some_and(|file| job.in_other_unit.contains(file));
+            if job.units.is_inch() != is_other {
+                inches.finding(finding);
+            }
+        }
+        if job.units.is_inch() {
+            let claims = proven.iter_mut().flat_map(|proof| [&mut proof.claim, &mut proof.bound]);
+            let open = unchecked.iter_mut().flat_map(|group| &mut group.items).map(|item| &mut item.what);
+            let things = ensured
+                .iter_mut()
+                .flat_map(|item| [&mut item.what, &mut item.value].into_iter().chain(&mut item.room));
+            claims.chain(open).chain(things).for_each(|text| inches.text(text));
+        }
     }
     let verdict = Verdict::new(subjects, &files, scope, proven, found, unchecked).ensuring(ensured);
     Ok(Outcome {

@@ -158,7 +158,7 @@ pub(super) fn with_other_files(
 }
 
 /// The names of files that a value has: a text, `file` of a table, or a list of these.
-fn names(value: &Spanned<DeValue<'_>>) -> Vec<String> {
+pub(super) fn names(value: &Spanned<DeValue<'_>>) -> Vec<String> {
     match value.get_ref() {
         DeValue::String(name) => vec![name.to_string()],
         DeValue::Table(table) => table.get("file").map(names).unwrap_or_default(),

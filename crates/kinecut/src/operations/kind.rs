@@ -301,7 +301,7 @@ pub(crate) struct Tally {
 impl Shown<'_> {
     /// Its name as a heading.
     pub(crate) fn title(&self) -> String {
-        self.name[..1].to_uppercase() + &self.name[1..]
+        crate::page::heading(&self.name)
     }
 }
 

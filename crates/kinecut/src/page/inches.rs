@@ -4,45 +4,56 @@
 
 use super::{Block, Column, Fact, Section, Table, trimmed};
 
-/// Units of texts: as they are written, their name in inches, millimetres (or metres) of one, decimals more than before, and
-/// the least number of decimals.
-const UNITS: &[(&str, &str, f64, usize, usize)] = &[
-    ("mm/min", "in/min", 25.4, 1, 1),
-    ("mm/tooth", "in/tooth", 25.4, 2, 4),
-    ("mm/rev", "in/rev", 25.4, 2, 4),
-    ("mm2", "in2", 645.16, 3, 3),
-    ("mm\u{b2}", "in\u{b2}", 645.16, 3, 3),
-    ("mm3", "in3", 16_387.064, 4, 4),
-    ("mm\u{b3}", "in\u{b3}", 16_387.064, 4, 4),
-    ("cm\u{b3}/min", "in\u{b3}/min", 16.387_064, 2, 2),
-    ("cm\u{b3}", "in\u{b3}", 16.387_064, 2, 2),
-    ("m/min", "ft/min", 0.3048, 0, 0),
-    ("m", "ft", 0.3048, 0, 1),
-    ("mm", "in", 25.4, 1, 3),
+/// A unit of texts.
+#[derive(Debug)]
+struct Unit {
+    metric: &'static str,
+    inch: &'static str,
+    /// One of the second in the first.
+    size: f64,
+    /// Decimals in inches beyond those of the metric number, and the least number of them.
+    more: usize,
+    least: usize,
+}
+
+const fn unit(metric: &'static str, inch: &'static str, size: f64, more: usize, least: usize) -> Unit {
+    Unit { metric, inch, size, more, least }
+}
+
+/// Millimetres.
+const MM: Unit = unit("mm", "in", 25.4, 2, 3);
+/// All units: with so many decimals that the rounding is a small part of the last metric one.
+static UNITS: [Unit; 12] = [
+    MM,
+    unit("mm/min", "in/min", 25.4, 1, 1),
+    unit("mm/tooth", "in/tooth", 25.4, 2, 4),
+    unit("mm/rev", "in/rev", 25.4, 2, 4),
+    unit("mm2", "in2", 645.16, 3, 3),
+    unit("mm\u{b2}", "in\u{b2}", 645.16, 3, 3),
+    unit("mm3", "in3", 16_387.064, 4, 4),
+    unit("mm\u{b3}", "in\u{b3}", 16_387.064, 4, 4),
+    unit("cm\u{b3}/min", "in\u{b3}/min", 16.387_064, 2, 2),
+    unit("cm\u{b3}", "in\u{b3}", 16.387_064, 2, 2),
+    unit("m/min", "ft/min", 0.3048, 0, 0),
+    unit("m", "ft", 0.3048, 0, 1),
 ];
 
-/// A unit of [`UNITS`].
-type Unit = &'static (&'static str, &'static str, f64, usize, usize);
-
 /// The unit that a text begins with.
-fn unit_at(text: &str) -> Option<Unit> {
+fn unit_at(text: &str) -> Option<&'static Unit> {
     let ends = |rest: &str| {
         !rest.starts_with(|c: char| c.is_alphanumeric() || matches!(c, '/' | '\u{b2}' | '\u{b3}'))
     };
-    UNITS.iter().find(|unit| text.strip_prefix(unit.0).is_some_and(ends))
-}
-
-/// Unit of a length.
-fn length() -> Unit {
-    &UNITS[UNITS.len() - 1]
+    UNITS.iter().find(|unit| text.strip_prefix(unit.metric).is_some_and(ends))
 }
 
 /// A number in a unit, as it was shown, in that of inches: with the digits that it had, and never a zero for what is none.
-fn converted(shown: &str, unit: Unit) -> Option<String> {
-    let value: f64 = shown.parse().ok()?;
+fn converted(shown: &str, unit: &Unit) -> Option<String> {
+    let value = shown.parse::<f64>().ok()? / unit.size;
+    if shown.contains('e') {
+        return Some(format!("{value:.1e}"));
+    }
     let decimals = shown.split_once('.').map_or(0, |(_, part)| part.len());
-    let value = value / unit.2;
-    let mut decimals = (decimals + unit.3).max(unit.4);
+    let mut decimals = (decimals + unit.more).max(unit.least);
     while decimals < 12 && value != 0.0 && (value.abs() * 10f64.powi(decimals as i32)) < 0.5 {
         decimals += 1;
     }
@@ -54,34 +65,48 @@ fn converted(shown: &str, unit: Unit) -> Option<String> {
 struct Number {
     start: usize,
     end: usize,
+    /// The letter of an axis just before it: `X12.7`.
+    axis: Option<char>,
 }
 
 /// The numbers of a text: not those within words, names and codes.
 fn numbers(text: &str) -> Vec<Number> {
     let bytes = text.as_bytes();
+    let digit = |at: usize| bytes.get(at).is_some_and(u8::is_ascii_digit);
+    let before = |at: usize| text[..at].chars().next_back();
+    let is_word =
+        |c: Option<char>| c.is_some_and(|c| c.is_alphanumeric() || matches!(c, '_' | '.' | '#' | '`'));
     let mut all = Vec::new();
     let mut at = 0;
     while at < bytes.len() {
-        if !bytes[at].is_ascii_digit() {
+        if !digit(at) {
             at += 1;
             continue;
         }
         let mut end = at;
-        while end < bytes.len()
-            && (bytes[end].is_ascii_digit()
-                || bytes[end] == b'.' && bytes.get(end + 1).is_some_and(u8::is_ascii_digit))
-        {
+        while digit(end) || bytes.get(end) == Some(&b'.') && digit(end + 1) {
             end += 1;
         }
+        let sign = usize::from(matches!(bytes.get(end + 1), Some(b'-' | b'+')));
+        if bytes.get(end) == Some(&b'e') && digit(end + 1 + sign) {
+            end += 1 + sign;
+            while digit(end) {
+                end += 1;
+            }
+        }
         let mut start = at;
-        let before = |at: usize| text[..at].chars().next_back();
-        if before(start) == Some('-') && !before(start - 1).is_some_and(char::is_alphanumeric) {
+        let signed =
+            |c: Option<char>| !c.is_some_and(char::is_alphanumeric) || matches!(c, Some('X' | 'Y' | 'Z'));
+        if before(start) == Some('-') && signed(before(start - 1)) {
             start -= 1;
         }
-        let within = before(start).is_some_and(|c| c.is_alphanumeric() || matches!(c, '_' | '.' | '#' | '`'));
+        let letter = before(start).filter(|c| matches!(c, 'X' | 'Y' | 'Z') && !is_word(before(start - 1)));
+        // A diameter: `D6.5 hole`.
+        let is_diameter =
+            before(start) == Some('D') && !is_word(before(start - 1)) && text[end..].starts_with(" hole");
         let joined = text[end..].starts_with(|c: char| c.is_alphanumeric() && c != 'm' || c == '_');
-        if !within && !joined {
-            all.push(Number { start, end });
+        if (letter.is_some() || is_diameter || !is_word(before(start))) && !joined {
+            all.push(Number { start, end, axis: letter.or(is_diameter.then_some('D')) });
         }
         at = end;
     }
@@ -93,10 +118,10 @@ const JOINS: &[&str] =
     &[" x ", " \u{d7} ", "\u{d7}", " to ", " mm to ", "..", " \u{2013} ", "\u{2013}", " and at most "];
 
 /// A text with its lengths in inches. `key` is the factor of a key's number, of `stepdown = 2`, in the same way as [`UNITS`]
-/// have it, where it is known.
+/// have their size, where it is known.
 pub(crate) fn in_inches(text: &str, key: &dyn Fn(&str) -> Option<f64>) -> String {
     let numbers = numbers(text);
-    let mut units: Vec<Option<Unit>> = vec![None; numbers.len()];
+    let mut units: Vec<Option<&Unit>> = vec![None; numbers.len()];
     for i in (0..numbers.len()).rev() {
         let rest = &text[numbers[i].end..];
         let next = || numbers.get(i + 1).map(|next| &text[numbers[i].end..next.start]);
@@ -106,7 +131,7 @@ pub(crate) fn in_inches(text: &str, key: &dyn Fn(&str) -> Option<f64>) -> String
     // A length and, in brackets, that of which it is a share: `0.15 mm (0.3 x 0.5)`.
     for i in 1..numbers.len() {
         let gap = &text[numbers[i - 1].end..numbers[i].start];
-        let of = units[i - 1].filter(|unit| gap.trim_start() == format!("{} (", unit.0));
+        let of = units[i - 1].filter(|unit| gap.trim_start() == format!("{} (", unit.metric));
         if text[numbers[i].end..].starts_with(" x ") && units[i].is_none() {
             units[i] = of;
         }
@@ -147,26 +172,44 @@ pub(crate) fn in_inches(text: &str, key: &dyn Fn(&str) -> Option<f64>) -> String
             unit_at(&rest[blank..]).filter(|_| numbers.get(i + 1).is_none_or(|n| n.start >= done + blank));
         if let Some(own) = own {
             out.push_str(&rest[..blank]);
-            out.push_str(own.1);
-            done += blank + own.0.len();
+            out.push_str(own.inch);
+            done += blank + own.metric.len();
         }
     }
     out.push_str(&text[done..]);
     out
 }
 
-/// Marks the numbers that are coordinates: two or three in brackets, or behind the letter of an axis.
-fn coordinates(text: &str, numbers: &[Number], units: &mut [Option<Unit>]) {
+/// Marks the numbers that are coordinates: two or three in brackets, or behind the letter of an axis. `X1 Y2` of a block of a
+/// program is in the program's own unit.
+fn coordinates(text: &str, numbers: &[Number], units: &mut [Option<&Unit>]) {
+    let in_code = |at: usize| text[..at].matches('`').count() % 2 == 1;
+    let behind_word = |at: usize| {
+        let word = text[..at].trim_end().rsplit(' ').next().unwrap_or_default();
+        word.strip_prefix(['G', 'N', 'M', 'F', 'S'])
+            .is_some_and(|rest| rest.starts_with(|c: char| c.is_ascii_digit()))
+    };
+    let mut block = false;
     for i in 0..numbers.len() {
-        let before = &text[..numbers[i].start];
+        let (at, before) = (numbers[i].start, &text[..numbers[i].start]);
         let axis = ["X ", "Y ", "Z ", "X = ", "Y = ", "Z = "].iter().any(|axis| {
             before.strip_suffix(axis).is_some_and(|rest| !rest.ends_with(|c: char| c.is_alphanumeric()))
         });
         if axis && units[i].is_none() {
-            units[i] = Some(length());
+            units[i] = Some(&MM);
+        }
+        if let Some(letter) = numbers[i].axis {
+            // The second and third of a place follow the first.
+            let goes_on = i > 0
+                && numbers[i - 1].axis.is_some()
+                && text[numbers[i - 1].end..at].trim() == letter.to_string();
+            block = if goes_on { block } else { in_code(at) || behind_word(at - 1) };
+            if !block && units[i].is_none() {
+                units[i] = Some(&MM);
+            }
         }
         for (open, close) in [('(', ')'), ('[', ']')] {
-            if !before.ends_with(open) || key_before(text, numbers[i].start).is_some() {
+            if !before.ends_with(open) || key_before(text, at).is_some() {
                 continue;
             }
             let mut last = i;
@@ -175,7 +218,7 @@ fn coordinates(text: &str, numbers: &[Number], units: &mut [Option<Unit>]) {
             }
             let count = last - i + 1;
             if (2..=3).contains(&count) && text[numbers[last].end..].starts_with(close) {
-                units[i..=last].iter_mut().for_each(|unit| *unit = Some(unit.unwrap_or(length())));
+                units[i..=last].iter_mut().for_each(|unit| *unit = Some(unit.unwrap_or(&MM)));
             }
         }
     }
@@ -235,15 +278,19 @@ pub(crate) fn fact(fact: &mut Fact, turn: Turn<'_>) {
 pub(crate) fn table(table: &mut Table, turn: Turn<'_>) {
     turn(&mut table.caption);
     table.notes.iter_mut().for_each(turn);
-    // A unit may stand within the words of a column: `Chip [mm] (teeth)`.
-    let in_title = |title: &str| title.split_once('[').and_then(|(_, rest)| unit_at(rest));
+    // A unit may stand within the words of a column, `Chip [mm] (teeth)`, and coordinates have none.
+    let in_title = |title: &str| match title.contains("X, Y") {
+        true => Some(&MM),
+        false => title.split_once('[').and_then(|(_, rest)| unit_at(rest)),
+    };
     let of = |column: &Column| unit_at(&column.unit).or_else(|| in_title(&column.title));
-    let units: Vec<Option<Unit>> = table.columns.iter().map(of).collect();
+    let units: Vec<Option<&Unit>> = table.columns.iter().map(of).collect();
     for (column, unit) in table.columns.iter_mut().zip(&units) {
         turn(&mut column.title);
         if let Some(unit) = unit {
-            column.unit = column.unit.replacen(unit.0, unit.1, 1);
-            column.title = column.title.replacen(&format!("[{}]", unit.0), &format!("[{}]", unit.1), 1);
+            column.unit = column.unit.replacen(unit.metric, unit.inch, 1);
+            column.title =
+                column.title.replacen(&format!("[{}]", unit.metric), &format!("[{}]", unit.inch), 1);
         }
     }
     for row in &mut table.rows {
@@ -260,7 +307,7 @@ pub(crate) fn table(table: &mut Table, turn: Turn<'_>) {
 }
 
 /// A cell of a column with a unit: all its numbers are in it.
-fn in_column(text: &str, unit: Unit) -> String {
+fn in_column(text: &str, unit: &Unit) -> String {
     let mut out = String::with_capacity(text.len());
     let mut done = 0;
     for number in numbers(text) {
@@ -330,8 +377,16 @@ mod tests {
             ("give size = [50.8, 25.4] or teeth = 4", "give size = [2, 1] or teeth = 4"),
             ("give feed = 600 (mm/min)", "give feed = 23.62205 (in/min)"),
             ("cutting_speed = 100 (m/min)", "cutting_speed = 328.08399 (ft/min)"),
-            ("X12.5 stays, 3mm does not", "X12.5 stays, 0.118in does not"),
+            ("M12.5 stays, 3mm does not", "M12.5 stays, 0.118in does not"),
             ("part_2.stl: 10.5 mm", "part_2.stl: 0.413 in"),
+            ("gap 2.54e-3 mm", "gap 1.0e-4 in"),
+            ("at most 0.034 mm", "at most 0.00134 in"),
+            ("hole 1 at X-50.8 Y25.4: 2 lines", "hole 1 at X-2 Y1: 2 lines"),
+            ("X25.4 Y0", "X1 Y0"),
+            ("D12.7 hole 2 at X0 Y-25.4", "D0.5 hole 2 at X0 Y-1"),
+            ("line 5: G1 X25.4 Y2", "line 5: G1 X25.4 Y2"),
+            ("write `X25.4 Y2`", "write `X25.4 Y2`"),
+            ("D2 of T5, X12", "D2 of T5, X0.472"),
         ] {
             assert_eq!(shown(text), inches, "{text}");
         }

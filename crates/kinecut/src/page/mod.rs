@@ -29,4 +29,4 @@ pub(crate) use style::{policy_of, style};
 pub use table::{Align, Cell, Column, Mark, Row, Table};
 pub use text::{WIDTH, text};
 pub use units::{area_share, duration, fixed, length, micrometres};
-pub(crate) use units::{px, trimmed};
+pub(crate) use units::{heading, px, trimmed};

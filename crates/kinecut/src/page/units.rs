@@ -86,6 +86,12 @@ pub(crate) fn trimmed(value: f64, decimals: usize) -> String {
     if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
 }
 
+/// A name as a heading: with a capital.
+pub(crate) fn heading(name: &str) -> String {
+    let mut letters = name.chars();
+    letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
+}
+
 /// A coordinate of a drawing.
 pub(crate) fn px(v: f64) -> String {
     trimmed(v, 2)

@@ -80,7 +80,7 @@ fn candidates(outline: &Outline, distance: f64) -> Vec<OutlineEdge> {
 /// The turn at a corner [rad]. One of half a turn, where two edges touch, goes to the right where the face is the tip
 /// between them, to the left where it is all around them: the curvatures tell.
 fn corner(edge: &OutlineEdge, next: &OutlineEdge) -> f64 {
-    /// Difference from half a turn that is rounding [rad], and least curvature that is none of a line (1/mm).
+    /// Rounding of half a turn [rad], and of the curvature of a line (1/mm).
     const SAME: f64 = 1e-6;
     let turn = wrap(next.heading(0.0) - edge.heading(1.0));
     let apart = edge.curvature() + next.curvature();

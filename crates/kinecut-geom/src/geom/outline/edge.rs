@@ -348,7 +348,7 @@ impl OutlineEdge {
 pub(super) struct EdgeFoot {
     /// Distance of the point [mm].
     pub(super) distance: f64,
-    /// How far the point is beyond it on the side away from the material [mm].
+    /// Distance of the point from the tangent there, positive on the side away from the material [mm].
     pub(super) side: f64,
     place: FootPlace,
 }

@@ -28,7 +28,7 @@ pub struct NearestEdge {
     rounding: f64,
 }
 
-/// Sum of curvatures at a tip that is none of two straight edges (1/mm).
+/// Least sum of curvatures at a tip that has an arc (1/mm).
 const TIP: f64 = 1e-9;
 
 /// The nearest edge to a point.

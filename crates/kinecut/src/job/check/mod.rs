@@ -47,6 +47,8 @@ pub struct Job {
     pub title: String,
     /// Unit of the job's own lengths, in which its messages and report are; all else here is in mm.
     pub units: Units,
+    /// Files of machine, tools and cutting data whose lengths are in the other unit: so are messages about them.
+    pub in_other_unit: Vec<String>,
     /// Settings for writing the program.
     pub post: PostSettings,
     /// Form in which the program gives the directions of its tool.
@@ -189,6 +191,7 @@ pub fn check(file: &JobFile, name: &str, loader: &dyn Loader) -> Result<Job> {
     Ok(Job {
         title: text("title", file.title.as_deref().unwrap_or(name))?,
         units: file.units.unwrap_or_default().units(),
+        in_other_unit: Vec::new(),
         post: post(file, name, loader)?,
         orientation: said.0,
         feed_limit: feed_limit(file.post.feeds, machine.as_ref())?,

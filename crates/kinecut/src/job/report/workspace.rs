@@ -7,7 +7,7 @@ use super::encode::{Scene, packs_text};
 use super::facts::is_outside;
 use super::path::seen_from_above;
 use super::{PartView, ProgramView, Report, bands};
-use crate::page::{area_share, duration, fixed, length, plan, trimmed, visible};
+use crate::page::{area_share, duration, fixed, inches, length, plan, trimmed, visible};
 
 /// View and program side by side, the plan below the view.
 pub(super) fn section(report: &Report, scene: &Scene, plan: &Markup) -> Markup {
@@ -20,7 +20,7 @@ pub(super) fn section(report: &Report, scene: &Scene, plan: &Markup) -> Markup {
             div class={ "work" @if !has_view || report.program.is_none() { " single" } } {
                 @if has_view { (view(report, scene)) }
                 (plan)
-                @if let Some(p) = &report.program { (program(p)) }
+                @if let Some(p) = &report.program { (program(p, report.inches)) }
             }
         }
     }
@@ -189,8 +189,12 @@ fn legend(part: &PartView, scene: &Scene) -> Markup {
     }
 }
 
-fn program(program: &ProgramView) -> Markup {
+fn program(program: &ProgramView, in_inches: bool) -> Markup {
     let total = |v: &[f32]| v.iter().map(|&x| f64::from(x)).filter(|x| x.is_finite()).sum::<f64>();
+    let mut way = length(total(&program.length));
+    if in_inches {
+        inches::words(&mut way);
+    }
     html! {
         div.program {
             header {
@@ -199,7 +203,7 @@ fn program(program: &ProgramView) -> Markup {
                     @if !program.control.is_empty() { (visible(&program.control)) " · " }
                     (program.lines.len()) " lines"
                     @if !program.time.is_empty() { " · " (duration(total(&program.time))) }
-                    @if !program.length.is_empty() { " · " (length(total(&program.length))) }
+                    @if !program.length.is_empty() { " · " (way) }
                 }
             }
             @if program.parts.len() > 1 { div #kc-tabs.tabs.script role="tablist" aria-label="Programs" {} }

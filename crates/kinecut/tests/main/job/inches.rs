@@ -204,3 +204,118 @@ fn messages_and_report_are_in_inches() {
         outcome.verdict.found
     );
 }
+
+/// The files of a job, each in a unit of its own.
+#[test]
+fn machines_cutting_data_and_meshes_say_their_units() {
+    let block = |size: f64| {
+        let corners = [[0.0, 0.0, -size], [2.0 * size, size, 0.0]];
+        box_stl(corners)
+    };
+    let job = |units: &str, stock: &str| {
+        let depth = if units == "in" { 0.1 } else { 2.54 };
+        format!(
+            "format = 1\nunits = \"{units}\"\nmaterial = \"C45\"\ncutting = \"cutting.toml\"\nmachine = \"machine.toml\"\n\
+             post = {{ control = \"fanuc\" }}\nstock = {{ mesh = \"{stock}\" }}\n\
+             tools = \"tools.toml\"\n[[setup]]\noffset = \"G54\"\n[[setup.operation]]\ntype = \"face\"\ntool = 1\n\
+             outline = {{ loops = [ [{corners}] ] }}\ndepth = {depth}\n",
+            corners = if units == "in" {
+                "[0, 0], [2, 0], [2, 1], [0, 1]"
+            } else {
+                "[0, 0], [50.8, 0], [50.8, 25.4], [0, 25.4]"
+            },
+        )
+    };
+    let tools = "[[tool]]\nnumber = 1\ntype = \"face-mill\"\ndiameter = 50.8\nflute_length = 10\nteeth = 4\n\
+        stickout = 40\nmaterial = \"carbide\"\n";
+    let cutting = "units = \"in\"\n[[cutting]]\nmaterial = \"C45\"\ntool = \"face-mill\"\ndiameter = [1.9, 2.1]\n\
+        cutting_speed = 500\nfeed_per_tooth = 0.004\n";
+    let machine = "units = \"in\"\ntravel = { X = [-20, 20], Y = [-10, 10], Z = [-20, 0] }\ndynamics = { rapid = 800, acceleration = 100 }\n\
+        code = \"2103\"\n";
+    let loader = MemoryLoader::default()
+        .with("tools.toml", tools)
+        .with("cutting.toml", cutting)
+        .with("machine.toml", machine)
+        .with("inch.stl", block(1.0))
+        .with("mm.stl", block(25.4));
+    let done = |units: &str, stock: &str| {
+        run("job.toml", &job(units, stock), &loader, &Silent).unwrap_or_else(|e| panic!("{e}"))
+    };
+    let (inch, mm) = (done("in", "inch.stl"), done("mm", "mm.stl"));
+    for outcome in [&inch, &mm] {
+        let volume = 2.0 * 25.4_f64.powi(3);
+        assert!(
+            (outcome.simulation.raw_volume - volume).abs() < 0.01 * volume,
+            "{}",
+            outcome.simulation.raw_volume
+        );
+        // 500 ft/min on 2 in, 4 teeth of 0.004 in.
+        let speed = 500.0 * 0.3048 / (std::f64::consts::PI * 0.0508);
+        let text = &outcome.setups[0].posted.text;
+        let rpm: f64 = text
+            .split(" S")
+            .chain(text.split("\nS"))
+            .filter_map(|t| t.split(' ').next()?.parse().ok())
+            .next()
+            .unwrap();
+        assert!((rpm - speed).abs() < 2.0, "{rpm} {speed}");
+        let travel = outcome.job.machine.as_ref().unwrap().travel('X').unwrap();
+        assert!((travel[1] - 508.0).abs() < 1e-9, "{travel:?}");
+    }
+    // A tool file in mm is told in mm, a job in inches in inches.
+    let wrong = MemoryLoader::default()
+        .with("tools.toml", tools.replace("50.8", "-50.8"))
+        .with("cutting.toml", cutting)
+        .with("machine.toml", machine)
+        .with("inch.stl", block(1.0));
+    let error = run("job.toml", &job("in", "inch.stl"), &wrong, &Silent).map(|_| ()).unwrap_err().0;
+    let value = error.value.clone().unwrap();
+    assert!(
+        error.place.as_ref().unwrap().file == "tools.toml" && value.value == -50.8 && value.unit == "mm",
+        "{error:?}"
+    );
+    let wrong = MemoryLoader::default()
+        .with("tools.toml", tools)
+        .with("cutting.toml", cutting.replace("0.004", "-0.004"))
+        .with("machine.toml", machine)
+        .with("mm.stl", block(25.4));
+    let error = run("job.toml", &job("mm", "mm.stl"), &wrong, &Silent).map(|_| ()).unwrap_err().0;
+    let value = error.value.clone().unwrap();
+    assert!(
+        error.place.as_ref().unwrap().file == "cutting.toml" && (value.value + 0.004).abs() < 1e-12,
+        "{error:?}"
+    );
+    assert_eq!(value.unit, "in");
+}
+
+/// A closed box as STL text.
+fn box_stl([low, high]: [[f64; 3]; 2]) -> Vec<u8> {
+    let corner = |i: usize| [0, 1, 2].map(|axis| if i >> axis & 1 == 0 { low[axis] } else { high[axis] });
+    let faces = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
+    let mut text = String::from("solid box\n");
+    for [a, b, c, d] in faces {
+        for triangle in [[a, b, c], [a, c, d]] {
+            text.push_str("facet normal 0 0 0\nouter loop\n");
+            for [x, y, z] in triangle.map(corner) {
+                text.push_str(&format!("vertex {x} {y} {z}\n"));
+            }
+            text.push_str("endloop\nendfacet\n");
+        }
+    }
+    (text + "endsolid box\n").into_bytes()
+}
+
+/// Blocks of a person's own at the start say the unit of the program.
+#[test]
+fn a_template_says_inches() {
+    let run_with = |start: &str| {
+        let loader = MemoryLoader::default().with("start.txt", start);
+        let text = job("in", "fanuc", ", start = \"start.txt\"");
+        run("job.toml", &text, &loader, &Silent).map(|outcome| outcome.setups[0].posted.text.to_string())
+    };
+    let told = |start: &str| run_with(start).unwrap_err().to_string();
+    assert!(told("G90 G17 G21 G40 G49 G80").contains("the program is in inches"), "{}", told("G90 G21"));
+    assert!(told("G90 G17 G40").contains("G20"));
+    let text = run_with("( {{ units }} {{ tools[1].diameter }} )\nG90 G17 G20 G40 G49 G80").unwrap();
+    assert!(text.contains("( in 0.375"), "{}", &text[..200]);
+}

@@ -144,6 +144,43 @@ fn a_pocket_within_an_island_has_its_own_way_in() {
     assert!((removed(&outcome) - 5.0 * area).abs() < 0.02 * 5.0 * area, "{}", removed(&outcome));
 }
 
+/// Passes around this island leave a pillar of 0.05 mm2 between them, thinner than a cell of the cleared area.
+#[test]
+fn what_stands_between_passes_is_swept() {
+    let keys = "outline = { loops = [ [[-40, -25], [40, -25], [40, 25], [-40, 25]], \
+        { centre = [24, -8], radius = 6.6 } ] }\ndepth = 2\n";
+    let text = job("sinumerik-840d", &format!("{POCKET}{keys}")).replacen("diameter = 10", "diameter = 4", 1);
+    let outcome = run("job.toml", &text, &MemoryLoader::default(), &Silent).unwrap_or_else(|e| panic!("{e}"));
+    // Every place of the pocket is swept by the text: by its own points, on a grid of 0.04 mm, away from the walls.
+    let mut swept = std::collections::HashMap::<[i64; 2], Vec<glam::DVec2>>::new();
+    let cell = |p: glam::DVec2| [(p.x / 2.0).floor() as i64, (p.y / 2.0).floor() as i64];
+    for segment in outcome.setups[0].trace.segments.iter() {
+        let count = (segment.curve.length() / 0.02).ceil() as usize;
+        for k in 0..=count {
+            let p = segment.curve.at(segment.curve.length() * k as f64 / count.max(1) as f64).p;
+            if p.z < -2.0 + 1e-6 {
+                swept.entry(cell(p.truncate())).or_default().push(p.truncate());
+            }
+        }
+    }
+    let holds = |p: glam::DVec2| {
+        let [x, y] = cell(p);
+        (x - 1..=x + 1)
+            .flat_map(|x| (y - 1..=y + 1).map(move |y| [x, y]))
+            .any(|near| swept.get(&near).is_some_and(|all| all.iter().any(|q| q.distance_squared(p) <= 4.0)))
+    };
+    let mut standing = Vec::new();
+    for i in -900..=900 {
+        for j in -540..=540 {
+            let p = glam::dvec2(0.04 * f64::from(i), 0.04 * f64::from(j));
+            if p.distance(glam::dvec2(24.0, -8.0)) > 6.8 && !holds(p) {
+                standing.push(p);
+            }
+        }
+    }
+    assert!(standing.is_empty(), "{} places, the first {:?}", standing.len(), standing.first());
+}
+
 /// The loop of the cutter's centre has edges that are rounding where an arc of an island nearly touches the wall's own line.
 #[test]
 fn crumbs_of_an_offset_are_no_fault_of_the_drawing() {

@@ -144,11 +144,17 @@ fn time(program: &Program) -> f64 {
 
 /// The same moves within half a unit of the number format.
 fn assert_same(wanted: &Program, found: &Program, control: Control, text: &str) {
-    assert_same_within(0.5 * control.resolution(control.usual_decimals()), (wanted, found), control, text);
+    let half = 0.5 * control.resolution(control.usual_decimals());
+    assert_same_within((half, 1e-6), (wanted, found), control, text);
 }
 
-/// The same moves within a length [mm].
-fn assert_same_within(half: f64, (wanted, found): (&Program, &Program), control: Control, text: &str) {
+/// The same moves within a length [mm], their feeds within a share.
+fn assert_same_within(
+    (half, share): (f64, f64),
+    (wanted, found): (&Program, &Program),
+    control: Control,
+    text: &str,
+) {
     // An expanded cycle has its dwells as items of their own: compare motion and dwells apart.
     let split = |program: &Program| {
         let all = steps(program);
@@ -161,8 +167,7 @@ fn assert_same_within(half: f64, (wanted, found): (&Program, &Program), control:
     // Moves shorter than the number format vanish.
     assert_eq!(a.0.len(), b.0.len(), "{control}\n{:?}\n{:?}\n{text}", a.0, b.0);
     for ((feed, end), (read_feed, read_end)) in a.0.iter().zip(&b.0) {
-        // Eight decimals of the smallest pitch, in inches.
-        assert!((feed - read_feed).abs() <= 2e-6 * feed.max(1.0), "{control} {feed} {read_feed}\n{text}");
+        assert!((feed - read_feed).abs() <= share * feed.max(1.0), "{control} {feed} {read_feed}\n{text}");
         for (x, y) in end.unwrap().iter().zip(read_end.unwrap()) {
             assert!((x - y).abs() <= half, "{control} {end:?} {read_end:?}\n{text}");
         }
@@ -493,7 +498,9 @@ proptest! {
             let program = holes(control, speed, &all);
             let text = post_in(&program, control, units);
             let back = read(&text, control);
-            assert_same_within(0.5 * unit, (&program, &back.program), control, &text);
+            // Eight decimals of the smallest pitch, in inches.
+            let share = if inches { 2e-6 } else { 1e-6 };
+            assert_same_within((0.5 * unit, share), (&program, &back.program), control, &text);
             prop_assert!((time(&program) - time(&back.program)).abs() < 1e-3 * time(&program).max(1.0));
             // Written again it is the same text.
             prop_assert_eq!(post_in(&back.program, control, units), text);

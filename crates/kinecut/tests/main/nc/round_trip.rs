@@ -276,12 +276,14 @@ fn close(a: f64, b: f64) -> bool {
     (a - b).abs() <= 1e-6 * a.abs().max(b.abs())
 }
 
-fn same_speed(a: Speed, b: Speed) -> bool {
+fn same_speed(a: Speed, b: Speed, units: Units) -> bool {
     match (a, b) {
         (Speed::Rapid { .. }, Speed::Rapid { .. }) => true,
         (Speed::PerMinute(x), Speed::PerMinute(y)) | (Speed::Duration(x), Speed::Duration(y)) => close(x, y),
-        // Eight decimals, of an inch at most.
-        (Speed::PerRevolution(x), Speed::PerRevolution(y)) => close(x, y) || (x - y).abs() < 1.3e-7,
+        // Eight decimals of an inch.
+        (Speed::PerRevolution(x), Speed::PerRevolution(y)) => {
+            close(x, y) || units.is_inch() && (x - y).abs() < 1.3e-7
+        }
         _ => false,
     }
 }
@@ -295,10 +297,12 @@ fn same_spindle(a: Spindle, b: Spindle) -> bool {
     }
 }
 
-/// Whether passages are the same, but for the digits of a tolerance.
-fn same_blend(a: Blend, b: Blend) -> bool {
+/// Whether passages are the same, in inches but for the digits of a tolerance.
+fn same_blend(a: Blend, b: Blend, units: Units) -> bool {
     match (a, b) {
-        (Blend::Tolerance { path: p, merge: m, .. }, Blend::Tolerance { path: q, merge: n, .. }) => {
+        (Blend::Tolerance { path: p, merge: m, .. }, Blend::Tolerance { path: q, merge: n, .. })
+            if units.is_inch() =>
+        {
             (p - q).abs() < 1e-6 * p.max(1.0) && (m - n).abs() < 1e-6 * m.max(1.0)
         }
         _ => a == b,
@@ -340,10 +344,10 @@ fn check_identity(program: &Program, posted: &Posted, control: Control, decimals
                     let other = back.state(p);
                     // In inverse time the blocks of a move share its time.
                     let speed = if pieces.len() > 1 { total.map(Speed::Duration) } else { None };
-                    assert!(same_speed(state.speed, speed.unwrap_or(other.speed)), "{}", context());
+                    assert!(same_speed(state.speed, speed.unwrap_or(other.speed), units), "{}", context());
                     assert!(same_spindle(state.spindle, other.spindle), "{}", context());
                     assert_eq!(state.coolant, other.coolant, "{}", context());
-                    assert!(same_blend(state.blend, other.blend), "{}", context());
+                    assert!(same_blend(state.blend, other.blend, units), "{}", context());
                     if matches!(motion.end, Target::Tip { .. }) {
                         assert_eq!(offset_of(program, i), offset_of(back, p), "{}", context());
                     }
@@ -355,7 +359,8 @@ fn check_identity(program: &Program, posted: &Posted, control: Control, decimals
                         let Item::Move(other) = back.items.get(*p) else { unreachable!() };
                         let Target::Joints(found) = other.end else { panic!("{}", context()) };
                         for (a, b) in joints.into_iter().zip(found) {
-                            let near = a.zip(b).map_or(a == b, |(a, b)| (a - b).abs() <= 0.51 * unit);
+                            let is_near = |(a, b): (f64, f64)| (a - b).abs() <= 0.51 * unit;
+                            let near = a == b || units.is_inch() && a.zip(b).is_some_and(is_near);
                             assert!(near, "{}", context());
                         }
                         (at, at_back) = (DVec3::NAN, DVec3::NAN);

@@ -40,7 +40,7 @@ impl<'a> Blocks<'a> {
     /// The block of an INSERT.
     ///
     /// # Errors
-    /// Where the drawing has none of its name, or another file has it.
+    /// A drawing without that block, or with it in another file.
     pub(super) fn of(&self, source: &Source, insert: &Entity<'_>) -> Result<&Block<'a>> {
         /// Flags of a block that is in another file.
         const EXTERNAL: i64 = 4 | 8 | 16;
@@ -63,7 +63,7 @@ impl<'a> Blocks<'a> {
     /// Counts the entities of a list with all that it inserts, before any is made.
     ///
     /// # Errors
-    /// For more than a million, and for a block that contains itself; those of [`Blocks::of`].
+    /// For more than a million, for blocks that are nested too deep, and for one that contains itself.
     pub(super) fn count(&self, source: &Source, entities: &[Entity<'_>]) -> Result<()> {
         let mut known = BTreeMap::new();
         let count = self.counted(source, entities, &mut Vec::new(), &mut known)?;
@@ -92,8 +92,8 @@ impl<'a> Blocks<'a> {
             if read.flag(67)? == 1 || read.flag(60)? == 1 {
                 continue;
             }
-            let block = self.of(source, entity)?;
-            let Some((&name, _)) = self.0.get_key_value(block.head.text(2).unwrap_or_default()) else {
+            // One that is not there is refused where it is drawn.
+            let Some((&name, block)) = self.0.get_key_value(entity.text(2).unwrap_or_default()) else {
                 continue;
             };
             if within.contains(&name) {
@@ -186,7 +186,7 @@ impl<'a> Placement<'a> {
     /// Edges in the drawing; arcs that become elliptic leave their curve by at most `tolerance` [mm].
     ///
     /// # Errors
-    /// Where such an arc cannot be made.
+    /// Those of arcs that become elliptic.
     pub(super) fn edges(&self, edges: Vec<OutlineEdge>, tolerance: f64) -> Result<Vec<OutlineEdge>> {
         let point = |p: DVec2| self.turned * p + self.moved;
         let [a, b] = [self.turned.x_axis, self.turned.y_axis];

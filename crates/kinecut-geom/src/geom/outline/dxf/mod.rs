@@ -18,7 +18,7 @@ use groups::{Entity, groups, whole};
 
 use super::drawing::{Drawing, Origin, sentences};
 use super::source::Source;
-use super::{LengthUnit, OutlineOptions, OutlineRead};
+use super::{LengthUnit, OutlineEdge, OutlineOptions, OutlineRead};
 use crate::base::Result;
 
 /// First bytes of a binary DXF file.
@@ -115,8 +115,16 @@ impl<'o> Reader<'o> {
                 entity.name == "POLYLINE" && entities.get(at).is_some_and(|e| e.name == "SEQEND"),
             );
             if entity.name == "INSERT" && self.is_seen(entity)? {
-                let block = blocks.of(&self.drawing.source, entity)?;
                 let layer = layer_of(entity, place);
+                let block = match blocks.of(&self.drawing.source, entity) {
+                    Ok(block) => block,
+                    // The frame of a sheet may be in another file, on a layer that is not asked for.
+                    Err(_) if !self.is_asked_for(layer) => {
+                        self.pass("INSERT of a block that is not in the file".to_owned());
+                        continue;
+                    }
+                    Err(error) => return Err(error),
+                };
                 let own = (self.mm, layer);
                 for place in place.inserted(&self.drawing.source, entity, block, own)? {
                     self.entities(&block.entities, &place, blocks)?;
@@ -126,6 +134,11 @@ impl<'o> Reader<'o> {
             }
         }
         Ok(())
+    }
+
+    /// Whether a layer is read: all are where none is named.
+    fn is_asked_for(&self, layer: &str) -> bool {
+        self.options.layers.is_empty() || self.options.layers.iter().any(|wanted| wanted == layer)
     }
 
     /// Whether an entity is neither in paper space nor invisible; a note where it is.
@@ -164,7 +177,7 @@ impl<'o> Reader<'o> {
             return Ok(());
         }
         *self.layers.entry(layer.clone()).or_default() += 1;
-        if !self.options.layers.is_empty() && !self.options.layers.contains(&layer) {
+        if !self.is_asked_for(&layer) {
             return Ok(());
         }
         if let Some((name, help)) = refused {
@@ -181,17 +194,16 @@ impl<'o> Reader<'o> {
         let tolerance = self.options.curve_tolerance;
         let found =
             shape(&self.drawing.source, entity, vertices, self.mm, tolerance / place.stretch().max(1.0))?;
-        let place = |edges| {
+        let place = |edges| -> Result<Vec<OutlineEdge>> {
             let placed = place.edges(edges, tolerance);
             placed.map_err(|e| {
                 self.drawing.error_at(label, e.code(), e.0.message.clone()).help(e.0.help.clone()).into()
             })
         };
         let shape = match found.shape {
-            Shape::Loop(edges) => place(edges).map(Shape::Loop),
-            Shape::Path(edges) => place(edges).map(Shape::Path),
+            Shape::Loop(edges) => Shape::Loop(place(edges)?),
+            Shape::Path(edges) => Shape::Path(place(edges)?),
         };
-        let shape = shape.map_err(|e: crate::base::Error| e)?;
         self.converted += usize::from(found.converted);
         if found.points_twice > 0 {
             let entity = self.drawing.entity(label);
@@ -225,7 +237,7 @@ impl<'o> Reader<'o> {
             }
         }
         for (layer, count) in &self.layers {
-            if !self.options.layers.is_empty() && !self.options.layers.contains(layer) {
+            if !self.is_asked_for(layer) {
                 self.drawing.notes.push(format!("layer {layer:?}: {count} entities passed over"));
             }
         }

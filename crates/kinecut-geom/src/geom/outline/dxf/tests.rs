@@ -295,6 +295,13 @@ fn blocks_that_cannot_be_inserted_are_refused_with_their_line() {
     refused(&[own], &["0 INSERT 8 A 2 OWN 10 0 20 0"], &["contains itself"]);
     let other = "0 BLOCK 8 0 2 XREF 70 4 10 0 20 0 1 other.dwg 0 ENDBLK 8 0";
     refused(&[other], &["0 INSERT 8 A 2 XREF 10 0 20 0"], &["in another file"]);
+    // On a layer that is not asked for neither matters.
+    let frame =
+        with_blocks(&[other], &[SQUARE, "0 INSERT 8 A 2 XREF 10 0 20 0", "0 INSERT 8 A 2 GONE 10 0 20 0"]);
+    let rim = OutlineOptions { layers: vec!["rim".to_owned()], ..OutlineOptions::default() };
+    let read = read_dxf("part.dxf", frame.as_bytes(), &rim).unwrap();
+    assert_eq!(read.outline.edges().len(), 4);
+    assert!(read.notes.iter().any(|note| note.starts_with("2 INSERT")), "{:?}", read.notes);
     refused(&[PART], &["0 INSERT 8 A 2 PART 10 0 20 0 70 30000 71 30000"], &["too many entities"]);
     // Each contains the next ten times: counted, not made.
     let chain: Vec<String> = (0..12)

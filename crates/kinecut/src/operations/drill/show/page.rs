@@ -69,7 +69,7 @@ fn finding(f: &crate::base::Finding) -> String {
 pub fn drill_table(holes: &[DrilledHole], refused: &[RefusedHole]) -> Table {
     let mut table = Table::new(
         format!("{} holes", holes.len() + refused.len()),
-        "Hole; At; Start [mm]; Fully in [mm]; Break-through [mm]; End [mm]; Steady [mm]; \
+        "Hole; At X, Y, Z [mm]; Start [mm]; Fully in [mm]; Break-through [mm]; End [mm]; Steady [mm]; \
              Time [s]; Touches first; Findings",
     );
     for h in holes {

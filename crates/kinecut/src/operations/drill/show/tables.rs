@@ -58,9 +58,9 @@ pub(super) fn facts(hole: &DrilledHole) -> Vec<Fact> {
         facts.push(Fact::new("Lip imbalance", imbalance(balance.eccentricity)).note(note));
     }
     if let [Some(entry), exit] = plan.coordinates.best_zeros {
-        let exit = exit.map_or(String::new(), |z| format!(", W_k at {}", fixed(z, 3)));
+        let exit = exit.map_or(String::new(), |z| format!(", W_k at {} mm", fixed(z, 3)));
         facts.push(
-            Fact::new("Best zeros", format!("W_h at {}{exit}", fixed(entry, 3)))
+            Fact::new("Best zeros", format!("W_h at {} mm{exit}", fixed(entry, 3)))
                 .note("then the entry starts at the approach and the exit at 0"),
         );
     }
