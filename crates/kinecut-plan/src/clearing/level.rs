@@ -6,14 +6,13 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use glam::DVec2;
 
 use super::link::{Pose, ways};
-use super::region::{CentreRegion, WallLoop};
+use super::region::CentreRegion;
 use super::rest::Rest;
+use super::starts::Starts;
 use super::swept::{Clearing, Scratch};
 use super::walk::{Walker, Way, step_of};
 use crate::geom::{Outline, OutlineEdge, arcs_near};
 
-/// Places along the wall at which passes may begin, in radii of the cutter.
-const ALONG_WALL: f64 = 0.1;
 /// Circle on which stock is looked for, in radii of the cutter: what the chords of a way leave at a wall is no stock.
 const TOUCH: f64 = 0.995;
 /// Stretch of the circle that is rounding [rad].
@@ -108,29 +107,6 @@ impl Cleared {
     }
 }
 
-/// A stretch of a loop along the wall that is not cleared.
-#[derive(Clone, Debug)]
-struct Uncleared {
-    of: usize,
-    /// First and last place, by index along the loop; the first is cleared, unless all of the loop is not.
-    from: usize,
-    to: usize,
-    whole: bool,
-}
-
-/// Places along a loop, each with the direction of travel.
-fn places(of: &WallLoop, step: f64) -> Vec<Pose> {
-    let mut found = Vec::new();
-    for edge in &of.edges {
-        let count = (edge.length() / step).ceil().max(1.0);
-        for k in 0..count as usize {
-            let share = k as f64 / count;
-            found.push(Pose { at: edge.at(share), heading: edge.heading(share) });
-        }
-    }
-    found
-}
-
 /// A region that is being cleared.
 pub(super) struct Clearer<'a> {
     pub(super) region: &'a CentreRegion,
@@ -163,8 +139,7 @@ impl Clearer<'_> {
     /// Clears all that the cutter reaches.
     pub(super) fn run(&mut self) -> Cleared {
         let mut cleared = Cleared::default();
-        let step = ALONG_WALL * self.radius;
-        let along: Vec<Vec<Pose>> = self.region.loops.iter().map(|l| places(l, step)).collect();
+        let mut starts = Starts::new(&self.region.loops, self.radius);
         let [low, high] = self.region.bounds();
         let box_area = (high.x - low.x + 2.0 * self.radius) * (high.y - low.y + 2.0 * self.radius);
         // Steps of all passes: so many that a pocket is cleared many times over.
@@ -177,7 +152,7 @@ impl Clearer<'_> {
             region.loops.iter().enumerate().filter_map(|(i, l)| Some((i, l.around.as_ref()?)))
         {
             // An open side, or a place that is free already, needs no entry.
-            if along[one].iter().any(|p| !self.touches(p.at, p.heading, &mut work)) {
+            if starts.of(one).iter().any(|p| !self.touches(p.at, p.heading, &mut work)) {
                 continue;
             }
             if let Some((start, way)) = self.drilled(around) {
@@ -196,44 +171,13 @@ impl Clearer<'_> {
             let way = self.walk(start, &mut most);
             here = self.keep(&way, &mut cleared).or(here);
         }
-        let mut open = Vec::new();
-        for (of, places) in along.iter().enumerate() {
-            let touched: Vec<bool> =
-                places.iter().map(|p| self.touches(p.at, p.heading, &mut work)).collect();
-            open.extend(stretches(of, &touched));
-        }
-        let mut dead: Vec<DVec2> = Vec::new();
+        starts.update(None, |p| self.touches(p.at, p.heading, &mut work));
         let mut rest = None;
-        // The box around all that the last pass has changed; at first everything.
-        let mut changed: Option<[DVec2; 2]> = None;
         loop {
             // Passes begin where the wall leaves what is cleared, the nearest first.
-            // The last pass may have moved the ends of those that it came near to.
-            for stretch in &mut open {
-                let places = &along[stretch.of];
-                let is_near = |at: DVec2| {
-                    changed.is_none_or(|[low, high]: [DVec2; 2]| low.cmple(at).all() && at.cmple(high).all())
-                };
-                let end = |i: usize| is_near(places[i % places.len()].at);
-                let may_move = match stretch.whole {
-                    true => places.iter().any(|p| is_near(p.at)),
-                    false => end(stretch.from + 1) || end(stretch.to),
-                };
-                if may_move {
-                    self.shrink(stretch, places, &mut work);
-                }
-            }
-            changed = Some([DVec2::INFINITY, DVec2::NEG_INFINITY]);
-            open.retain(|s| s.from < s.to);
-            let far = |p: &Pose| here.map_or(p.at, |here| p.at - here.at).length();
-            let next = open
-                .iter()
-                .filter(|s| !s.whole)
-                .map(|s| along[s.of][s.from % along[s.of].len()])
-                .filter(|p| !dead.contains(&p.at))
-                .min_by(|a, b| far(a).total_cmp(&far(b)));
+            let next = starts.nearest(here.map(|here| here.at));
             let (start, of) = match next {
-                Some(place) => (place, None),
+                Some(i) => (starts.place(i), None),
                 None => match self.elsewhere(&mut rest, here.map_or(DVec2::ZERO, |h| h.at)) {
                     Some((place, of)) => (place, Some(of)),
                     None => break,
@@ -247,7 +191,7 @@ impl Clearer<'_> {
             let down = if link.is_some() { None } else { Some(self.way_in(start, &mut work)) };
             let way = self.walk(start, &mut most);
             if way.cutting < 2.0 * step {
-                dead.push(start.at);
+                next.into_iter().for_each(|i| starts.give_up(i));
                 if let (Some(rest), Some(of)) = (&mut rest, of) {
                     rest.cut_nothing(of, self.radius);
                 }
@@ -265,7 +209,7 @@ impl Clearer<'_> {
                 }
                 let clearing = &*self.clearing;
                 rest.iter_mut().for_each(|rest: &mut Rest| rest.passed(&way.points, clearing));
-                changed = Some(box_of(&way.points, 2.5 * self.radius));
+                starts.update(Some(&way.points), |p| self.touches(p.at, p.heading, &mut work));
                 here = self.keep(&way, &mut cleared).or(here);
             }
         }
@@ -429,28 +373,6 @@ impl Clearer<'_> {
         way
     }
 
-    /// Moves the ends of a stretch along the wall past all that has been cleared.
-    fn shrink(&self, stretch: &mut Uncleared, places: &[Pose], work: &mut Scratch) {
-        let mut touches = |i: usize| {
-            let place = places[i % places.len()];
-            self.touches(place.at, place.heading, work)
-        };
-        if stretch.whole {
-            // A loop that nothing has reached: looked at here and there.
-            if let Some(first) = (0..places.len()).step_by(4).find(|&i| !touches(i)) {
-                *stretch = Uncleared { from: first, to: first + places.len(), whole: false, ..*stretch };
-            } else {
-                return;
-            }
-        }
-        while stretch.from < stretch.to && !touches(stretch.from + 1) {
-            stretch.from += 1;
-        }
-        while stretch.to > stretch.from && !touches(stretch.to) {
-            stretch.to -= 1;
-        }
-    }
-
     /// Whether the cutter reaches a point, by more than a cell.
     fn is_reached(&self, p: DVec2) -> bool {
         self.region.room(p) > self.clearing.cell_width() - self.radius
@@ -521,25 +443,4 @@ pub(super) fn box_of(points: &[DVec2], margin: f64) -> [DVec2; 2] {
     let start = [DVec2::INFINITY, DVec2::NEG_INFINITY];
     let [low, high] = points.iter().fold(start, |[low, high], p| [low.min(*p), high.max(*p)]);
     [low - margin, high + margin]
-}
-
-/// The uncleared stretches of a loop.
-fn stretches(of: usize, touched: &[bool]) -> Vec<Uncleared> {
-    let count = touched.len();
-    let Some(first) = touched.iter().position(|t| !t) else {
-        return vec![Uncleared { of, from: 0, to: count, whole: true }];
-    };
-    let mut found: Vec<Uncleared> = Vec::new();
-    let mut from = None;
-    for i in first..=first + count {
-        match (touched[i % count], from) {
-            (true, None) => from = Some(i - 1),
-            (false, Some(begin)) => {
-                found.push(Uncleared { of, from: begin, to: i, whole: false });
-                from = None;
-            }
-            _ => {}
-        }
-    }
-    found
 }

@@ -19,6 +19,7 @@ mod region;
 mod rest;
 mod slot;
 mod spec;
+mod starts;
 mod swept;
 mod trochoid;
 mod walk;
