@@ -133,7 +133,9 @@ impl Clearer<'_> {
     /// Area of the stock that the cutter reaches, by the middles of cells [mm2].
     pub(super) fn stock_area(&self) -> f64 {
         let width = self.clearing.cell_width();
-        self.clearing.remains(|p| self.region.room(p) > -self.radius).len() as f64 * width * width
+        self.clearing.remains(|p| self.region.room_within(p, self.radius) > -self.radius).len() as f64
+            * width
+            * width
     }
 
     /// Clears all that the cutter reaches.
@@ -223,7 +225,7 @@ impl Clearer<'_> {
         cleared.left_at(&rest.points(), self.clearing.cell_width());
         // In all, up to the wall.
         let border = (WALL - 1.0) * self.radius;
-        let up_to_wall = self.clearing.remains(|p| self.region.room(p) > border);
+        let up_to_wall = self.clearing.remains(|p| self.region.room_within(p, self.radius) > border);
         cleared.left = up_to_wall.len() as f64 * self.clearing.cell_width().powi(2);
         cleared
     }
@@ -260,7 +262,7 @@ impl Clearer<'_> {
 
     /// Points of stock that no pass has swept, and that the lap along the wall does not reach.
     fn standing(&self) -> Vec<DVec2> {
-        self.clearing.slivers(|p| self.region.room(p) >= self.radius)
+        self.clearing.slivers(|p| self.region.room_within(p, self.radius) >= self.radius)
     }
 
     /// A straight way over a point within the wanted engagement, from where nothing is cut: its beginning, its end, and the
@@ -375,7 +377,7 @@ impl Clearer<'_> {
 
     /// Whether the cutter reaches a point, by more than a cell.
     fn is_reached(&self, p: DVec2) -> bool {
-        self.region.room(p) > self.clearing.cell_width() - self.radius
+        self.region.room_within(p, self.radius) > self.clearing.cell_width() - self.radius
     }
 
     /// A place to begin at where stock is left that no way along the wall leads to.

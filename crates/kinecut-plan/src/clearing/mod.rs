@@ -11,6 +11,7 @@
 //! passes are made in the mirror. Angles of an engagement are counted from the right normal of the travel, counter-clockwise.
 
 mod centre_line;
+mod far;
 mod level;
 mod link;
 mod moves;

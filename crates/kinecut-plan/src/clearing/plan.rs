@@ -114,6 +114,7 @@ pub fn plan_pocket(spec: &PocketSpec) -> Result<PocketPlan> {
     let stock = spec.stock.as_ref().map(|s| if mirrored { s.mirrored() } else { s.clone() });
     let Some(region) = CentreRegion::new(&face, inset)? else { return Err(too_large(spec, &face)) };
     CELLS.check(Clearing::cells(region.bounds(), a))?;
+    let region = region.with_far(a);
     wide_enough(spec, &face, &region, inset)?;
     let mut clearing = Clearing::new(region.bounds(), a);
     if let Some(stock) = &stock {
@@ -134,7 +135,8 @@ pub fn plan_pocket(spec: &PocketSpec) -> Result<PocketPlan> {
         helix: spec.helix_radius.unwrap_or(HELIX * a),
         tolerance: most.min(share * a),
     };
-    let stock_area = clearer.stock_area();
+    let is_whole = stock.is_none() && holes.is_empty();
+    let stock_area = if is_whole { f64::INFINITY } else { clearer.stock_area() };
     let mut cleared = clearer.run();
     if mirrored {
         cleared.mirror();
@@ -149,7 +151,7 @@ pub fn plan_pocket(spec: &PocketSpec) -> Result<PocketPlan> {
     }
     route.retract();
     let area = region.reached(a);
-    let uncut = if stock.is_none() && holes.is_empty() { area } else { stock_area.min(area) };
+    let uncut = stock_area.min(area);
     let figures = figures(spec, [area, uncut], &cleared);
     let mut findings: Vec<Finding> = parts(&region).into_iter().collect();
     findings.extend(cleared.standing.map(standing));

@@ -1,7 +1,11 @@
 //! The region in which the cutter's centre may be.
 
+use std::cmp::Ordering;
+use std::collections::BinaryHeap;
+
 use glam::DVec2;
 
+use super::far::{Far, Side};
 use crate::base::Result;
 use crate::geom::{NearestEdge, OffsetLoop, Outline, OutlineEdge, offset};
 
@@ -13,6 +17,7 @@ pub(super) struct CentreRegion {
     face: Outline,
     near: NearestEdge,
     bounds: [DVec2; 2],
+    far: Option<Far>,
 }
 
 /// A loop along the wall.
@@ -52,7 +57,15 @@ impl CentreRegion {
             [all[0].min(low), all[1].max(high)]
         });
         let face = Outline::of_offset(kept);
-        Ok(Some(CentreRegion { loops, face, near: NearestEdge::new(&edges), bounds }))
+        Ok(Some(CentreRegion { loops, face, near: NearestEdge::new(&edges), bounds, far: None }))
+    }
+
+    /// With cells in which the places farther than a distance [mm] from its border are known: looks within it are quick.
+    #[must_use]
+    pub(super) fn with_far(mut self, distance: f64) -> CentreRegion {
+        let room = |p: DVec2, most: f64| self.near.at(p, most).map_or(most, |n| n.distance);
+        self.far = Some(Far::new(self.bounds, distance, room));
+        self
     }
 
     /// Area that a cutter of a radius [mm] reaches with its centre in the region [mm2]; where the region has crumbs that no offset
@@ -67,8 +80,9 @@ impl CentreRegion {
         let [low, high] = [self.bounds[0] - radius, self.bounds[1] + radius];
         let count = |length: f64| (length / step).ceil() as usize;
         let point = |i: usize, j: usize| low + step * DVec2::new(i as f64 + 0.5, j as f64 + 0.5);
-        let inside =
-            |i: usize| (0..count(high.y - low.y)).filter(|j| self.room(point(i, *j)) > -radius).count();
+        let inside = |i: usize| {
+            (0..count(high.y - low.y)).filter(|j| self.room_within(point(i, *j), radius) > -radius).count()
+        };
         (0..count(high.x - low.x)).map(inside).sum::<usize>() as f64 * step * step
     }
 
@@ -82,14 +96,28 @@ impl CentreRegion {
         self.near.at(p, f64::INFINITY).map_or(f64::NEG_INFINITY, |n| n.distance)
     }
 
-    /// The same for a point inside, where it is below a distance; else at least that [mm].
+    /// The same where the border is nearer than a distance, else that distance, negative outside [mm].
     pub(super) fn room_within(&self, p: DVec2, distance: f64) -> f64 {
-        self.near.at(p, distance).map_or(distance, |n| n.distance)
+        let Some(far) = self.far.as_ref().filter(|far| distance <= far.reach()) else {
+            return self.room(p).clamp(-distance, distance);
+        };
+        let side = far.side(p);
+        let found = match side {
+            Side::FarInside => return distance,
+            Side::FarOutside => return -distance,
+            // With no border between a point and the middle of its cell, both lie on one side.
+            Side::Inside | Side::Outside => self.near.at(p, distance.max(far.around())),
+        };
+        match found {
+            Some(n) => n.distance.clamp(-distance, distance),
+            None if side == Side::Inside => distance,
+            None => -distance,
+        }
     }
 
     /// Whether a point is inside, or on the border.
     pub(super) fn holds(&self, p: DVec2) -> bool {
-        self.room(p) >= -ROUNDING
+        self.room_within(p, 2.0 * ROUNDING) >= -ROUNDING
     }
 
     /// The point itself where it is inside, the nearest point of the border where it is outside.
@@ -112,10 +140,9 @@ impl CentreRegion {
         // The middle, unless another place has more room by something.
         let middle = 0.5 * (low + high);
         let mut best = (middle, room(middle));
-        // Squares by the most room that a point of them may have, the largest first.
-        let mut squares = vec![(f64::INFINITY, best.0, size)];
-        while let Some(at) = (0..squares.len()).max_by(|&a, &b| squares[a].0.total_cmp(&squares[b].0)) {
-            let (most, middle, size) = squares.swap_remove(at);
+        let mut squares = BinaryHeap::from([Square { most: f64::INFINITY, order: 0, middle: best.0, size }]);
+        let mut order = 0;
+        while let Some(Square { most, middle, size, .. }) = squares.pop() {
             if most <= best.1 + WORTH * best.1.abs().max(1e-3) {
                 break;
             }
@@ -126,10 +153,35 @@ impl CentreRegion {
                     best = (p, room);
                 }
                 let half = 0.5 * size;
-                squares.push((room + half * std::f64::consts::FRAC_1_SQRT_2, p, half));
+                order += 1;
+                let most = room + half * std::f64::consts::FRAC_1_SQRT_2;
+                squares.push(Square { most, order, middle: p, size: half });
             }
         }
         best
+    }
+}
+
+/// A square by the most room that a point of it may have; of equal ones the first that was made comes first.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Square {
+    most: f64,
+    order: usize,
+    middle: DVec2,
+    size: f64,
+}
+
+impl Eq for Square {}
+
+impl Ord for Square {
+    fn cmp(&self, other: &Square) -> Ordering {
+        self.most.total_cmp(&other.most).then(other.order.cmp(&self.order))
+    }
+}
+
+impl PartialOrd for Square {
+    fn partial_cmp(&self, other: &Square) -> Option<Ordering> {
+        Some(self.cmp(other))
     }
 }
 

@@ -118,8 +118,8 @@ pub fn plan_slot(spec: &SlotSpec) -> Result<PocketPlan> {
     for (p, radius) in holes.iter().filter(|(_, radius)| *radius >= a) {
         clearing.sweep(*p, *p, *radius);
     }
-    let region = CentreRegion::new(&face, a + pocket.allowance + WALL_STOCK)?;
-    let reached = |p: DVec2, less: f64| region.as_ref().is_some_and(|r| r.room(p) > less - a);
+    let region = CentreRegion::new(&face, a + pocket.allowance + WALL_STOCK)?.map(|r| r.with_far(a));
+    let reached = |p: DVec2, less: f64| region.as_ref().is_some_and(|r| r.room_within(p, a) > less - a);
     let width = clearing.cell_width();
     let stock_area = clearing.remains(|p| reached(p, 0.0)).len() as f64 * width * width;
     let mut cleared = match around {

@@ -20,6 +20,8 @@ pub(in crate::geom) struct EdgeBins {
 
 /// Bins that an edge is kept in, on average, before wider bins are taken.
 const KEPT: usize = 16;
+/// Share of the size of all edges by which a bin may be nearer than its corners say.
+const ROUNDING: f64 = 1e-9;
 
 impl EdgeBins {
     /// Of edges that are finite.
@@ -102,16 +104,30 @@ impl EdgeBins {
         let column = self.span(p.x, p.x, 0).start as isize;
         let row = self.span(p.y, p.y, 1).start as isize;
         let most = self.columns.max(self.rows) as isize;
+        let rounding = ROUNDING * (1.0 + self.size);
+        // How far a coordinate lies from the bins of a column or row; those beyond the outermost are in it.
+        let beside = |x: f64, low: f64| (low - x).max(x - low - self.width).max(0.0);
         for ring in 0..=most {
             // Bins of a ring are at least so far away; from a point beside all bins they are farther.
             if (ring - 1) as f64 * self.width > limit {
                 break;
             }
             for y in row - ring..=row + ring {
+                if y < 0 || y >= self.rows as isize {
+                    continue;
+                }
+                let across = beside(p.y, self.low.y + y as f64 * self.width);
+                if across > limit + rounding {
+                    continue;
+                }
                 let edge_row = (y - row).abs() == ring;
                 let step = if edge_row || ring == 0 { 1 } else { 2 * ring as usize };
                 for x in (column - ring..=column + ring).step_by(step) {
-                    if x < 0 || y < 0 || x >= self.columns as isize || y >= self.rows as isize {
+                    if x < 0 || x >= self.columns as isize {
+                        continue;
+                    }
+                    let along = beside(p.x, self.low.x + x as f64 * self.width);
+                    if along * along + across * across > (limit + rounding) * (limit + rounding) {
                         continue;
                     }
                     for &edge in self.edges(x as usize, y as usize) {
