@@ -126,6 +126,9 @@ pub(super) struct Clearer<'a> {
 impl Clearer<'_> {
     fn touches(&self, at: DVec2, heading: f64, work: &mut Scratch) -> bool {
         let radius = TOUCH * self.radius;
+        if self.clearing.is_in_untouched(at, heading, radius) {
+            return true;
+        }
         let mut uncut = |heading: f64| self.clearing.engaged(at, heading, radius, work).largest;
         uncut(heading) > ROUNDING || uncut(heading + PI) > ROUNDING
     }
@@ -160,7 +163,7 @@ impl Clearer<'_> {
             if let Some((start, way)) = self.drilled(around) {
                 cleared.elements.push(Element::Down(start));
                 cleared.elements.push(Element::Link(vec![OutlineEdge::line(start, way.at)]));
-                let way = self.walk(way, &mut most);
+                let way = self.walk(way, &mut most, &mut work);
                 here = self.keep(&way, &mut cleared).or(here);
                 continue;
             }
@@ -170,7 +173,7 @@ impl Clearer<'_> {
             self.clearing.sweep(middle, middle, radius + self.radius);
             cleared.elements.push(Element::Helix { middle, radius, from });
             let start = Pose { at: middle + radius * DVec2::from_angle(from), heading: from + FRAC_PI_2 };
-            let way = self.walk(start, &mut most);
+            let way = self.walk(start, &mut most, &mut work);
             here = self.keep(&way, &mut cleared).or(here);
         }
         starts.update(None, |p| self.touches(p.at, p.heading, &mut work));
@@ -191,7 +194,7 @@ impl Clearer<'_> {
             // Before the pass, as the link runs through what is cleared by then.
             let link = here.and_then(|here| self.link(here, start, &mut work));
             let down = if link.is_some() { None } else { Some(self.way_in(start, &mut work)) };
-            let way = self.walk(start, &mut most);
+            let way = self.walk(start, &mut most, &mut work);
             if way.cutting < 2.0 * step {
                 next.into_iter().for_each(|i| starts.give_up(i));
                 if let (Some(rest), Some(of)) = (&mut rest, of) {
@@ -362,13 +365,13 @@ impl Clearer<'_> {
         (start.at, Vec::new())
     }
 
-    fn walk(&mut self, start: Pose, most: &mut usize) -> Way {
+    fn walk(&mut self, start: Pose, most: &mut usize, work: &mut Scratch) -> Way {
         let mut walker = Walker {
             region: self.region,
             clearing: self.clearing,
             radius: self.radius,
             wanted: self.wanted,
-            work: Scratch::default(),
+            work,
         };
         let way = walker.pass(start.at, start.heading, *most);
         *most = most.saturating_sub(way.points.len());

@@ -43,11 +43,14 @@ pub struct Clearing {
     /// Radius of the cutter [mm].
     radius: f64,
     low: DVec2,
-    /// Width of a cell [mm].
+    /// Width of a cell [mm], and cells along a length of 1 mm.
     width: f64,
+    per_width: f64,
     columns: usize,
     rows: usize,
-    cells: Vec<Cell>,
+    states: Vec<State>,
+    /// For each cell the pieces that reach into it and do not cover it.
+    cells: Vec<Vec<u32>>,
     pieces: Vec<Piece>,
     /// Outline of the stock at first; `None`: stock everywhere.
     stock: Option<Stock>,
@@ -62,21 +65,13 @@ struct Stock {
     near: NearestEdge,
 }
 
-/// A cell.
-#[derive(Clone, Debug, Default)]
-struct Cell {
-    state: State,
-    /// Pieces that reach into it and do not cover it.
-    pieces: Vec<u32>,
-}
-
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+/// What a cell holds.
+#[derive(Clone, Copy, Debug, PartialEq)]
 enum State {
     /// Covered by one piece, or free of stock.
     Clear,
     /// The outline of the stock passes it.
     Edge,
-    #[default]
     Stock,
 }
 
@@ -118,9 +113,11 @@ impl Clearing {
             radius,
             low,
             width,
+            per_width: 1.0 / width,
             columns,
             rows,
-            cells: vec![Cell::default(); columns * rows],
+            states: vec![State::Stock; columns * rows],
+            cells: vec![Vec::new(); columns * rows],
             pieces: Vec::new(),
             stock: None,
             around,
@@ -146,7 +143,7 @@ impl Clearing {
                     None if outline.contains(middle) => State::Stock,
                     None => State::Clear,
                 };
-                self.cells[row * self.columns + column].state = state;
+                self.states[row * self.columns + column] = state;
             }
         }
         self.stock = Some(Stock { outline: outline.clone(), near });
@@ -164,7 +161,7 @@ impl Clearing {
 
     /// The cell at a point; beyond the area the nearest one.
     fn cell(&self, p: DVec2) -> usize {
-        let at = |x: f64, low: f64, count: usize| (((x - low) / self.width) as usize).min(count - 1);
+        let at = |x: f64, low: f64, count: usize| (((x - low) * self.per_width) as usize).min(count - 1);
         at(p.y, self.low.y, self.rows) * self.columns + at(p.x, self.low.x, self.columns)
     }
 
@@ -195,18 +192,19 @@ impl Clearing {
         for row in span(min.y, max.y, self.low.y, self.rows) {
             for column in columns.clone() {
                 let cell = row * self.columns + column;
-                if self.cells[cell].state == State::Clear {
+                if self.states[cell] == State::Clear {
                     continue;
                 }
-                let away = piece.distance(self.middle(column, row));
-                if away + reach <= radius {
-                    self.cells[cell] = Cell { state: State::Clear, pieces: Vec::new() };
-                } else if away - reach < radius {
+                let middle = self.middle(column, row);
+                let away = piece.squared(middle);
+                if radius >= reach && away <= (radius - reach) * (radius - reach) {
+                    self.states[cell] = State::Clear;
+                    self.cells[cell] = Vec::new();
+                } else if away < (radius + reach) * (radius + reach) {
                     // Within the cell, what another piece covers too is not kept: few are.
-                    let middle = self.middle(column, row);
                     let all = &self.pieces;
                     let hides = |a: u32, b: u32| all[a as usize].hides(&all[b as usize], middle, reach);
-                    let kept = &mut self.cells[cell].pieces;
+                    let kept = &mut self.cells[cell];
                     if !kept.iter().any(|&known| hides(known, index)) {
                         kept.retain(|&known| !hides(index, known));
                         kept.push(index);
@@ -218,10 +216,10 @@ impl Clearing {
 
     /// Whether a point is cleared.
     pub fn is_clear(&self, p: DVec2) -> bool {
-        let cell = &self.cells[self.cell(p)];
-        cell.state == State::Clear
-            || cell.pieces.iter().any(|&i| self.pieces[i as usize].holds(p))
-            || cell.state == State::Edge && self.stock.as_ref().is_some_and(|s| !s.outline.contains(p))
+        let cell = self.cell(p);
+        self.states[cell] == State::Clear
+            || self.cells[cell].iter().any(|&i| self.pieces[i as usize].holds(p))
+            || self.states[cell] == State::Edge && self.stock.as_ref().is_some_and(|s| !s.outline.contains(p))
     }
 
     /// Points of the middle of cells that are not wholly cleared, where `keep` has them, and are stock.
@@ -229,7 +227,7 @@ impl Clearing {
         let mut found = Vec::new();
         for row in 0..self.rows {
             for column in 0..self.columns {
-                if self.cells[row * self.columns + column].state == State::Clear {
+                if self.states[row * self.columns + column] == State::Clear {
                     continue;
                 }
                 let p = self.middle(column, row);
@@ -246,8 +244,8 @@ impl Clearing {
         let mut found = Vec::new();
         for row in 0..self.rows {
             for column in 0..self.columns {
-                let cell = &self.cells[row * self.columns + column];
-                if cell.state == State::Clear {
+                let cell = row * self.columns + column;
+                if self.states[cell] == State::Clear {
                     continue;
                 }
                 let square = (self.middle(column, row), 0.5 * self.width);
@@ -259,14 +257,14 @@ impl Clearing {
 
     /// A point of a square of a cell, by its middle and half its width, that no piece covers; `times`: how often it may be
     /// divided.
-    fn uncovered(&self, cell: &Cell, (middle, half): (DVec2, f64), times: u32) -> Option<DVec2> {
-        let pieces = || cell.pieces.iter().map(|&i| &self.pieces[i as usize]);
+    fn uncovered(&self, cell: usize, (middle, half): (DVec2, f64), times: u32) -> Option<DVec2> {
+        let pieces = || self.cells[cell].iter().map(|&i| &self.pieces[i as usize]);
         if pieces().any(|piece| piece.covers_around(middle, half * std::f64::consts::SQRT_2)) {
             return None;
         }
         if times == 0 {
             let is_stock = || match &self.stock {
-                Some(stock) if cell.state == State::Edge => stock.outline.contains(middle),
+                Some(stock) if self.states[cell] == State::Edge => stock.outline.contains(middle),
                 _ => true,
             };
             return (!pieces().any(|piece| piece.holds(middle)) && is_stock()).then_some(middle);
@@ -275,6 +273,20 @@ impl Clearing {
         let corners = [(-1.0, -1.0), (1.0, -1.0), (-1.0, 1.0), (1.0, 1.0)];
         corners.into_iter().find_map(|(x, y)| {
             self.uncovered(cell, (middle + quarter * DVec2::new(x, y), quarter), times - 1)
+        })
+    }
+
+    /// Whether a circle of a radius [mm] passes stock that nothing has come near to: a quick answer where it does, from the way
+    /// ahead [rad] on to both sides.
+    pub(super) fn is_in_untouched(&self, centre: DVec2, heading: f64, radius: f64) -> bool {
+        let scale = radius / self.radius;
+        let ahead = (heading / SLOT).floor() as i64;
+        (0..SLOTS as i64).any(|k| {
+            // 0, 1, -1, 2, -2 and so on.
+            let aside = if k % 2 == 0 { -(k / 2) } else { k / 2 + 1 };
+            let slot = (ahead + aside).rem_euclid(SLOTS as i64) as usize;
+            let cell = self.cell(centre + scale * self.around[slot]);
+            self.states[cell] == State::Stock && self.cells[cell].is_empty()
         })
     }
 
@@ -305,18 +317,20 @@ impl Clearing {
         let mut slot = first.rem_euclid(SLOTS as i64) as usize;
         for k in 0..=(SLOTS / 2) as i64 {
             let begin = (first + k) as f64 * SLOT - right;
-            let cell = &self.cells[self.cell(centre + scale * self.around[slot])];
-            if cell.state == State::Clear {
+            let middle = centre + scale * self.around[slot];
+            let cell = self.cell(middle);
+            let state = self.states[cell];
+            if state == State::Clear {
                 slot = if slot + 1 < SLOTS { slot + 1 } else { 0 };
                 clear_from.get_or_insert(begin);
                 continue;
             }
-            let middle = centre + scale * self.around[slot];
+            let pieces = &self.cells[cell];
             let covers_all = |i: u32| self.pieces[i as usize].covers_around(middle, half);
             // Pieces cover many slots, the latest most.
             let covering = hint
                 .filter(|&i| covers_all(i))
-                .or_else(|| cell.pieces.iter().rev().copied().find(|&i| covers_all(i)));
+                .or_else(|| pieces.iter().rev().copied().find(|&i| covers_all(i)));
             slot = if slot + 1 < SLOTS { slot + 1 } else { 0 };
             if covering.is_some() {
                 hint = covering;
@@ -327,8 +341,8 @@ impl Clearing {
                 work.covers.push([from, begin]);
             }
             open = true;
-            has_edge |= cell.state == State::Edge;
-            for &index in &cell.pieces {
+            has_edge |= state == State::Edge;
+            for &index in pieces {
                 let piece = &self.pieces[index as usize];
                 if !piece.comes_within(middle, half) || !work.is_new(index) {
                     continue;
@@ -489,11 +503,6 @@ impl Piece {
     fn comes_within(&self, p: DVec2, distance: f64) -> bool {
         let reach = self.radius + distance;
         self.squared(p) <= reach * reach
-    }
-
-    /// Distance of a point from the way of the middle [mm].
-    fn distance(&self, p: DVec2) -> f64 {
-        self.squared(p).sqrt()
     }
 
     /// The stretch of a circle that the piece covers [rad], counter-clockwise from the first to the second; `None` where it

@@ -53,7 +53,7 @@ pub(super) struct Walker<'a> {
     pub(super) radius: f64,
     /// Engagement that is kept [rad].
     pub(super) wanted: f64,
-    pub(super) work: Scratch,
+    pub(super) work: &'a mut Scratch,
 }
 
 fn on_grid(value: f64) -> f64 {
@@ -146,7 +146,7 @@ impl Walker<'_> {
             // than it has turned before.
             let turned = along - heading;
             let lean = 0.5 * turned.min(if bend > 0.0 { bend } else { 0.0 }).clamp(-0.1, 0.1);
-            let engaged = self.clearing.engaged(next, along + lean, self.radius, &mut self.work).total;
+            let engaged = self.clearing.engaged(next, along + lean, self.radius, self.work).total;
             (next, along, engaged)
         };
         let mut bad = sharpest;
