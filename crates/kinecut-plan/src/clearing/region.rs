@@ -201,3 +201,61 @@ fn parts(loops: &[&OffsetLoop]) -> Vec<(usize, usize)> {
     };
     islands.filter_map(within).collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use std::f64::consts::TAU;
+
+    use glam::dvec2;
+
+    use super::*;
+    use crate::num::random::Random;
+
+    fn plate() -> Outline {
+        let corners =
+            [dvec2(0.0, 0.0), dvec2(90.0, 0.0), dvec2(70.0, 40.0), dvec2(30.0, 25.0), dvec2(-10.0, 50.0)];
+        let edges = Outline::polygon(&corners).unwrap().edges().to_vec();
+        let islands = [dvec2(20.0, 9.0), dvec2(62.0, 20.0)].map(|p| vec![OutlineEdge::arc(p, 4.0, 0.0, TAU)]);
+        Outline::new(std::iter::once(edges).chain(islands).collect(), Vec::new()).unwrap()
+    }
+
+    #[test]
+    fn looks_with_cells_are_those_without() {
+        let mut random = Random(2);
+        for radius in [0.7, 2.0, 3.5] {
+            let plain = CentreRegion::new(&plate(), radius).unwrap().unwrap();
+            let region = plain.clone().with_far(radius);
+            for round in 0..20_000 {
+                let p = dvec2(-25.0, -15.0) + dvec2(130.0 * random.share(), 80.0 * random.share());
+                // Every fourth one beside the border.
+                let near = plain.near.at(p, f64::INFINITY).unwrap();
+                let at = plain.near.edge(near.edge).at(near.share);
+                let p = if round % 4 == 0 { at + 1e-5 * (p - at) } else { p };
+                let most = radius * if round % 3 == 0 { random.share() } else { 1.0 };
+                let exact = plain.room(p);
+                assert!(
+                    (region.room_within(p, most) - exact.clamp(-most, most)).abs() < 1e-12,
+                    "{round}: {p}"
+                );
+                assert_eq!(region.holds(p), exact >= -ROUNDING, "{round}: {p}");
+            }
+        }
+    }
+
+    #[test]
+    fn the_widest_place_has_the_most_room_of_all() {
+        let region = CentreRegion::new(&plate(), 2.0).unwrap().unwrap();
+        for one in region.loops.iter().filter_map(|l| l.around.as_ref()) {
+            let (at, room) = CentreRegion::widest(one);
+            assert!((region.room(at) - room).abs() < 1e-9);
+            let [low, high] = one.bounds();
+            let look = |k: u32| low + (high - low) * dvec2(f64::from(k % 200), f64::from(k / 200)) / 200.0;
+            let most = (0..40_000)
+                .map(look)
+                .filter(|p| one.contains(*p))
+                .map(|p| region.room(p))
+                .fold(0.0, f64::max);
+            assert!(room > 0.998 * most, "{room} {most}");
+        }
+    }
+}

@@ -160,3 +160,54 @@ impl Grid {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use glam::dvec2;
+
+    use super::*;
+    use crate::geom::OutlineEdge;
+
+    /// A square of 40 mm, travelled counter-clockwise: places 0.5 mm apart for a radius of 5.
+    fn square() -> Starts {
+        let corners = [dvec2(0.0, 0.0), dvec2(40.0, 0.0), dvec2(40.0, 40.0), dvec2(0.0, 40.0)];
+        let edges = (0..4).map(|i| OutlineEdge::line(corners[i], corners[(i + 1) % 4])).collect();
+        Starts::new(&[WallLoop { edges, around: None }], 5.0)
+    }
+
+    #[test]
+    fn passes_begin_after_every_stretch_that_is_cleared() {
+        let mut starts = square();
+        assert_eq!((starts.of(0).len(), starts.nearest(None)), (320, None));
+        // Two stretches, the second in the middle of what is left.
+        starts.update(None, |p| !(p.at.y == 0.0 && (10.2..20.2).contains(&p.at.x)));
+        let at = |starts: &Starts, near: DVec2| starts.nearest(Some(near)).map(|i| starts.place(i).at);
+        assert_eq!(at(&starts, dvec2(0.0, 40.0)), Some(dvec2(20.0, 0.0)));
+        let way = [dvec2(30.0, 35.0), dvec2(20.0, 35.0)];
+        starts.update(Some(&way), |p| !(p.at.y == 40.0 && (18.2..32.2).contains(&p.at.x)));
+        assert_eq!(at(&starts, dvec2(0.0, 40.0)), Some(dvec2(18.5, 40.0)));
+        assert_eq!(at(&starts, dvec2(40.0, 0.0)), Some(dvec2(20.0, 0.0)));
+        // What is cleared up to another stretch joins it, and a place that is given up is no beginning.
+        starts.update(None, |p| {
+            !(p.at.y == 0.0 && p.at.x > 19.0 || p.at.x == 40.0 || p.at.y == 40.0 && p.at.x > 25.0)
+        });
+        assert_eq!(at(&starts, dvec2(40.0, 0.0)), Some(dvec2(18.5, 40.0)));
+        starts.give_up(starts.nearest(None).unwrap());
+        assert_eq!(starts.nearest(None), None);
+    }
+
+    #[test]
+    fn places_near_a_way_are_asked_for_once_and_all_of_them() {
+        let mut starts = square();
+        let way: Vec<DVec2> = (0..100).map(|k| dvec2(0.3 * f64::from(k), 0.2 * f64::from(k))).collect();
+        let mut asked = Vec::new();
+        starts.update(Some(&way), |p| {
+            asked.push(p.at);
+            true
+        });
+        let near = |p: &Pose| way.iter().any(|w| w.distance(p.at) <= 10.0);
+        assert!(starts.of(0).iter().filter(|p| near(p)).all(|p| asked.contains(&p.at)));
+        assert!(asked.iter().enumerate().all(|(i, p)| !asked[..i].contains(p)));
+        assert!(asked.len() < 320);
+    }
+}

@@ -130,4 +130,28 @@ mod tests {
             }
         }
     }
+
+    proptest! {
+        #![proptest_config(kinecut_cases::property(256))]
+        /// Of many edges the nearest is found, from inside and outside of the box around them, and none beyond the limit.
+        #[test]
+        fn the_nearest_of_many_edges_is_that_of_all(
+            seed in 0..1000_u32, count in 3..80_u32, x in -40.0..40.0f64, y in -40.0..40.0f64, within in 0.1..60.0f64,
+        ) {
+            let corner = |k: u32| {
+                let share = |of: f64| (f64::from(seed) * 0.37 + f64::from(k % count) * of).fract() - 0.5;
+                dvec2(40.0 * share(0.754_877_666), 24.0 * share(0.569_840_291))
+            };
+            let edges: Vec<_> = (0..count).map(|k| OutlineEdge::line(corner(k), corner(k + 1))).collect();
+            let p = dvec2(x, y);
+            let least = edges.iter().map(|e| e.nearest(p).1).fold(f64::INFINITY, f64::min);
+            let near = NearestEdge::new(&edges);
+            let found = near.at(p, f64::INFINITY).unwrap();
+            prop_assert!((found.distance.abs() - least).abs() < 1e-9);
+            match near.at(p, within) {
+                Some(found) => prop_assert!((found.distance.abs() - least).abs() < 1e-9 && least < within + 1e-9),
+                None => prop_assert!(least > within - 1e-9),
+            }
+        }
+    }
 }

@@ -1,5 +1,6 @@
 //! Pockets: engagement, completeness and lengths, judged by distances to all that was cut before.
 
+mod narrowing;
 mod slot;
 
 use std::collections::HashMap;
