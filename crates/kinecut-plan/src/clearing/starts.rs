@@ -60,7 +60,7 @@ impl Starts {
     pub(super) fn update(&mut self, way: Option<&[DVec2]>, mut touches: impl FnMut(Pose) -> bool) {
         let mut found = Vec::new();
         let places = &self.places;
-        let mut look = |i: usize| {
+        let look = |i: usize| {
             let is_cleared = !touches(places[i]);
             if is_cleared {
                 found.push(i);
@@ -69,7 +69,7 @@ impl Starts {
         };
         match way {
             Some(way) => self.grid.take_near(way, look),
-            None => self.grid.take(|i| look(i)),
+            None => self.grid.take(look),
         }
         for &i in &found {
             self.cleared[i] = true;
