@@ -16,6 +16,9 @@ const JOINED: f64 = 10.0;
 /// Deficits of the distance of a piece that still keeps it, in roundings, to be tried in turn: where edges meet at small
 /// angles, pieces beyond their meeting lack little; where the ends of edges are rounded, so do pieces that belong.
 pub(super) const DEFICITS: [f64; 2] = [1e-3, 1.0];
+/// Deficit from which on a piece is kept where any part of it keeps the distance: a passage as wide as twice the distance is
+/// narrower here and there.
+const ROUGH: f64 = 0.1;
 
 /// The loops, the face on their right.
 pub(super) fn loops(
@@ -25,6 +28,7 @@ pub(super) fn loops(
     deficit: f64,
 ) -> Vec<Vec<OutlineEdge>> {
     let (same, fine) = (near.rounding(), deficit * near.rounding());
+    let shares: &[f64] = if deficit > ROUGH { &[0.5, 0.03, 0.26, 0.74, 0.97] } else { &[0.5] };
     let all = candidates(outline, distance);
     let mut pieces = Vec::new();
     let bins = EdgeBins::new(&all);
@@ -39,10 +43,11 @@ pub(super) fn loops(
         cuts.sort_by(f64::total_cmp);
         for pair in cuts.windows(2) {
             let piece = candidate.part(pair[0], pair[1]).labelled(i as u32);
-            let kept = piece.length() > same
-                && near
-                    .at(piece.at(0.5), distance.abs())
-                    .is_none_or(|nearest| nearest.distance.abs() >= distance.abs() - fine);
+            let has_room = |share: f64| {
+                let nearest = near.at(piece.at(share), distance.abs());
+                nearest.is_none_or(|nearest| nearest.distance.abs() >= distance.abs() - fine)
+            };
+            let kept = piece.length() > same && shares.iter().any(|&share| has_room(share));
             if kept {
                 pieces.push(piece);
             }

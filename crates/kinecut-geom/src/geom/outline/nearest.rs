@@ -59,9 +59,10 @@ impl NearestEdge {
         &self.edges[index]
     }
 
-    /// The place of an edge that is nearest.
-    fn foot_of(&self, edge: usize, foot: &EdgeFoot) -> DVec2 {
-        self.edges[edge].at(foot.share(&self.edges[edge]))
+    /// Whether one of two edges goes on from the other.
+    fn is_joined(&self, [a, b]: [usize; 2]) -> bool {
+        let (a, b) = (&self.edges[a], &self.edges[b]);
+        a.end.distance(b.start) <= self.rounding || b.end.distance(a.start) <= self.rounding
     }
 
     /// On which side a point beyond a tip is, where one edge ends and the next goes back along it: outside (1) of a tip of the
@@ -93,7 +94,7 @@ impl NearestEdge {
                 // At a tip both see it as squarely, from either side, or from straight ahead.
                 let is_ahead = foot.side.abs() <= self.rounding;
                 let is_tip = (foot.side * old.side < 0.0 || is_ahead) && a > self.rounding && known != edge;
-                if !is_tip || self.foot_of(known, &old).distance(self.foot_of(edge, &foot)) > self.rounding {
+                if !is_tip || !self.is_joined([known, edge]) {
                     return false;
                 }
                 let Some(side) = self.beyond_tip([known, edge]) else { return false };
