@@ -97,19 +97,40 @@ impl<'a> Check<'a> {
         }
     }
 
+    /// Distance of a point from the outline, as far as it is less than another [mm].
+    fn room(&self, p: DVec2, within: f64) -> f64 {
+        self.near.at(p, within).map_or(within, |n| n.distance.abs())
+    }
+
+    /// Whether a place of a moved edge is where the face is as wide as twice the distance, but not beside it along the edge: the
+    /// offset is a point there, which is no path.
+    fn is_point(&self, place: &dyn Fn(f64, f64) -> DVec2, s: f64, length: f64) -> bool {
+        /// Part of the distance along the edge at which the face must be narrower.
+        const BESIDE: f64 = 0.01;
+        let (distance, rounding) = (self.distance.abs(), self.near.rounding());
+        let farther = distance + 4.0 * rounding;
+        let has_width =
+            self.room(place(s, farther.copysign(self.distance)), farther) > distance + 2.0 * rounding;
+        let step = BESIDE * distance / length;
+        let is_narrower = |s: f64| self.room(place(s, self.distance), distance) < distance - rounding;
+        !has_width && [s - step, s + step].into_iter().all(|s| is_narrower(s.clamp(0.0, 1.0)))
+    }
+
     /// Points that belong to the offset.
     fn whole(&self, loops: &[Vec<OutlineEdge>]) -> Result<()> {
         const SHARES: [f64; 5] = [0.03, 0.26, 0.5, 0.74, 0.97];
         let edges: Vec<OutlineEdge> = loops.concat();
         let found = NearestEdge::new(&edges);
-        let look = |p: DVec2| {
-            let least = self.distance.abs() - self.near.rounding();
-            let is_of_it = self.near.at(p, self.distance.abs()).is_none_or(|n| n.distance.abs() >= least);
-            // A loop may begin or end within the rounding of where its candidates meet.
-            if is_of_it && found.at(p, 10.0 * self.largest()).is_none() {
-                return self.error("lacks a loop", p);
+        let least = self.distance.abs() - self.near.rounding();
+        let has_room = |p: DVec2| self.room(p, self.distance.abs()) >= least;
+        // A loop may begin or end within the rounding of where its candidates meet.
+        let apart = 10.0 * self.largest();
+        let look = |place: &dyn Fn(f64, f64) -> DVec2, s: f64, length: f64| {
+            let p = place(s, self.distance);
+            if !has_room(p) || found.at(p, apart).is_some() || self.is_point(place, s, length) {
+                return Ok(());
             }
-            Ok(())
+            self.error("lacks a loop", p)
         };
         for one in self.outline.loops() {
             let edges = &self.outline.edges()[one.edges.clone()];
@@ -118,8 +139,11 @@ impl<'a> Check<'a> {
                 let room = self.distance.abs() + self.largest();
                 let vanishes = edge.turn.is_some_and(|t| t.sweep * self.distance < 0.0 && t.radius <= room);
                 if !vanishes {
+                    let moved = |s: f64, by: f64| edge.at(s) - by * DVec2::from_angle(edge.outward(s));
+                    let radius = edge.turn.map(|t| t.radius + self.distance * t.sweep.signum());
+                    let length = edge.turn.zip(radius).map_or(edge.length(), |(t, r)| (r * t.sweep).abs());
                     for s in SHARES {
-                        look(edge.at(s) - self.distance * DVec2::from_angle(edge.outward(s)))?;
+                        look(&moved, s, length)?;
                     }
                 }
                 let next = &edges[(i + 1) % edges.len()];
@@ -127,13 +151,13 @@ impl<'a> Check<'a> {
                 if turn.abs() > HALF_TURN {
                     // The face is all around the tip, or only behind it.
                     let before = edge.end + TIP * DVec2::from_angle(edge.heading(1.0));
-                    let is_face = self.near.at(before, f64::INFINITY).is_some_and(|n| n.distance < 0.0);
-                    turn = turn.abs().copysign(if is_face { 1.0 } else { -1.0 });
+                    turn = turn.abs().copysign(if self.outline.contains(before) { 1.0 } else { -1.0 });
                 }
                 if turn * self.distance > 0.0 && turn.abs() > 1e-6 {
+                    let around =
+                        |s: f64, by: f64| edge.end - by * DVec2::from_angle(edge.outward(1.0) + s * turn);
                     for s in SHARES {
-                        let out = DVec2::from_angle(edge.outward(1.0) + s * turn);
-                        look(edge.end - self.distance * out)?;
+                        look(&around, s, (self.distance * turn).abs())?;
                     }
                 }
             }

@@ -4,6 +4,7 @@
 //! fails they are made directly, from all candidates cut at all their meetings (`direct.rs`), and checked again. Lines
 //! stay lines, arcs stay arcs; about a corner that opens goes an arc, the only path that keeps the distance.
 
+mod chain;
 mod check;
 mod direct;
 mod library;
@@ -116,11 +117,7 @@ pub fn offset(outline: &Outline, distance: f64) -> Result<Offset> {
     let by_library = library::loops(outline, distance).filter(|loops| check.of(loops).is_ok());
     let (loops, direct) = match by_library {
         Some(loops) => (loops, false),
-        None => {
-            let loops = direct::loops(outline, distance, check.near())?;
-            check.of(&loops)?;
-            (loops, true)
-        }
+        None => (checked_direct(outline, distance, &check)?, true),
     };
     Ok(Offset { loops: loops.into_iter().map(OffsetLoop::new).collect(), direct })
 }
@@ -131,9 +128,25 @@ pub fn offset(outline: &Outline, distance: f64) -> Result<Offset> {
 /// As [`offset`].
 pub fn offset_direct(outline: &Outline, distance: f64) -> Result<Offset> {
     let check = check::Check::new(outline, distance);
-    let loops = direct::loops(outline, distance, check.near())?;
-    check.of(&loops)?;
+    let loops = checked_direct(outline, distance, &check)?;
     Ok(Offset { loops: loops.into_iter().map(OffsetLoop::new).collect(), direct: true })
+}
+
+/// The loops made directly that pass the check.
+fn checked_direct(
+    outline: &Outline,
+    distance: f64,
+    check: &check::Check<'_>,
+) -> Result<Vec<Vec<OutlineEdge>>> {
+    let mut refused = None;
+    for deficit in direct::DEFICITS {
+        let loops = direct::loops(outline, distance, check.near(), deficit);
+        match check.of(&loops) {
+            Ok(()) => return Ok(loops),
+            Err(error) => refused.get_or_insert(error),
+        };
+    }
+    refused.map_or_else(|| Ok(Vec::new()), Err)
 }
 
 /// The error of an offset that fails, and where.
@@ -144,3 +157,6 @@ fn failed(what: &str, at: glam::DVec2, distance: f64) -> crate::base::Error {
         .help("simplify the drawing there, or take another distance: a cutter a little smaller or larger")
         .into()
 }
+
+#[cfg(test)]
+mod tests;

@@ -38,6 +38,12 @@ impl Turn {
     pub fn convex(&self) -> bool {
         self.sweep < 0.0
     }
+
+    /// Whether it turns so little that its points are known better from its ends than from its centre.
+    fn is_flat(&self) -> bool {
+        const FLAT: f64 = 1e-3;
+        self.sweep.abs() < FLAT
+    }
 }
 
 impl OutlineEdge {
@@ -104,6 +110,11 @@ impl OutlineEdge {
             _ if s == 0.0 => self.start,
             _ if s == 1.0 => self.end,
             None => self.start + s * (self.end - self.start),
+            // The centre of a flat arc is so far away that its rounding shows: from the start, along the chord.
+            Some(t) if t.is_flat() => {
+                let half = 0.5 * s * t.sweep;
+                self.start + 2.0 * t.radius * half.sin() * DVec2::from_angle(t.from + half).perp()
+            }
             Some(t) => t.centre + t.radius * DVec2::from_angle(t.from + s * t.sweep),
         }
     }
@@ -272,7 +283,11 @@ impl OutlineEdge {
                     let is_end = point.distance_squared(self.start) > point.distance_squared(self.end);
                     return at_end(is_end);
                 }
-                let beyond = out.length() - t.radius;
+                let beyond = if t.is_flat() {
+                    (point - self.start).dot(out + first) / (out.length() + first.length())
+                } else {
+                    out.length() - t.radius
+                };
                 EdgeFoot { distance: beyond.abs(), side: -sense * beyond, place: FootPlace::Towards(out) }
             }
         }

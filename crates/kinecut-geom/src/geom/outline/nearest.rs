@@ -59,6 +59,12 @@ impl NearestEdge {
         &self.edges[index]
     }
 
+    /// Whether one of two edges goes on from the other.
+    fn is_joined(&self, [a, b]: [usize; 2]) -> bool {
+        let (a, b) = (&self.edges[a], &self.edges[b]);
+        a.end.distance(b.start) <= self.rounding || b.end.distance(a.start) <= self.rounding
+    }
+
     /// On which side a point beyond a tip is, where one edge ends and the next goes back along it: outside (1) of a tip of the
     /// material, inside (-1) of one that is cut into it; nothing where both are straight.
     fn beyond_tip(&self, edges: [usize; 2]) -> Option<f64> {
@@ -72,6 +78,7 @@ impl NearestEdge {
         let limit = |best: &Option<(usize, EdgeFoot)>| {
             best.map_or(within, |(_, found)| found.distance + self.rounding)
         };
+        let mut ahead: Option<(usize, f64)> = None;
         self.bins.outwards(p, within, &mut |edge| {
             let foot = self.edges[edge].foot(p);
             if foot.distance > within {
@@ -84,9 +91,17 @@ impl NearestEdge {
                 if a > b + self.rounding || a < b - self.rounding || more.abs() > self.rounding {
                     return a < b - self.rounding || (a <= b + self.rounding && more > self.rounding);
                 }
-                // At a tip both see it as squarely, from either side.
-                let is_tip = foot.side * old.side < 0.0 && foot.side.abs() > self.rounding;
-                is_tip && self.beyond_tip([known, edge]).is_some_and(|side| side == foot.side.signum())
+                // At a tip both see it as squarely, from either side, or from straight ahead.
+                let is_ahead = foot.side.abs() <= self.rounding;
+                let is_tip = (foot.side * old.side < 0.0 || is_ahead) && a > self.rounding && known != edge;
+                if !is_tip || !self.is_joined([known, edge]) {
+                    return false;
+                }
+                let Some(side) = self.beyond_tip([known, edge]) else { return false };
+                if is_ahead {
+                    ahead = Some((known, side));
+                }
+                !is_ahead && side == foot.side.signum()
             });
             if better {
                 best = Some((edge, foot));
@@ -95,7 +110,8 @@ impl NearestEdge {
         });
         best.map(|(edge, foot)| {
             let share = foot.share(&self.edges[edge]);
-            EdgeDistance { edge, share, distance: foot.distance.copysign(foot.side) }
+            let side = ahead.filter(|&(known, _)| known == edge).map_or(foot.side, |(_, side)| side);
+            EdgeDistance { edge, share, distance: foot.distance.copysign(side) }
         })
     }
 }

@@ -33,6 +33,8 @@ pub(super) struct Found {
     pub(super) converted: bool,
     /// Points that were given twice.
     pub(super) points_twice: usize,
+    /// It is a point: an arc of radius 0, a line back to where it began.
+    pub(super) is_point: bool,
     /// Heights that occur [mm].
     pub(super) heights: Vec<f64>,
 }
@@ -52,6 +54,7 @@ pub(super) fn shape(
         shape: Shape::Path(Vec::new()),
         converted: false,
         points_twice: 0,
+        is_point: false,
         heights: heights.into_iter().map(|z| z * mm).collect(),
     };
     let mirrored = read.mirrored()?;
@@ -59,11 +62,7 @@ pub(super) fn shape(
     match entity.name {
         "LINE" => {
             let (a, b) = (read.point(10)?, read.point(11)?);
-            if a.distance(b) > SAME {
-                found.shape = Shape::Path(vec![OutlineEdge::line(a, b)]);
-            } else {
-                found.points_twice = 1;
-            }
+            found.shape = Shape::Path(vec![OutlineEdge::line(a, b)]);
         }
         "CIRCLE" => {
             let circle = OutlineEdge::arc(flip(read.point(10)?), read.radius()?, 0.0, TAU);
@@ -100,7 +99,7 @@ pub(super) fn shape(
         "ELLIPSE" => {
             let major = read.point(11)?;
             let ratio = read.one(40)?;
-            if !(ratio > 0.0 && ratio <= 1.0 + LEAN && major != DVec2::ZERO) {
+            if !(ratio > 0.0 && ratio <= 1.0 + LEAN) {
                 return Err(read.error("an ELLIPSE needs two half axes").value(ratio, "ratio").into());
             }
             let minor = ratio * if mirrored { -major.perp() } else { major.perp() };
@@ -111,7 +110,11 @@ pub(super) fn shape(
             const WHOLE: f64 = TAU - 1e-6;
             let whole = ellipse.sweep >= WHOLE;
             let ellipse = if whole { EllipticArc { sweep: TAU, ..ellipse } } else { ellipse };
-            let edges = ellipse.edges(tolerance).map_err(|e| read.converting(&e))?;
+            let edges = if TAU * major.length() > SAME {
+                ellipse.edges(tolerance).map_err(|e| read.converting(&e))?
+            } else {
+                Vec::new()
+            };
             found.converted = edges.len() > 1;
             found.shape = if whole { Shape::Loop(edges) } else { Shape::Path(edges) };
         }
@@ -124,6 +127,16 @@ pub(super) fn shape(
             };
             found.shape = if closed { Shape::Loop(joined(edges)) } else { Shape::Path(edges) };
         }
+    }
+    let (Shape::Loop(edges) | Shape::Path(edges)) = &found.shape;
+    if edges.iter().map(OutlineEdge::length).sum::<f64>() <= SAME {
+        found = Found {
+            shape: Shape::Path(Vec::new()),
+            converted: false,
+            points_twice: 0,
+            is_point: true,
+            ..found
+        };
     }
     Ok(found)
 }
@@ -226,10 +239,10 @@ impl<'a> Read<'a> {
 
     fn radius(&self) -> Result<f64> {
         let radius = self.one(40)? * self.mm;
-        if radius > 0.0 {
+        if radius >= 0.0 {
             return Ok(radius);
         }
-        let what = format!("the radius of {} must be positive", with_article(self.entity.name));
+        let what = format!("the radius of {} must not be negative", with_article(self.entity.name));
         Err(crate::base::Finding { code: Code::OUTLINE_EDGE, ..self.error(what).value_mm(radius) }.into())
     }
 

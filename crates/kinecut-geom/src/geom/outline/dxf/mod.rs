@@ -74,6 +74,7 @@ struct Reader<'o> {
     layers: BTreeMap<String, usize>,
     converted: usize,
     points_twice: Vec<String>,
+    points: Vec<String>,
     heights: Option<[f64; 2]>,
 }
 
@@ -87,6 +88,7 @@ impl<'o> Reader<'o> {
             layers: BTreeMap::new(),
             converted: 0,
             points_twice: Vec::new(),
+            points: Vec::new(),
             heights: None,
         }
     }
@@ -205,6 +207,10 @@ impl<'o> Reader<'o> {
             Shape::Path(edges) => Shape::Path(place(edges)?),
         };
         self.converted += usize::from(found.converted);
+        if found.is_point {
+            let entity = self.drawing.entity(label);
+            self.points.push(format!("{entity} has no length and is passed over"));
+        }
         if found.points_twice > 0 {
             let entity = self.drawing.entity(label);
             self.points_twice
@@ -250,6 +256,7 @@ impl<'o> Reader<'o> {
                 self.converted, self.options.curve_tolerance
             ));
         }
+        self.drawing.notes.extend(sentences("entities without length", &self.points));
         self.drawing.notes.extend(sentences("polylines with points that stand twice", &self.points_twice));
         if let Some([low, high]) = self.heights
             && high > low

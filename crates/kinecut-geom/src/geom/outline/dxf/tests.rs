@@ -314,3 +314,33 @@ fn blocks_that_cannot_be_inserted_are_refused_with_their_line() {
     let chain: Vec<&str> = chain.iter().map(String::as_str).collect();
     refused(&chain, &["0 INSERT 8 A 2 B0 10 0 20 0"], &["too many entities"]);
 }
+
+#[test]
+fn entities_without_length_are_passed_over_with_their_line() {
+    let rest = [
+        SQUARE,
+        "0 CIRCLE 8 bore 10 10 20 10 40 0",
+        "0 ARC 8 A 10 40 20 0 40 0 50 0 51 90",
+        "0 LINE 8 A 10 3 20 3 11 3 21 3",
+        "0 LWPOLYLINE 8 A 90 2 70 0 10 5 20 5 10 5 20 5",
+        "0 ELLIPSE 8 A 10 5 20 5 11 0 21 0 40 0.5 41 0 42 6.283185307179586",
+        "0 SPLINE 8 A 71 3 40 0 40 0 40 0 40 0 40 1 40 1 40 1 40 1 10 7 20 7 10 7 20 7 10 7 20 7 10 7 20 7",
+    ];
+    let all = read(&rest).unwrap();
+    assert_eq!(
+        all.outline,
+        read(&[SQUARE])
+            .unwrap()
+            .outline
+            .relabelled(|_| all.outline.edges()[0].label, all.outline.labels().to_vec())
+    );
+    assert_eq!(all.notes.len(), 6, "{:?}", all.notes);
+    let first = "CIRCLE of \"bore\" in line 52 has no length and is passed over";
+    assert_eq!(all.notes[0], first);
+    assert!(all.notes[5].contains("1 more"), "{:?}", all.notes);
+    // Between ends that meet it is no loss; where they do not, the gap is named.
+    let point = "0 ARC 8 A 10 40 20 30 40 0 50 0 51 90";
+    assert!(read(&[LEFT, TOP, RIGHT, BOTTOM, point]).is_ok());
+    refused(&[LEFT, TOP, BOTTOM, point], Code::OUTLINE_OPEN, &["open"]);
+    refused(&["0 CIRCLE 8 bore 10 10 20 10 40 -1"], Code::OUTLINE_EDGE, &["radius", "negative"]);
+}

@@ -1,5 +1,7 @@
 //! Ellipses and splines as arcs.
 
+mod cusp;
+
 use std::f64::consts::TAU;
 
 use glam::{DVec2, DVec3};
@@ -10,9 +12,6 @@ use super::through::{FLAT, arc_through, with_ends};
 use crate::base::{Code, Finding, Result};
 use crate::geom::biarc_fit::{Walk, arcs_of};
 use crate::geom::{CubicSpan, PlanarArc};
-
-/// Speed below which the direction of a curve is taken from a little farther on, as a share of its size.
-const STILL: f64 = 1e-9;
 
 /// An arc of an ellipse: `centre + cos(u) major + sin(u) minor`.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -93,7 +92,14 @@ pub(super) fn cubic_edges(points: [DVec2; 4], tolerance: f64) -> Result<Vec<Outl
     if near && span.start() != span.end() && span.length() <= one.length() + tolerance {
         return Ok(vec![one]);
     }
-    Ok(edges_of(span.arcs(tolerance)?))
+    match span.arcs(tolerance) {
+        Ok(arcs) => Ok(edges_of(arcs)),
+        // One that turns back in a cusp is parted there.
+        Err(error) => {
+            let knots = [[0.0; 4], [1.0; 4]].concat();
+            Spline::new(3, knots, &points, &[]).map_err(|_| error)?.edges(tolerance)
+        }
+    }
 }
 
 /// A spline of any degree, rational or not.
@@ -137,7 +143,7 @@ impl Spline {
     }
 
     /// Lines and arcs that leave it by at most `tolerance` [mm]; each stretch between knots for itself, so that corners
-    /// stay corners.
+    /// stay corners; within a stretch it is parted at its cusps. There are none where it is a point.
     pub(super) fn edges(&self, tolerance: f64) -> Result<Vec<OutlineEdge>> {
         let mut edges = Vec::new();
         for k in self.degree..self.points.len() {
@@ -145,9 +151,12 @@ impl Spline {
             if ends[0] < ends[1] {
                 let stretch = Stretch { spline: self, interval: k, ends };
                 if self.degree == 1 {
-                    edges.push(OutlineEdge::line(stretch.at(0.0).0, stretch.at(1.0).0));
-                } else {
-                    edges.extend(edges_of(arcs_of(&stretch, tolerance)?));
+                    let [a, b] = [0.0, 1.0].map(|t| stretch.point_and_velocity(t)[0]);
+                    edges.extend((a != b).then(|| OutlineEdge::line(a, b)));
+                    continue;
+                }
+                for part in cusp::parts(&stretch, tolerance) {
+                    edges.extend(edges_of(arcs_of(&part, tolerance)?));
                 }
             }
         }
@@ -191,28 +200,6 @@ impl Stretch<'_> {
         let [h, dh] = self.spline.homogeneous(self.interval, u);
         let point = h.truncate() / h.z;
         [point, (dh.truncate() - point * dh.z) / h.z * (b - a)]
-    }
-}
-
-impl Walk for Stretch<'_> {
-    fn ends(&self) -> [f64; 2] {
-        [0.0, 1.0]
-    }
-
-    fn at(&self, u: f64) -> (DVec2, DVec2) {
-        let [point, velocity] = self.point_and_velocity(u);
-        if let Some(tangent) = velocity.try_normalize()
-            && velocity.length() > STILL * point.length()
-        {
-            return (point, tangent);
-        }
-        let aside = if u < 0.5 { 1e-4 } else { -1e-4 };
-        let along = (self.point_and_velocity(u + aside)[0] - point) * aside.signum();
-        (point, along.normalize_or(DVec2::X))
-    }
-
-    fn length(&self, a: f64, b: f64) -> f64 {
-        crate::num::quadrature::gauss(a, b, 0.1, |t| self.point_and_velocity(t)[1].length()).abs()
     }
 }
 

@@ -91,3 +91,41 @@ fn splines_that_contradict_themselves_are_refused() {
     assert!(Spline::new(2, vec![0.0, 0.0, 0.0, 1.0, 1.0, 1.0], &points, &[1.0, -1.0, 1.0]).is_err());
     assert!(Spline::new(0, vec![0.0; 4], &points, &[]).is_err());
 }
+
+/// Cubic Bezier curves with a cusp within, at an end, at both, and stretches that are a point.
+#[test]
+fn splines_are_parted_at_cusps() {
+    let bezier = |p: [DVec2; 4], t: f64| {
+        let u = 1.0 - t;
+        p[0] * (u * u * u) + p[1] * (3.0 * u * u * t) + p[2] * (3.0 * u * t * t) + p[3] * (t * t * t)
+    };
+    // The velocity of the first vanishes in its middle.
+    let within = [dvec2(0.0, 0.0), dvec2(10.0, 10.0), dvec2(0.0, 10.0), dvec2(10.0, 0.0)];
+    let nearly = [dvec2(0.0, 0.0), dvec2(10.0, 10.0), dvec2(1e-6, 10.0), dvec2(10.0, 0.0)];
+    let start = [dvec2(0.0, 0.0), dvec2(0.0, 0.0), dvec2(8.0, 1.0), dvec2(10.0, 6.0)];
+    let both = [dvec2(0.0, 0.0), dvec2(0.0, 0.0), dvec2(10.0, 6.0), dvec2(10.0, 6.0)];
+    for points in [within, nearly, start, both] {
+        for shift in [dvec2(0.0, 0.0), dvec2(-300.0, 170.0)] {
+            let points = points.map(|p| p + shift);
+            let knots = [[0.0; 4], [1.0; 4]].concat();
+            let spline = Spline::new(3, knots, &points, &[]).unwrap().edges(0.005).unwrap();
+            for edges in [&spline, &cubic_edges(points, 0.005).unwrap()] {
+                assert!(off(edges, |t| bezier(points, t)) < 0.005 + 0.02, "{points:?}");
+                assert!(edges.len() < 120 && gap(edges) < 1e-9, "{}", edges.len());
+                assert!(edges[0].start.distance(points[0]) < 1e-9);
+                assert!(edges[edges.len() - 1].end.distance(points[3]) < 1e-9);
+            }
+        }
+    }
+    let corner = cubic_edges(within, 0.005).unwrap();
+    let turns =
+        corner.windows(2).map(|w| crate::num::angle::wrap(w[1].heading(0.0) - w[0].heading(1.0)).abs());
+    assert!(turns.filter(|t| *t > 3.0).count() == 1);
+    // The last stretch stays where it is.
+    let points = [dvec2(0.0, 0.0), dvec2(5.0, 5.0), dvec2(9.0, 1.0), dvec2(9.0, 1.0), dvec2(9.0, 1.0)];
+    let knots = vec![0.0, 0.0, 0.0, 1.0, 2.0, 3.0, 3.0, 3.0];
+    let edges = Spline::new(2, knots, &points, &[]).unwrap().edges(0.005).unwrap();
+    assert!(edges[edges.len() - 1].end.distance(points[4]) < 1e-12);
+    let knots = vec![0.0; 3].into_iter().chain(vec![1.0; 3]).collect();
+    assert!(Spline::new(2, knots, &[points[4]; 3], &[]).unwrap().edges(0.005).unwrap().is_empty());
+}
