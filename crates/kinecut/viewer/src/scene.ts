@@ -1,7 +1,7 @@
 // The 3-D view. It draws when something has changed and rests otherwise.
 import {
   AmbientLight, Box3, DirectionalLight, DoubleSide, BackSide, FrontSide, Group, LatheGeometry, Mesh, MeshBasicMaterial,
-  MeshLambertMaterial, OrthographicCamera, Plane, Quaternion, Raycaster, Scene, Triangle, Vector2, Vector3,
+  MeshLambertMaterial, type Object3D, OrthographicCamera, Plane, Quaternion, Raycaster, Scene, Triangle, Vector2, Vector3,
   WebGLRenderer,
 } from "three";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
@@ -29,6 +29,20 @@ const VIEWS: Record<string, [number, number, number]> = {
   right: [1, 0, 0],
 };
 
+/** What surrounds a view. */
+export interface Around {
+  /** Takes the words about what lies under the pointer. */
+  readout: (text: string) => void;
+  /** Words for a place that was not compared, and the unit of relative deviations. */
+  notCompared: string;
+  tolerances: string;
+  /** Told when who plays or steps wants to see material go. */
+  nowOn: () => void;
+}
+
+/** The tool below its holder, and the holder. */
+type ToolShape = [LatheGeometry | null, LatheGeometry | null];
+
 export class View {
   private readonly renderer: WebGLRenderer;
   private readonly scene = new Scene();
@@ -36,70 +50,101 @@ export class View {
   private readonly controls: OrbitControls;
   private readonly part = new Group();
   private readonly tool = new Group();
-  private readonly lines: PathLines | null;
+  private lines: PathLines | null = null;
   private readonly overlay: Overlay;
-  private readonly fixtures: Fixtures;
-  private readonly machine: Machine | null;
+  private fixtures: Fixtures | null = null;
+  private machine: Machine | null = null;
   private readonly clip = new Plane(new Vector3(0, 0, -1), 0);
   private readonly bounds = new Box3();
-  private readonly data: PartData | null = null;
+  private data: PartData | null = null;
   private readonly surface = new MeshLambertMaterial({ side: FrontSide, polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1 });
   private readonly inside = new MeshBasicMaterial({ side: BackSide, polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1 });
   private readonly steel = new MeshLambertMaterial({ side: DoubleSide, transparent: true, opacity: 0.3, depthWrite: false });
-  private readonly tools: (LatheGeometry | null)[];
+  private tools: ToolShape[] = [];
   /** Signs that turn the iso view to the side from which the worst place is seen. */
   private readonly facing = new Vector3(1, 1, 1);
   /** Axis of the section plane: 0, 1, 2; -1 for none. */
   private axis = -1;
   private waiting = false;
-  private shown = { past: false, tool: true, part: true };
+  private shown = { past: false, tool: true, holder: true, part: true, path: true, rapids: true, fixtures: true, machine: false };
   /** The stock over time; made when it is first shown. */
   private stock: Stock | null = null;
   /** Whether the stock is shown as it is at the cursor instead of the finished part, and whether the reader said so. */
   private now = { on: false, chosen: false };
 
-  constructor(private readonly canvas: HTMLCanvasElement, private readonly head: Head, private readonly track: Track, private readonly cursor: Cursor) {
+  private head!: Head;
+  private track!: Track;
+  /** The head whose part is shown. */
+  private partHead: Head["part"] = null;
+
+  constructor(private readonly canvas: HTMLCanvasElement, private readonly cursor: Cursor, private readonly around: Around) {
     this.renderer = new WebGLRenderer({ canvas, antialias: true, alpha: true });
     this.renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
-    if (head.part) {
-      this.data = readPart(head.part);
-      const mesh = geometry(this.data, head.part.tolerance, head.part.edges);
-      this.part.add(new Mesh(mesh, this.surface), new Mesh(mesh, this.inside));
-      mesh.computeBoundingBox();
-      if (mesh.boundingBox) this.bounds.copy(mesh.boundingBox);
-      this.face(head.part.tolerance);
-    }
-    this.growByPath();
-    const size = this.bounds.getSize(new Vector3()).length() || 1;
-    this.lines = track.pieces > 0 ? new PathLines(track, size) : null;
-    if (this.lines) this.scene.add(this.lines.group);
-    this.tools = head.tools.map(({ outline }) => {
-      if (outline.length < 2) return null;
-      return new LatheGeometry(outline.map(([r, h]) => new Vector2(r, h)), 40).rotateX(Math.PI / 2);
-    });
-    this.fixtures = new Fixtures(head.fixtures);
-    this.machine = head.machine ? new Machine(head.machine, track) : null;
-    if (this.machine) this.scene.add(this.machine.group);
     this.tool.visible = false;
     this.tool.renderOrder = 4;
     const light = new DirectionalLight(0xffffff, 2.1);
     light.position.set(-0.5, 0.8, 1);
     this.camera.add(light, light.target);
     light.target.position.set(0, 0, -1);
-    this.scene.add(new AmbientLight(0xffffff, 1.25), this.camera, this.part, this.fixtures.group, this.tool);
-
+    this.scene.add(new AmbientLight(0xffffff, 1.25), this.camera, this.part, this.tool);
     this.camera.up.set(0, 0, 1);
     this.controls = new OrbitControls(this.camera, canvas);
     this.controls.zoomToCursor = true;
     this.controls.addEventListener("change", () => this.draw());
     this.overlay = new Overlay(canvas.parentElement as HTMLElement);
-    this.recolour();
     onTheme(() => this.recolour());
     new ResizeObserver(() => this.resize()).observe(canvas.parentElement as HTMLElement);
-    this.resize();
-    this.look("iso");
     this.pointer();
     cursor.listen((place, source) => this.follow(place, source));
+  }
+
+  /** Shows other data; the camera stays unless `fit`. With `keepPart` the part stays that of the data before, where it had one. */
+  load(head: Head, track: Track, { fit = true, keepPart = false } = {}): void {
+    const first = this.head === undefined;
+    this.head = head;
+    this.track = track;
+    if (!keepPart || this.data === null) this.loadPart(head);
+    this.bounds.makeEmpty();
+    const mesh = this.part.children[0] as Mesh | undefined;
+    if (mesh?.geometry.boundingBox) this.bounds.copy(mesh.geometry.boundingBox);
+    this.growByPath();
+    const size = this.bounds.getSize(new Vector3()).length() || 1;
+    for (const gone of [this.lines?.group, this.fixtures?.group, this.machine?.group]) if (gone) freed([gone], true);
+    this.lines = track.pieces > 0 ? new PathLines(track, size) : null;
+    for (const shapes of this.tools) for (const shape of shapes) shape?.dispose();
+    this.tools = head.tools.map(shapes);
+    this.tool.clear();
+    this.fixtures = new Fixtures(head.fixtures);
+    this.machine = head.machine ? new Machine(head.machine, track) : null;
+    for (const come of [this.lines?.group, this.fixtures.group, this.machine?.group]) if (come) this.scene.add(come);
+    this.recolour();
+    this.resize();
+    this.showAll();
+    if (fit || first) this.look("iso");
+    this.follow(this.cursor.place, "load");
+  }
+
+  private loadPart(head: Head): void {
+    freed(this.part.children, false);
+    if (this.stock) freed([this.stock.group], true);
+    this.stock = null;
+    this.facing.set(1, 1, 1);
+    this.partHead = head.part;
+    this.data = head.part && readPart(head.part);
+    if (!head.part || !this.data) return;
+    const mesh = geometry(this.data, head.part.tolerance, head.part.edges);
+    this.part.add(new Mesh(mesh, this.surface), new Mesh(mesh, this.inside));
+    this.part.children[1].visible = this.axis >= 0;
+    mesh.computeBoundingBox();
+    this.face(head.part.tolerance);
+  }
+
+  /** Switches everything as it was, on data that has just come. */
+  private showAll(): void {
+    if (this.lines) this.lines.group.visible = this.shown.path;
+    this.lines?.showRapids(this.shown.rapids);
+    if (this.fixtures) this.fixtures.group.visible = this.shown.fixtures;
+    if (this.machine) this.machine.group.visible = this.shown.machine;
   }
 
   /** When the part is out of tolerance, its worst triangle shall look at the eye. */
@@ -137,10 +182,10 @@ export class View {
   }
 
   private recolour(): void {
-    const compared = this.head.part?.compared ?? false;
-    if (compared && this.head.part) {
-      this.surface.map?.dispose();
-      this.surface.map = bandTexture(this.head.part.edges);
+    this.surface.map?.dispose();
+    this.surface.map = null;
+    if (this.partHead?.compared) {
+      this.surface.map = bandTexture(this.partHead.edges);
       this.surface.color.set(0xffffff);
     } else {
       this.surface.color = colour("part");
@@ -150,7 +195,7 @@ export class View {
     this.steel.color = colour("steel");
     this.lines?.recolour();
     this.stock?.recolour();
-    this.fixtures.recolour();
+    this.fixtures?.recolour();
     this.machine?.recolour();
     this.draw();
   }
@@ -232,14 +277,16 @@ export class View {
       this.shown.part = on;
       this.showMoment();
     }
-    if (what === "path" && this.lines) this.lines.group.visible = on;
-    if (what === "fixtures") this.fixtures.group.visible = on;
-    if (what === "machine" && this.machine && this.machine.group.visible !== on) {
-      this.machine.group.visible = on;
-      this.look("iso");
+    if (what === "path" || what === "fixtures" || what === "rapids") {
+      this.shown[what] = on;
+      this.showAll();
     }
-    if (what === "rapids") this.lines?.showRapids(on);
-    if (what === "past" || what === "tool") {
+    if (what === "machine" && this.shown.machine !== on) {
+      this.shown.machine = on;
+      this.showAll();
+      if (this.machine) this.look("iso");
+    }
+    if (what === "past" || what === "tool" || what === "holder") {
       this.shown[what] = on;
       this.follow(this.cursor.place, "switch");
     }
@@ -276,7 +323,7 @@ export class View {
 
   /** The part as it is finished, or the stock as it is at the cursor. */
   private showMoment(): void {
-    const { playback } = this.head;
+    const playback = this.head.playback;
     const { place } = this.cursor;
     const tick = playback && place.piece >= 0 ? Math.floor(this.track.done(place) * playback.ticks + 0.5) : Infinity;
     const now = this.now.on && playback !== null && tick < playback.ticks;
@@ -296,15 +343,15 @@ export class View {
 
   private follow(place: Place, source: string): void {
     const { track, lines } = this;
+    if (!track) return;
     // Who plays or steps wants to see material go.
     if (MOVING.includes(source) && !this.now.chosen && this.head.playback) {
       this.now.on = true;
-      const box = document.querySelector<HTMLInputElement>('[data-show="now"]');
-      if (box) box.checked = true;
+      this.around.nowOn();
     }
     this.showMoment();
     this.overlay.point = null;
-    this.fixtures.at(place.line);
+    this.fixtures?.at(place.line);
     this.machine?.at(place);
     if (place.piece < 0) {
       lines?.mark(0, 0);
@@ -313,22 +360,33 @@ export class View {
     } else {
       lines?.mark(track.runStart(place.piece), track.runEnd(place.piece));
       lines?.upTo(this.shown.past ? place.piece : Infinity);
-      const tip = track.tip(place);
-      const shape = this.tools[track.tool[place.piece]] ?? null;
-      this.tool.visible = this.shown.tool && tip !== null && shape !== null;
-      if (tip && shape) {
-        const axis = new Vector3().fromArray(track.axes, 3 * track.axis[place.piece]).normalize();
-        this.tool.position.set(...tip);
-        this.tool.quaternion.copy(new Quaternion().setFromUnitVectors(new Vector3(0, 0, 1), axis));
-        if ((this.tool.children[0] as Mesh | undefined)?.geometry !== shape) {
-          this.tool.clear();
-          const mesh = new Mesh(shape, this.steel);
-          mesh.renderOrder = 4;
-          this.tool.add(mesh);
-        }
-      }
+      this.place(place);
     }
     this.draw();
+  }
+
+  /** Moves tool and holder to a place on the path. */
+  private place(place: Place): void {
+    const { track } = this;
+    const tip = track.tip(place);
+    const shape = this.tools[track.tool[place.piece]];
+    this.tool.visible = tip !== null && (shape?.some((s) => s !== null) ?? false);
+    if (!tip || !shape) return;
+    const axis = new Vector3().fromArray(track.axes, 3 * track.axis[place.piece]).normalize();
+    this.tool.position.set(...tip);
+    this.tool.quaternion.copy(new Quaternion().setFromUnitVectors(new Vector3(0, 0, 1), axis));
+    if (this.tool.userData.shape !== shape) {
+      this.tool.clear();
+      this.tool.userData.shape = shape;
+      for (const part of shape) {
+        const mesh = new Mesh(part ?? undefined, this.steel);
+        mesh.renderOrder = 4;
+        this.tool.add(mesh);
+      }
+    }
+    const [tool, holder] = this.tool.children;
+    tool.visible = this.shown.tool && shape[0] !== null;
+    holder.visible = this.shown.holder && shape[1] !== null;
   }
 
   /** Shows a place in space, as that of a finding. */
@@ -339,7 +397,7 @@ export class View {
 
   private pointer(): void {
     const { canvas } = this;
-    const readout = document.getElementById("kc-readout") as HTMLElement;
+    const { readout } = this.around;
     const place = (e: PointerEvent | MouseEvent): [number, number] => {
       const box = canvas.getBoundingClientRect();
       return [e.clientX - box.left, e.clientY - box.top];
@@ -354,14 +412,14 @@ export class View {
       if (!still || e.button !== 0) return;
       const hit = this.lines?.group.visible ? this.lines.pick(x, y, this.camera, canvas.clientWidth, canvas.clientHeight) : null;
       if (hit) this.cursor.go(this.track.ofPiece(hit.piece, hit.part), "view");
-      readout.textContent = this.read(x, y);
+      readout(this.read(x, y));
     });
     canvas.addEventListener("pointermove", (e) => {
-      if (down || (this.head.part?.triangles ?? 0) > HOVER) return;
+      if (down || (this.partHead?.triangles ?? 0) > HOVER) return;
       cancelAnimationFrame(frame);
-      frame = requestAnimationFrame(() => (readout.textContent = this.read(...place(e))));
+      frame = requestAnimationFrame(() => readout(this.read(...place(e))));
     });
-    canvas.addEventListener("pointerleave", () => (readout.textContent = ""));
+    canvas.addEventListener("pointerleave", () => readout(""));
   }
 
   /** Coordinates and deviation of the part under the pointer. */
@@ -380,13 +438,38 @@ export class View {
     const text = `X ${millimetres(p.x)}  Y ${millimetres(p.y)}  Z ${millimetres(p.z)}`;
     if (!deviation || !weight) return text;
     const d = deviation[corners[0]] * weight.x + deviation[corners[1]] * weight.y + deviation[corners[2]] * weight.z;
-    const shown = this.head.part?.relative ? `${d.toFixed(2)} tolerances` : micrometres(d);
-    return `${text}  ·  ${Number.isNaN(d) ? "not compared" : shown}`;
+    const shown = this.partHead?.relative ? `${d.toFixed(2)} ${this.around.tolerances}` : micrometres(d);
+    return `${text}  ·  ${Number.isNaN(d) ? this.around.notCompared : shown}`;
   }
 
   /** The picture as it is, for paper. */
   still(): string {
     this.drawNow();
     return this.canvas.toDataURL("image/png");
+  }
+}
+
+/** Tool and holder as bodies of revolution; an outline of no holder is all tool. */
+function shapes({ outline, holder }: Head["tools"][number]): ToolShape {
+  const lathe = (points: [number, number][]) => {
+    if (points.length < 2) return null;
+    return new LatheGeometry(points.map(([r, h]) => new Vector2(r, h)), 40).rotateX(Math.PI / 2);
+  };
+  if (holder == null) return [lathe(outline), null];
+  const near = holder - 1e-4;
+  const from = outline.findIndex(([, h]) => h >= near);
+  if (from < 0) return [lathe(outline), null];
+  return [lathe([...outline.slice(0, from), [outline[from][0], outline[from][1]], [0, outline[from][1]]]), lathe([[0, outline[from][1]], ...outline.slice(from)])];
+}
+
+/** Takes objects out of their groups and gives back what they have on the graphics card, with `materials` if no other has them. */
+function freed(objects: Object3D[], materials: boolean): void {
+  for (const object of [...objects]) {
+    object.removeFromParent();
+    object.traverse((o) => {
+      const { geometry, material } = o as Mesh;
+      geometry?.dispose();
+      if (materials && material) for (const one of [material].flat()) one.dispose();
+    });
   }
 }
