@@ -41,7 +41,7 @@ export interface Head {
 }
 
 /** What the packed elements hold, by their names. */
-const streams = new Map<string, Uint8Array>();
+let streams = new Map<string, Uint8Array>();
 
 /** Unpacks streams, which come by their names in base64. Fails in a browser that cannot. */
 export async function unpacked(packed: [string, string][]): Promise<Map<string, Uint8Array>> {
@@ -55,10 +55,11 @@ export async function unpacked(packed: [string, string][]): Promise<Map<string, 
   return new Map(await Promise.all(all));
 }
 
-/** Lets streams be read: those of the page, or of data that has come since. */
-export function use(all: Map<string, Uint8Array>): void {
-  streams.clear();
-  for (const [id, bytes] of all) streams.set(id, bytes);
+/** Lets streams be read: those of the page, or of data that has come since. Gives back what was to be read before. */
+export function use(all: Map<string, Uint8Array>): Map<string, Uint8Array> {
+  const before = streams;
+  streams = all;
+  return before;
 }
 
 /** Unpacks all data of the page; the elements then give their memory back. */

@@ -300,6 +300,35 @@ export class View {
     return quantity === "" ? 0 : greatest(this.track, quantity);
   }
 
+  /** Turns the camera about the part [rad]: to the side and up. */
+  turn(side: number, up: number): void {
+    const arm = this.camera.position.clone().sub(this.controls.target);
+    const length = arm.length();
+    const around = Math.atan2(arm.y, arm.x) + side;
+    // At the poles the view would have no upward direction.
+    const above = Math.min(Math.PI / 2 - 1e-5, Math.max(1e-5 - Math.PI / 2, Math.asin(arm.z / length) + up));
+    arm.set(Math.cos(above) * Math.cos(around), Math.cos(above) * Math.sin(around), Math.sin(above)).multiplyScalar(length);
+    this.camera.position.copy(this.controls.target).add(arm);
+    this.controls.update();
+    this.draw();
+  }
+
+  /** Shifts the picture [px]. */
+  pan(right: number, up: number): void {
+    const mm = 1 / (this.pixels() * this.camera.zoom || 1);
+    const shift = new Vector3(-right * mm, -up * mm, 0).applyQuaternion(this.camera.quaternion);
+    this.camera.position.add(shift);
+    this.controls.target.add(shift);
+    this.controls.update();
+    this.draw();
+  }
+
+  zoom(by: number): void {
+    this.camera.zoom *= by;
+    this.camera.updateProjectionMatrix();
+    this.draw();
+  }
+
   /** Cuts the part open across an axis; `share` from 0 to 1 through it. Returns the place [mm], null when off. */
   section(axis: string, share: number): number | null {
     const k = "XYZ".indexOf(axis);
