@@ -1,7 +1,7 @@
 // The 3-D view. It draws when something has changed and rests otherwise.
 import {
   AmbientLight, Box3, DirectionalLight, DoubleSide, BackSide, FrontSide, Group, LatheGeometry, Mesh, MeshBasicMaterial,
-  MeshLambertMaterial, type Object3D, OrthographicCamera, Plane, Quaternion, Raycaster, Scene, Triangle, Vector2, Vector3,
+  MeshLambertMaterial, MeshPhongMaterial, type Object3D, OrthographicCamera, Plane, Quaternion, Raycaster, Scene, Triangle, Vector2, Vector3,
   WebGLRenderer,
 } from "three";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
@@ -20,6 +20,8 @@ import { micrometres, millimetres } from "./words";
 const HOVER = 120_000;
 /** Sources of the cursor that move it on. */
 const MOVING = ["play", "slider", "step"];
+/** Pieces of the outline of a tool that meet at a greater angle make an edge [rad]. */
+const CORNER = Math.PI / 9;
 /** Directions from the part to the eye. */
 const VIEWS: Record<string, [number, number, number]> = {
   iso: [0.9, -1.2, 1.05],
@@ -40,8 +42,8 @@ export interface Around {
   nowOn: () => void;
 }
 
-/** The tool below its holder, and the holder. */
-type ToolShape = [LatheGeometry | null, LatheGeometry | null];
+/** Cutting part, shank, holder. */
+type ToolShape = (LatheGeometry | null)[];
 
 export class View {
   private readonly renderer: WebGLRenderer;
@@ -59,7 +61,8 @@ export class View {
   private data: PartData | null = null;
   private readonly surface = new MeshLambertMaterial({ side: FrontSide, polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1 });
   private readonly inside = new MeshBasicMaterial({ side: BackSide, polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1 });
-  private readonly steel = new MeshLambertMaterial({ side: DoubleSide, transparent: true, opacity: 0.3, depthWrite: false });
+  /** Of the cutting part, the shank and the holder. */
+  private readonly steel = ["tool", "shank", "holder"].map((name) => ({ name, material: new MeshPhongMaterial({ side: DoubleSide, shininess: 40, specular: 0x333333 }) }));
   private tools: ToolShape[] = [];
   /** Signs that turn the iso view to the side from which the worst place is seen. */
   private readonly facing = new Vector3(1, 1, 1);
@@ -72,8 +75,8 @@ export class View {
   /** Whether the stock is shown as it is at the cursor instead of the finished part, and whether the reader said so. */
   private now = { on: false, chosen: false };
 
-  private head!: Head;
-  private track!: Track;
+  private head: Head | undefined;
+  private track: Track | undefined;
   /** The head whose part is shown. */
   private partHead: Head["part"] = null;
 
@@ -81,7 +84,6 @@ export class View {
     this.renderer = new WebGLRenderer({ canvas, antialias: true, alpha: true });
     this.renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
     this.tool.visible = false;
-    this.tool.renderOrder = 4;
     const light = new DirectionalLight(0xffffff, 2.1);
     light.position.set(-0.5, 0.8, 1);
     this.camera.add(light, light.target);
@@ -100,14 +102,14 @@ export class View {
 
   /** Shows other data; the camera stays unless `fit`. With `keepPart` the part stays that of the data before, where it had one. */
   load(head: Head, track: Track, { fit = true, keepPart = false } = {}): void {
-    const first = this.head === undefined;
+    const first = !this.head;
     this.head = head;
     this.track = track;
     if (!keepPart || this.data === null) this.loadPart(head);
     this.bounds.makeEmpty();
     const mesh = this.part.children[0] as Mesh | undefined;
     if (mesh?.geometry.boundingBox) this.bounds.copy(mesh.geometry.boundingBox);
-    this.growByPath();
+    this.growByPath(track);
     const size = this.bounds.getSize(new Vector3()).length() || 1;
     for (const gone of [this.lines?.group, this.fixtures?.group, this.machine?.group]) if (gone) freed([gone], true);
     this.lines = track.pieces > 0 ? new PathLines(track, size) : null;
@@ -165,8 +167,7 @@ export class View {
   }
 
   /** Cuts belong to the picture, moves through the air do not: they would make the part small. */
-  private growByPath(): void {
-    const { track } = this;
+  private growByPath(track: Track): void {
     const add = (names: string[]) => {
       const roles = names.map((name) => track.head.roles.indexOf(name));
       for (let p = 0; p < track.pieces; p++) {
@@ -192,7 +193,7 @@ export class View {
     }
     this.surface.needsUpdate = true;
     this.inside.color = colour("cut");
-    this.steel.color = colour("steel");
+    for (const { name, material } of this.steel) material.color = colour(name);
     this.lines?.recolour();
     this.stock?.recolour();
     this.fixtures?.recolour();
@@ -297,7 +298,7 @@ export class View {
   colourPath(quantity: Quantity | ""): number {
     this.lines?.colourBy(quantity);
     this.draw();
-    return quantity === "" ? 0 : greatest(this.track, quantity);
+    return quantity === "" || !this.track ? 0 : greatest(this.track, quantity);
   }
 
   /** Turns the camera about the part [rad]: to the side and up. */
@@ -352,9 +353,10 @@ export class View {
 
   /** The part as it is finished, or the stock as it is at the cursor. */
   private showMoment(): void {
-    const playback = this.head.playback;
+    if (!this.head) return;
+    const { playback } = this.head;
     const { place } = this.cursor;
-    const tick = playback && place.piece >= 0 ? Math.floor(this.track.done(place) * playback.ticks + 0.5) : Infinity;
+    const tick = playback && this.track && place.piece >= 0 ? Math.floor(this.track.done(place) * playback.ticks + 0.5) : Infinity;
     const now = this.now.on && playback !== null && tick < playback.ticks;
     if (now && this.stock === null) {
       this.stock = new Stock(playback);
@@ -374,7 +376,7 @@ export class View {
     const { track, lines } = this;
     if (!track) return;
     // Who plays or steps wants to see material go.
-    if (MOVING.includes(source) && !this.now.chosen && this.head.playback) {
+    if (MOVING.includes(source) && !this.now.chosen && this.head?.playback) {
       this.now.on = true;
       this.around.nowOn();
     }
@@ -389,14 +391,13 @@ export class View {
     } else {
       lines?.mark(track.runStart(place.piece), track.runEnd(place.piece));
       lines?.upTo(this.shown.past ? place.piece : Infinity);
-      this.place(place);
+      this.place(place, track);
     }
     this.draw();
   }
 
   /** Moves tool and holder to a place on the path. */
-  private place(place: Place): void {
-    const { track } = this;
+  private place(place: Place, track: Track): void {
     const tip = track.tip(place);
     const shape = this.tools[track.tool[place.piece]];
     this.tool.visible = tip !== null && (shape?.some((s) => s !== null) ?? false);
@@ -407,15 +408,11 @@ export class View {
     if (this.tool.userData.shape !== shape) {
       this.tool.clear();
       this.tool.userData.shape = shape;
-      for (const part of shape) {
-        const mesh = new Mesh(part ?? undefined, this.steel);
-        mesh.renderOrder = 4;
-        this.tool.add(mesh);
-      }
+      shape.forEach((part, i) => this.tool.add(new Mesh(part ?? undefined, this.steel[i].material)));
     }
-    const [tool, holder] = this.tool.children;
-    tool.visible = this.shown.tool && shape[0] !== null;
-    holder.visible = this.shown.holder && shape[1] !== null;
+    this.tool.children.forEach((mesh, i) => {
+      mesh.visible = shape[i] !== null && (i < 2 ? this.shown.tool : this.shown.holder);
+    });
   }
 
   /** Shows a place in space, as that of a finding. */
@@ -440,7 +437,7 @@ export class View {
       down = null;
       if (!still || e.button !== 0) return;
       const hit = this.lines?.group.visible ? this.lines.pick(x, y, this.camera, canvas.clientWidth, canvas.clientHeight) : null;
-      if (hit) this.cursor.go(this.track.ofPiece(hit.piece, hit.part), "view");
+      if (hit && this.track) this.cursor.go(this.track.ofPiece(hit.piece, hit.part), "view");
       readout(this.read(x, y));
     });
     canvas.addEventListener("pointermove", (e) => {
@@ -478,17 +475,48 @@ export class View {
   }
 }
 
-/** Tool and holder as bodies of revolution; an outline of no holder is all tool. */
-function shapes({ outline, holder }: Head["tools"][number]): ToolShape {
-  const lathe = (points: [number, number][]) => {
-    if (points.length < 2) return null;
-    return new LatheGeometry(points.map(([r, h]) => new Vector2(r, h)), 40).rotateX(Math.PI / 2);
-  };
-  if (holder == null) return [lathe(outline), null];
-  const near = holder - 1e-4;
-  const from = outline.findIndex(([, h]) => h >= near);
-  if (from < 0) return [lathe(outline), null];
-  return [lathe([...outline.slice(0, from), [outline[from][0], outline[from][1]], [0, outline[from][1]]]), lathe([[0, outline[from][1]], ...outline.slice(from)])];
+/** A tool as bodies of revolution: its outline cut where the flutes end and where the holder begins. */
+function shapes({ outline, flutes, holder }: Head["tools"][number]): ToolShape {
+  const top = outline.reduce((most, [, h]) => Math.max(most, h), 0);
+  const held = Math.min(holder ?? top, top);
+  const heights = [0, Math.min(Math.max(flutes, 0), held), held, top];
+  return [0, 1, 2].map((i) => {
+    const points = between(outline, heights[i], heights[i + 1]);
+    return points.length < 2 ? null : new LatheGeometry(creased(points), 40).rotateX(Math.PI / 2);
+  });
+}
+
+/** An outline whose corners stand twice, so that light does not run round them. */
+function creased(points: [number, number][]): Vector2[] {
+  const all = points.map(([r, h]) => new Vector2(r, h));
+  return all.flatMap((p, i) => {
+    if (i === 0 || i + 1 === all.length) return [p];
+    const turn = Math.abs(all[i + 1].clone().sub(p).angleTo(p.clone().sub(all[i - 1])));
+    return turn > CORNER ? [p, p.clone()] : [p];
+  });
+}
+
+/** The part of an outline between two heights, closed at both. */
+function between(outline: [number, number][], from: number, to: number): [number, number][] {
+  if (!(to > from)) return [];
+  const points: [number, number][] = [];
+  for (let i = 0; i + 1 < outline.length; i++) {
+    const [[ra, ha], [rb, hb]] = [outline[i], outline[i + 1]];
+    const [low, high] = [Math.min(ha, hb), Math.max(ha, hb)];
+    // A step at the lower end belongs to what is above it, one at the upper end to what is below.
+    if (high < from || low > to || (high === low && (low <= from ? from > 0 : low >= to && i + 2 < outline.length && rb > ra))) continue;
+    for (const [r, h] of [outline[i], outline[i + 1]]) {
+      const at = Math.min(to, Math.max(from, h));
+      const radius = at === h ? r : ra + ((rb - ra) * (at - ha)) / (hb - ha);
+      const last = points[points.length - 1];
+      if (!last || last[0] !== radius || last[1] !== at) points.push([radius, at]);
+    }
+  }
+  if (points.length === 0) return points;
+  if (points[0][0] > 0) points.unshift([0, points[0][1]]);
+  const last = points[points.length - 1];
+  if (last[0] > 0) points.push([0, last[1]]);
+  return points;
 }
 
 /** Takes objects out of their groups and gives back what they have on the graphics card, with `materials` if no other has them. */

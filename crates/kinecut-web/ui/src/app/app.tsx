@@ -69,7 +69,8 @@ export function App() {
 
 function Tabs() {
   return (
-    <div class="panels" role="tablist" aria-label={t("panel.tabs")}>
+    <nav class="panels" aria-label={t("panel.tabs")}>
+      <div role="tablist" aria-label={t("panel.tabs")}>
       {PANELS.map((name) => (
         <button
           key={name}
@@ -87,7 +88,8 @@ function Tabs() {
           {t(`panel.${name}`)}
         </button>
       ))}
-    </div>
+      </div>
+    </nav>
   );
 }
 

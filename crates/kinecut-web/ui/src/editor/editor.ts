@@ -50,7 +50,8 @@ export class Editor {
     private readonly schema: () => Schema | null,
     private readonly tools: () => { number: number; name: string }[],
   ) {
-    this.view = new EditorView({ parent, dispatchTransactions: (all, view) => this.dispatched(all, view) });
+    // The state has the nonce, without which the first style would be refused.
+    this.view = new EditorView({ parent, state: this.state("", "", false), dispatchTransactions: (all, view) => this.dispatched(all, view) });
   }
 
   private state(text: string, name: string, job: boolean): EditorState {
@@ -71,7 +72,7 @@ export class Editor {
         mistakes,
         section,
         EditorState.allowMultipleSelections.of(true),
-        EditorView.contentAttributes.of({ "aria-label": t("text.name", { name }), translate: "no" }),
+        EditorView.contentAttributes.of({ "aria-label": t("text.name", { name }), translate: "no", tabindex: "0" }),
         keymap.of([...closeBracketsKeymap, ...defaultKeymap, ...searchKeymap, ...historyKeymap, ...completionKeymap]),
       ],
     });

@@ -72,6 +72,8 @@ export function edited(doc: Document, text: string): void {
 }
 
 export async function save(doc: Document, over?: { sha256: string | null }): Promise<boolean> {
+  // A text that differs on disk is decided first.
+  if (doc.conflict.value && !over) return false;
   const text = doc.text.value;
   try {
     const { sha256 } = await api.save(doc.id, text, over ? over.sha256 : doc.saved.value.sha256);

@@ -138,6 +138,8 @@ function removeSection(text: string, node: Node): Change {
   }
   let to = Math.min(text.length, lineEnd(text, node.to) + 1);
   while (text[to] === "\n") to++;
+  // The last one takes the blank lines before it along.
+  while (to === text.length && text[from - 1] === "\n" && text[from - 2] === "\n") from--;
   return { from, to, insert: "" };
 }
 

@@ -44,7 +44,6 @@ export function FormPanel({ doc }: { doc: Document }) {
             </option>
           ))}
         </select>
-        <span class="sp" />
         {section.adds && <Adds doc={doc} section={section.id} adds={section.adds} choose={choose} />}
       </header>
       <div class="scrolls">

@@ -297,31 +297,23 @@ function Legend({ doc }: { doc: Document }) {
           </div>
         ))
       )}
-      {part?.compared && (
-        <div class="bands">
-          {bands(part.edges, part.tolerance, part.relative).map(({ n, words }) => (
-            <span key={n}>
-              <i class={`sw b${n}`} aria-hidden="true" />
-              <Name>{words}</Name>
-            </span>
-          ))}
-          <span>
-            <i class="sw none" aria-hidden="true" />
-            {t("part.notCompared")}
-          </span>
-        </div>
-      )}
+      {part?.compared && <Bands edges={part.edges} tolerance={part.tolerance} relative={part.relative} />}
     </div>
   );
 }
 
-/** The bands of deviation with their limits [mm]. */
-function bands(edges: number[], tolerance: number, relative: boolean): { n: number; words: string }[] {
-  const unit = relative ? "T" : " mm";
+/** The bands of deviation with the limits between them. */
+function Bands({ edges, tolerance, relative }: { edges: number[]; tolerance: number; relative: boolean }) {
   const limit = (e: number) => short(relative ? e : e * tolerance, 3);
-  return Array.from({ length: edges.length + 1 }, (_, n) => {
-    if (n === 0) return { n, words: `< ${limit(edges[0])}${unit}` };
-    if (n === edges.length) return { n, words: `> ${limit(edges[n - 1])}${unit}` };
-    return { n, words: `${limit(edges[n - 1])} … ${limit(edges[n])}` };
-  }).filter(({ n }) => n === 0 || n === edges.length || n === Math.floor(edges.length / 2) || edges.length < 9);
+  return (
+    <div class="bands">
+      <span>{t("part.deviation")}</span>
+      <span class="q">{t("part.gouge")}</span>
+      {edges.map((e, n) => [<i key={`b${n}`} class={`sw b${n}`} aria-hidden="true" />, <Name key={n}>{limit(e)}</Name>])}
+      <i class={`sw b${edges.length}`} aria-hidden="true" />
+      <span class="q">{t("part.left", { unit: relative ? "T" : "mm" })}</span>
+      <i class="sw none apart" aria-hidden="true" />
+      <span>{t("part.notCompared")}</span>
+    </div>
+  );
 }

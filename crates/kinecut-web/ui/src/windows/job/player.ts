@@ -19,9 +19,17 @@ const track = () => active.value?.shown.value?.track ?? null;
 
 cursor.listen((place, source) => {
   if (source !== "play") pause();
-  const value = track()?.value(place, (track() as NonNullable<ReturnType<typeof track>>).timeEnd) ?? NaN;
-  if (!Number.isNaN(value)) now.value = value;
-  else if (place.line < 0) now.value = track()?.totalTime ?? 0;
+  const way = track();
+  if (!way) return;
+  if (place.line < 0) {
+    now.value = way.totalTime;
+    return;
+  }
+  // A line that moves nothing stands at the beginning of the next one that does.
+  let line = place.line;
+  while (place.piece < 0 && line < way.lines && way.ofLine(line).piece < 0) line++;
+  const at = place.piece >= 0 ? place : line < way.lines ? way.ofLine(line) : null;
+  now.value = at ? way.value(at, way.timeEnd) : way.totalTime;
 });
 
 effect(() => {
@@ -44,7 +52,7 @@ export function toggle(): void {
 function play(): void {
   const way = track();
   if (!way || way.pieces === 0) return;
-  let time = cursor.place.piece < 0 || now.value >= way.totalTime ? 0 : now.value;
+  let time = cursor.place.line < 0 || now.value >= way.totalTime ? 0 : now.value;
   let last = performance.now();
   playing.value = true;
   const tick = (at: number) => {

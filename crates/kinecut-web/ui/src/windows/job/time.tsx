@@ -157,7 +157,7 @@ function Chart({ doc, track, show }: { doc: Document; track: Track | null; show:
   const right = width - 12;
   const room = Math.max(20, right - left);
   const bottom = height - 20;
-  const top = 34;
+  const top = 40;
   const total = track?.totalTime ?? 0;
   const work = doc.work.value;
   const bands = useMemo(() => (track ? bandsOf(track, work?.operations) : []), [track, work]);
@@ -213,7 +213,7 @@ function Chart({ doc, track, show }: { doc: Document; track: Track | null; show:
         ))}
         {curve && (
           <>
-            <text x={2} y={top - 6} translate={false}>
+            <text x={2} y={top - 5}>
               {curve.unit}
             </text>
             {marks.map((n) => (
