@@ -418,7 +418,7 @@ def times(page: Page) -> list[float]:
     taken = []
     for i in range(CHANGES):
         known = drawn(page)
-        field(page, f"{BORE}.diameter").fill(str(150 + (i * 7) % 45 + i / 1000))
+        field(page, f"{BORE}.diameter").fill(str(180 + (i * 7) % 45 + i / 1000))
         wait_drawn(page, known)
         taken.append(float(page.evaluate("() => document.documentElement.dataset.drawnMs")))
     return sorted(taken)

@@ -125,7 +125,7 @@ function told(doc: Document): Told {
   const wrong = doc.wrong.value;
   const text = doc.text.value;
   if (wrong) return none(doc, wrong);
-  const again = { label: t("outcome.again"), go: () => worker(doc).changed() };
+  const again = { label: t("outcome.again"), go: () => worker(doc).again() };
   if (doc.refused.value) {
     return { state: "none", stale: false, word: t("outcome.none"), what: [t("outcome.refused"), ": ", <Said text={doc.refused.value} />], scope: null, counts: null, act: again };
   }

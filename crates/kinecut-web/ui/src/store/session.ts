@@ -113,7 +113,7 @@ async function changedOnDisk(event: api.Events["changed"]): Promise<void> {
   for (const doc of documents.value) {
     if (doc.id !== event.id) {
       // A file that this job reads may be another now.
-      if (doc.kind === "job" && event.sha256 !== null) worker(doc).changed();
+      if (doc.kind === "job" && event.sha256 !== null) worker(doc).again();
       continue;
     }
     if (event.sha256 === doc.saved.value.sha256) continue;

@@ -1,7 +1,7 @@
 // Planning and simulating a text after each change: the newest counts, the older is given up.
 import { batch } from "@preact/signals";
 import * as api from "../base/api";
-import type { Document } from "./document";
+import type { Document, Judged } from "./document";
 import { Shown } from "./shown";
 
 /** A plan is asked for so long after a change [ms]: keys that come together are one change. */
@@ -9,7 +9,19 @@ const SOON = 12;
 /** A simulation is begun when the text has rested for so long [ms]. */
 const REST = 120;
 
+/** All that is known of a text whose outcome is known. */
+interface Kept {
+  text: string;
+  given: string;
+  planned: api.Planned;
+  simulated: api.Simulated;
+  shown: Shown;
+  judged: Judged;
+}
+
 export class Worker {
+  /** The last outcome: who undoes a change has it at once. */
+  private kept: Kept | null = null;
   private generation = 0;
   private changedAt = 0;
   private timer = 0;
@@ -19,6 +31,42 @@ export class Worker {
 
   /** Called on each change of the text, or of what is given beside it. */
   changed(): void {
+    this.begin();
+    if (this.restored()) return;
+    this.later();
+  }
+
+  /** Called when a file may be another that the text names: what is known is old. */
+  again(): void {
+    this.kept = null;
+    this.begin();
+    this.later();
+  }
+
+  private later(): void {
+    this.doc.planning.value = true;
+    this.timer = window.setTimeout(() => void this.run(), SOON);
+  }
+
+  /** Whether the outcome of this very text is known. */
+  private restored(): boolean {
+    const { doc, kept, generation } = this;
+    if (!kept || kept.text !== doc.text.value || kept.given !== JSON.stringify(doc.given.value)) return false;
+    batch(() => {
+      doc.planning.value = false;
+      doc.refused.value = null;
+      doc.wrong.value = null;
+      doc.planned.value = kept.planned;
+      doc.plannedText.value = kept.text;
+      doc.simulated.value = kept.simulated;
+      doc.shown.value = kept.shown;
+      doc.judged.value = kept.judged;
+    });
+    this.whenDrawn(generation);
+    return true;
+  }
+
+  private begin(): void {
     this.generation++;
     this.changedAt = performance.now();
     this.control.abort();
@@ -26,9 +74,7 @@ export class Worker {
     batch(() => {
       this.doc.running.value = null;
       this.doc.stopped.value = false;
-      this.doc.planning.value = true;
     });
-    this.timer = window.setTimeout(() => void this.run(), SOON);
   }
 
   /** Ends the simulation; the plan stays. */
@@ -132,9 +178,10 @@ export class Worker {
         doc.running.value = null;
         doc.simulated.value = simulated;
         doc.shown.value = shown;
-        if (!coarse || steps.length === 1) {
-          doc.judged.value = { verdict: simulated.verdict, text, at: new Date(), step: simulated.step, result: simulated.result };
-        }
+        if (coarse && steps.length > 1) return;
+        const judged = { verdict: simulated.verdict, text, at: new Date(), step: simulated.step, result: simulated.result };
+        doc.judged.value = judged;
+        this.kept = { text, given: JSON.stringify(doc.given.value), planned, simulated, shown, judged };
       });
     }
   }
