@@ -63,6 +63,8 @@ class Served:
             shutil.copytree(EXAMPLES / name, self.folder / name)
         for name in EXAMPLES.glob("*.toml"):
             shutil.copy(name, self.folder)
+        if "07_external_program" in examples:
+            shutil.move(self.folder / "07_external_program/haas_bracket.nc", self.folder)
         arguments = [program, "open", str(self.folder), "--no-browser", "--port", "0"]
         self.process = subprocess.Popen(arguments, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
         self.address = ""
@@ -411,6 +413,12 @@ def others(page: Page) -> None:
     assert page.locator(".stage canvas").is_visible()
     assert page.locator(".pform h2").inner_text() == "Program of others"
     shot(page, "program-of-others")
+    # Without a job beside it, tools and stock are guessed, and that is said.
+    open_file(page, "haas_bracket.nc")
+    page.wait_for_function("() => document.title.includes('haas_bracket')")
+    judged(page)
+    assert page.locator(".guessed li").count() >= 1 and page.locator(".findings > li").count() >= 1
+    shot(page, "program-guessed")
 
 
 def times(page: Page) -> list[float]:

@@ -46,7 +46,9 @@ export function Bar() {
 }
 
 function Tab({ doc, on }: { doc: Document; on: boolean }) {
-  const name = doc.name.split("/").at(-1) ?? doc.name;
+  const last = (of: Document) => of.name.split("/").at(-1) ?? of.name;
+  // Two files of one name are told apart by their folders.
+  const name = documents.value.some((d) => d !== doc && last(d) === last(doc)) ? doc.name : last(doc);
   return (
     <span class={`tab${on ? " on" : ""}`}>
       <button aria-current={on ? "page" : undefined} title={doc.name} onClick={() => show(doc.id)}>
@@ -93,13 +95,8 @@ function Files() {
 function Status({ doc }: { doc: Document }) {
   const ms = doc.drawnIn.value;
   const run = doc.running.value;
-  const simulated = doc.simulated.value;
   const planned = doc.planning.value ? t("bar.planning") : ms === null ? "" : t("bar.planned", { ms: Math.round(ms) });
-  let told = "";
-  if (run && simulated) told = t("bar.refining", { coarse: short(simulated.step), step: short(run.step) });
-  else if (run) told = t("bar.simulating", { step: short(run.step) });
-  else if (doc.stopped.value) told = t("bar.stopped");
-  else if (simulated) told = t("bar.simulated", { step: short(simulated.step) });
+  const told = simulating(doc);
   const share = run?.share ?? null;
   return (
     <div class="status">
@@ -121,4 +118,15 @@ function Status({ doc }: { doc: Document }) {
       )}
     </div>
   );
+}
+
+/** What is simulated, or was. */
+function simulating(doc: Document): string {
+  const run = doc.running.value;
+  const simulated = doc.simulated.value;
+  if (run && run.step === null) return t("bar.simulatingAlone");
+  if (run && simulated) return t("bar.refining", { coarse: short(simulated.step), step: short(run.step ?? 0) });
+  if (run) return t("bar.simulating", { step: short(run.step ?? 0) });
+  if (doc.stopped.value) return t("bar.stopped");
+  return simulated ? t("bar.simulated", { step: short(simulated.step) }) : "";
 }

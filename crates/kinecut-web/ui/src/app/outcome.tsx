@@ -105,8 +105,9 @@ function waiting(doc: Document): Told {
   const found = simulated.value?.findings.filter((f) => f.severity !== "note") ?? [];
   let what = t("outcome.planning");
   if (run) {
-    const step = short(run.step);
-    what = run.share === null ? t("outcome.simulatingStart", { step }) : t("outcome.simulating", { percent: Math.floor(100 * run.share), step });
+    const step = run.step === null ? "?" : short(run.step);
+    if (run.step === null) what = t("outcome.simulatingAlone");
+    else what = run.share === null ? t("outcome.simulatingStart", { step }) : t("outcome.simulating", { percent: Math.floor(100 * run.share), step });
   }
   const coarse = simulated.value ? { step: short(simulated.value.step), n: found.length } : null;
   const soFar = !coarse ? t("outcome.before") : found.length === 0 ? t("outcome.coarseClean", coarse) : t("outcome.coarseFound", coarse);

@@ -7,7 +7,8 @@ import type { Shown } from "./shown";
 
 /** What is simulated now. */
 export interface Running {
-  step: number;
+  /** [mm]; null where the program's own is not known yet. */
+  step: number | null;
   coarse: boolean;
   /** From 0 to 1; null before the first word of it. */
   share: number | null;
@@ -74,6 +75,14 @@ export class Document {
   });
   /** The last answer that has programs and operations. */
   readonly work = computed(() => this.simulated.value ?? this.planned.value);
+
+  /** The tools that are known: those of the answer, or of the text. */
+  readonly tools = computed<{ number: number; name: string }[]>(() => {
+    const told = this.work.value?.tools;
+    if (told) return told;
+    const own = this.values.value.tool;
+    return Array.isArray(own) ? own.map((tool: Record<string, unknown>) => ({ number: Number(tool.number), name: String(tool.name ?? tool.type ?? "") })) : [];
+  });
 
   constructor(
     readonly id: string,

@@ -3,7 +3,7 @@ import { batch, computed, effect, signal } from "@preact/signals";
 import { Cursor, type Place } from "viewer/track";
 import * as api from "../base/api";
 import type { Schema } from "../schema/schema";
-import { Document } from "./document";
+import { Document, type Given } from "./document";
 import { Worker } from "./work";
 
 export const project = signal<api.Project | null>(null);
@@ -38,9 +38,17 @@ export async function open(id: string): Promise<void> {
       doc.saved.value = { text: read.text ?? "", sha256: read.sha256 };
       documents.value = [...documents.value, doc];
     });
+    if (doc.kind === "program") doc.given.value = besides(doc.name);
     worker(doc).changed();
   }
   show(id);
+}
+
+/** Tools and stock of a program are those of the one job that lies beside it. */
+function besides(name: string): Given {
+  const folder = name.slice(0, name.lastIndexOf("/") + 1);
+  const jobs = project.value?.files.filter((f) => f.kind === "job" && f.name.slice(0, f.name.lastIndexOf("/") + 1) === folder) ?? [];
+  return jobs.length === 1 ? { job: jobs[0].id } : {};
 }
 
 /** Shows a tab. */

@@ -13,7 +13,7 @@ const REST = 120;
 interface Kept {
   text: string;
   given: string;
-  planned: api.Planned;
+  planned: api.Planned | null;
   simulated: api.Simulated;
   shown: Shown;
   judged: Judged;
@@ -109,6 +109,11 @@ export class Worker {
     try {
       const planned = await api.plan(question, control.signal);
       if (old() || planned.state === "cancelled") return;
+      if (planned.state === "wrong" && doc.kind === "program") {
+        // A simulation guesses the tools and the stock that nobody gives.
+        await this.simulate(question, null, old, control.signal);
+        return;
+      }
       if (planned.state === "wrong") {
         batch(() => {
           doc.planning.value = false;
@@ -156,17 +161,19 @@ export class Worker {
     );
   }
 
-  private async simulate(question: api.Question, planned: api.Planned, old: () => boolean, signal: AbortSignal): Promise<void> {
+  private async simulate(question: api.Question, planned: api.Planned | null, old: () => boolean, signal: AbortSignal): Promise<void> {
     const { doc } = this;
-    const steps: ("coarse" | "job")[] = planned.coarse_step > planned.step ? ["coarse", "job"] : ["job"];
+    const steps: ("coarse" | "job")[] = planned && planned.coarse_step > planned.step ? ["coarse", "job"] : ["job"];
     for (const step of steps) {
       const coarse = step === "coarse";
-      doc.running.value = { step: coarse ? planned.coarse_step : planned.step, coarse, share: null };
+      doc.running.value = { step: (coarse ? planned?.coarse_step : planned?.step) ?? null, coarse, share: null };
       const simulated = await api.simulate({ ...question, step }, signal);
       if (old() || simulated.state === "cancelled") return;
       if (simulated.state === "wrong") {
         batch(() => {
           doc.running.value = null;
+          doc.planning.value = false;
+          doc.refused.value = null;
           doc.wrong.value = simulated.error;
         });
         return;
@@ -176,6 +183,9 @@ export class Worker {
       if (old()) return;
       batch(() => {
         doc.running.value = null;
+        doc.planning.value = false;
+        doc.refused.value = null;
+        doc.wrong.value = null;
         doc.simulated.value = simulated;
         doc.shown.value = shown;
         if (coarse && steps.length > 1) return;

@@ -16,6 +16,7 @@ export const en = {
   "bar.simulated": "simulated at {step} mm",
   "bar.refining": "simulated at {coarse} mm, refining to {step} mm",
   "bar.simulating": "simulating at {step} mm",
+  "bar.simulatingAlone": "simulating",
   "bar.stopped": "simulation stopped",
   "bar.progress": "Simulation",
 
@@ -38,6 +39,7 @@ export const en = {
   "outcome.planning": "The text is read and planned",
   "outcome.simulating": "{percent} % of the program simulated at {step} mm",
   "outcome.simulatingStart": "The program is simulated at {step} mm",
+  "outcome.simulatingAlone": "The program is simulated",
   "outcome.coarseClean": "no fault at a step of {step} mm. No outcome before the end.",
   "outcome.coarseFound": "{n} {n#finding|findings} at a step of {step} mm. No outcome before the end.",
   "outcome.before": "No outcome before the end.",
@@ -195,7 +197,7 @@ export const en = {
   // Findings.
   "findings.none": "No findings.",
   "findings.go": "Go to line {n}",
-  "findings.goJob": "Go to line {n} of the text",
+  "findings.goJob": "Go to text line {n}",
   "findings.show": "Show the place",
   "findings.notChecked": "Not checked, {n} {n#group|groups}",
   "findings.ensure": "To ensure at the machine",

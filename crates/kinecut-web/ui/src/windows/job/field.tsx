@@ -19,18 +19,18 @@ export interface Of {
 }
 
 /** The sentence of what is wrong with a value; the same finding is under it in the text. */
-function wrongOf(doc: Document, path: Path): string | null {
+function wrongOf(doc: Document, path: Path): { text: string; severity: string } | null {
   const key = keyOf(path);
   const node = at(doc.tree.value, path);
   const text = doc.text.value;
   for (const finding of doc.findings.value) {
     if (finding.severity === "note") continue;
     if (finding.key !== undefined && finding.key !== "") {
-      if (finding.key === key) return finding.message;
+      if (finding.key === key) return { text: finding.message, severity: finding.severity };
       continue;
     }
     const range = node && rangeOf(finding, doc.name, text, doc.tree.value);
-    if (node?.kind === "leaf" && range && range.from >= node.from && range.to <= node.to && range.to > range.from) return finding.message;
+    if (node?.kind === "leaf" && range && range.from >= node.from && range.to <= node.to && range.to > range.from) return { text: finding.message, severity: finding.severity };
   }
   return null;
 }
@@ -40,7 +40,7 @@ export function Row({ of, wrong, children, extra }: { of: Of; wrong?: string | n
   const { doc, path, label, form } = of;
   const id = `f-${keyOf(path)}`;
   const differs = JSON.stringify(doc.value(path)) !== JSON.stringify(plain(at(doc.savedTree.value, path)));
-  const told = wrong ?? wrongOf(doc, path);
+  const told = wrong ? { text: wrong, severity: "error" } : wrongOf(doc, path);
   return (
     <div class={`row${told ? " wrong" : ""}`} data-key={keyOf(path)}>
       <label for={id} title={form.about.replaceAll("`", "")} {...extra}>
@@ -50,8 +50,8 @@ export function Row({ of, wrong, children, extra }: { of: Of; wrong?: string | n
       </label>
       {children}
       {told && (
-        <p class="told" id={`${id}-told`}>
-          {wrong ? wrong : <Said text={told} />}
+        <p class={`told ${told.severity}`} id={`${id}-told`}>
+          {wrong ? wrong : <Said text={told.text} />}
         </p>
       )}
     </div>

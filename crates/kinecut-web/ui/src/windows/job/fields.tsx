@@ -86,9 +86,7 @@ function TruthField({ of, optional }: { of: { doc: Document; path: Path; form: F
 
 function ToolField({ of, optional }: { of: { doc: Document; path: Path; form: Form; label: string }; optional: boolean }) {
   const { doc, path } = of;
-  const own = doc.values.value.tool;
-  const inText = Array.isArray(own) ? own.map((tool: Record<string, unknown>) => ({ number: Number(tool.number), name: String(tool.name ?? "") })) : [];
-  const all = doc.work.value?.tools ?? inText;
+  const all = doc.tools.value;
   if (all.length === 0) return <TextField of={of} optional={optional} numbers />;
   const value = doc.value(path);
   const byName = typeof value === "string";

@@ -25,6 +25,7 @@ export function FormPanel({ doc }: { doc: Document }) {
   const root = schema && new Form(schema, schema);
   const form = root?.at(path, doc.values.value);
   const item = section.items.find((i) => keyOf(i.path) === keyOf(path));
+  const whole = path[0] === "setup" && path.length === 2 ? section.label : (item?.label ?? "");
   return (
     <section class="panel pform" aria-label={t("panel.form")} tabIndex={-1} data-panel="form">
       <header>
@@ -57,10 +58,10 @@ export function FormPanel({ doc }: { doc: Document }) {
               class="remove"
               onClick={() => {
                 drop(doc, path);
-                notice.value = t("form.removed", { name: item.label });
+                notice.value = t("form.removed", { name: whole });
               }}
             >
-              {t("form.remove", { name: item.label })}
+              {t("form.remove", { name: whole })}
             </button>
           )}
         </div>

@@ -237,12 +237,11 @@ function ReadOut({ doc }: { doc: Document }) {
   const at = place.value;
   const track = doc.shown.value?.track;
   const tip = track && at.piece >= 0 && at.piece < track.pieces ? track.tip(at) : null;
-  const work = doc.work.value;
-  const lines = linesOf(work);
+  const lines = linesOf(doc.work.value);
   const feed = wordBefore(lines, at.line, "F");
   const speed = wordBefore(lines, at.line, "S");
   const tool = tip && track ? track.head.tools[track.tool[at.piece]] : undefined;
-  const name = tool && work?.tools?.find((one) => one.number === tool.number)?.name;
+  const name = tool && doc.tools.value.find((one) => one.number === tool.number)?.name;
   const spoken = tip && !playing.value ? t("part.cursor", { line: at.line + 1, x: fixed(tip[0], 3), y: fixed(tip[1], 3), z: fixed(tip[2], 3) }) : "";
   return (
     <>
@@ -309,7 +308,12 @@ function Bands({ edges, tolerance, relative }: { edges: number[]; tolerance: num
     <div class="bands">
       <span>{t("part.deviation")}</span>
       <span class="q">{t("part.gouge")}</span>
-      {edges.map((e, n) => [<i key={`b${n}`} class={`sw b${n}`} aria-hidden="true" />, <Name key={n}>{limit(e)}</Name>])}
+      {edges.map((e, n) => (
+        <span key={n} class="pair">
+          <i class={`sw b${n}`} aria-hidden="true" />
+          <Name>{limit(e)}</Name>
+        </span>
+      ))}
       <i class={`sw b${edges.length}`} aria-hidden="true" />
       <span class="q">{t("part.left", { unit: relative ? "T" : "mm" })}</span>
       <i class="sw none apart" aria-hidden="true" />

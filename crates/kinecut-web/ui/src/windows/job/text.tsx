@@ -14,12 +14,7 @@ import { holder } from "./change";
 import { chosenPath, itemPath } from "./items";
 import { keyOf } from "../../store/document";
 
-const knownTools = () => {
-  const doc = active.value;
-  const own = doc?.values.value.tool;
-  const inText = Array.isArray(own) ? own.map((tool: Record<string, unknown>) => ({ number: Number(tool.number), name: String(tool.name ?? "") })) : [];
-  return doc?.work.value?.tools ?? inText;
-};
+const knownTools = () => active.value?.tools.value ?? [];
 
 function mistakesOf(doc: Document): Mistake[] {
   const text = doc.text.value;

@@ -171,7 +171,7 @@ function Chart({ doc, track, show }: { doc: Document; track: Track | null; show:
   const px = x(at);
   const under = curve?.columns[Math.min(curve.columns.length - 1, Math.max(0, Math.floor(px - left)))] ?? 0;
   const line = place.value.line;
-  const told = [curve ? curve.told(under) : "", line >= 0 ? t("time.lineShort", { n: line + 1 }) : ""].filter(Boolean).join(", ");
+  const told = [curve && under > 0 ? curve.told(under) : "", line >= 0 ? t("time.lineShort", { n: line + 1 }) : ""].filter(Boolean).join(", ");
   const drag = (e: PointerEvent) => {
     const rect = (box.current as HTMLDivElement).getBoundingClientRect();
     goTime(seconds(e.clientX - rect.left));
