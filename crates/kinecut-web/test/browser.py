@@ -464,10 +464,9 @@ def pseudo(browser: Browser, served: Served) -> None:
     found += page.evaluate(UNMARKED, MARK)
     for section in ("job", "tools", "fixtures", "setup0"):
         page.locator("select.section").select_option(section)
-        for details in page.locator("details.more:not([open]) > summary").all():
-            details.click()
         for i in range(page.locator(".ops li").count()):
             page.locator(".ops li").nth(i).click()
+            page.locator("details.more").evaluate_all("all => all.forEach(d => (d.open = true))")
             found += page.evaluate(UNMARKED, MARK)
     box = page.locator(".chart").bounding_box()
     page.mouse.click(box["x"] + box["width"] * 0.5, box["y"] + box["height"] * 0.6)
