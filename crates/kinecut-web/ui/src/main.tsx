@@ -4,7 +4,7 @@ import { App, dropped } from "./app/app";
 import { startKeys } from "./app/commands";
 import { outcome } from "./app/outcome";
 import "./app/theme";
-import { documents, notice, serverGone, start, titled } from "./store/session";
+import { documents, serverGone, start, tell, titled } from "./store/session";
 import { Gone } from "./base/api";
 
 render(<App />, document.getElementById("app") as HTMLElement);
@@ -22,5 +22,5 @@ addEventListener("beforeunload", (e) => {
 
 start().catch((error: unknown) => {
   if (error instanceof Gone) serverGone.value = true;
-  else notice.value = error instanceof Error ? error.message : String(error);
+  else tell(error instanceof Error ? error.message : String(error));
 });

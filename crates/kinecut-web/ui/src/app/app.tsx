@@ -2,7 +2,7 @@
 import { useSignal } from "@preact/signals";
 import * as api from "../base/api";
 import example from "./example.toml";
-import { active, documents, notice, open, project, save, serverGone, takeTheirs } from "../store/session";
+import { active, documents, notice, open, project, save, serverGone, takeTheirs, tell } from "../store/session";
 import { holder } from "../windows/job/change";
 import { JobWindow } from "../windows/job/window";
 import { t } from "../words";
@@ -46,7 +46,7 @@ async function saveReport(): Promise<void> {
     link.click();
     setTimeout(() => URL.revokeObjectURL(link.href), 10_000);
   } catch (error) {
-    notice.value = String(error instanceof Error ? error.message : error);
+    tell(error instanceof Error ? error.message : String(error));
   }
 }
 
@@ -140,16 +140,18 @@ function Conflict() {
 function Notice() {
   return (
     <div class="across" role="status">
-      <span>{notice.value}</span>
+      <span>{notice.value?.text}</span>
       <span class="sp" />
-      <button
-        onClick={() => {
-          run("command.undo");
-          notice.value = null;
-        }}
-      >
-        {t("form.undo")}
-      </button>
+      {notice.value?.undo && (
+        <button
+          onClick={() => {
+            run("command.undo");
+            notice.value = null;
+          }}
+        >
+          {t("form.undo")}
+        </button>
+      )}
       <button class="ghost icon" aria-label={t("notice.close")} onClick={() => (notice.value = null)}>
         <span aria-hidden="true">×</span>
       </button>
@@ -166,7 +168,7 @@ async function made(name: string, text: string): Promise<void> {
   } catch (error) {
     const known = project.value?.files.find((f) => f.name === name);
     if (error instanceof api.Refused && error.reason === "exists" && known) await open(known.id);
-    else notice.value = error instanceof Error ? error.message : String(error);
+    else tell(error instanceof Error ? error.message : String(error));
   }
 }
 

@@ -10,6 +10,9 @@ export function Name({ children, class: c }: { children: ComponentChildren; clas
   );
 }
 
+/** For elements of a drawing, which have no property of that name. */
+export const untranslated = { translate: "no" } as object;
+
 /** A sentence of the library: words between backquotes are names. */
 export function Said({ text }: { text: string }) {
   return (

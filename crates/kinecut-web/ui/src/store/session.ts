@@ -12,7 +12,11 @@ export const activeId = signal<string | null>(null);
 export const active = computed(() => documents.value.find((d) => d.id === activeId.value) ?? null);
 export const serverGone = signal(false);
 /** A sentence about something that just went wrong or well. */
-export const notice = signal<string | null>(null);
+export const notice = signal<{ text: string; undo: boolean } | null>(null);
+
+export function tell(text: string, undo = false): void {
+  notice.value = { text, undo };
+}
 export const jobSchema = signal<Schema | null>(null);
 
 /** The one cursor through program, part, time and findings. */
@@ -95,7 +99,7 @@ export async function save(doc: Document, over?: { sha256: string | null }): Pro
       const { disk } = error.body as { disk: { text: string | null; sha256: string | null } };
       doc.conflict.value = disk;
     } else if (error instanceof api.Refused) {
-      notice.value = error.message;
+      tell(error.message);
     } else if (error instanceof api.Gone) {
       serverGone.value = true;
     } else {

@@ -112,6 +112,9 @@ class Reader {
     const quote = this.peek();
     const long = this.text.startsWith(quote.repeat(3), this.at);
     this.at += long ? 3 : 1;
+    // A line end straight behind the quotes is none of the text.
+    if (long && this.text.startsWith("\r\n", this.at)) this.at += 2;
+    else if (long && this.peek() === "\n") this.at++;
     let out = "";
     for (;;) {
       if (this.done) throw new Wrong();
@@ -124,6 +127,11 @@ class Reader {
       this.at++;
       if (c !== "\\" || quote === "'") {
         out += c;
+        continue;
+      }
+      const end = long ? /^[ \t]*\r?\n\s*/.exec(this.text.slice(this.at)) : null;
+      if (end) {
+        this.at += end[0].length;
         continue;
       }
       const e = this.peek();

@@ -98,6 +98,7 @@ export const en = {
   "form.toolOnly": "Tool {n}",
   "form.holder": "Holder {name}",
   "form.fixture": "Fixture {n}",
+  "form.sized": "{kind}{size}",
   "form.holes": "{n} {n#hole|holes}",
   "form.clamping": "Clamping and zero",
   "form.tools": "Tools",

@@ -3,7 +3,7 @@ import { useSignal } from "@preact/signals";
 import { Form } from "../../schema/schema";
 import { kinds } from "../../editor/complete";
 import { type Document, keyOf } from "../../store/document";
-import { jobSchema, notice } from "../../store/session";
+import { jobSchema, tell } from "../../store/session";
 import { type Value, append } from "../../toml/edit";
 import { type Path, plain, at } from "../../toml/parse";
 import { named, t } from "../../words";
@@ -58,7 +58,7 @@ export function FormPanel({ doc }: { doc: Document }) {
               class="remove"
               onClick={() => {
                 drop(doc, path);
-                notice.value = t("form.removed", { name: whole });
+                tell(t("form.removed", { name: whole }), true);
               }}
             >
               {t("form.remove", { name: whole })}
@@ -96,7 +96,9 @@ function List({ items, path, choose }: { items: Item[]; path: Path; choose: (pat
             <span class="n" translate={false}>
               {item.number}
             </span>
-            <span class="name">{item.label}</span>
+            <span class="name" translate={!item.verbatim}>
+              {item.label}
+            </span>
             {item.findings ? (
               <span class={`tag ${item.findings.severity === "error" ? "bad" : "np"}`}>{t("form.findings", { n: item.findings.count })}</span>
             ) : (

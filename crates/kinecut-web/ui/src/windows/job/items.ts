@@ -10,6 +10,8 @@ export interface Item {
   /** Number before the name. */
   number: string;
   label: string;
+  /** Whether the label is a name of the text. */
+  verbatim?: boolean;
   /** What stands at the right, quiet. */
   side: string;
   findings: { severity: string; count: number } | null;
@@ -31,11 +33,11 @@ const list = (v: unknown): Values[] => (Array.isArray(v) ? v.map(table) : []);
 /** The name of an operation: its kind with its size. */
 export function operationName(operation: Values): string {
   const kind = String(operation.type ?? "");
-  if (typeof operation.name === "string" && operation.name !== "") return `${named(kind)} ${operation.name}`;
+  if (typeof operation.name === "string" && operation.name !== "") return t("form.sized", { kind: named(kind), size: ` ${operation.name}` });
   const size = operation.diameter ?? operation.size ?? operation.thread;
   const told = size === undefined || typeof size === "object" ? "" : typeof size === "number" ? ` ⌀${size}` : ` ${String(size)}`;
   const points = Array.isArray(operation.points) && operation.points.length > 1 ? `, ${t("form.holes", { n: operation.points.length })}` : "";
-  return named(kind) + told + points;
+  return t("form.sized", { kind: named(kind), size: told + points });
 }
 
 function severest(doc: Document, path: Path): Item["findings"] {
@@ -92,7 +94,7 @@ export function sections(doc: Document): Section[] {
     label: t("form.tools"),
     adds: "tools",
     items: [
-      ...list(values.tool).map((tool, i) => item(doc, ["tool", i], String(tool.name ?? ""), `T${String(tool.number ?? "")}`)),
+      ...list(values.tool).map((tool, i) => ({ ...item(doc, ["tool", i], String(tool.name ?? ""), `T${String(tool.number ?? "")}`), verbatim: true })),
       ...list(values.holder).map((holder, i) => item(doc, ["holder", i], t("form.holder", { name: String(holder.name ?? i + 1) }))),
     ],
   });

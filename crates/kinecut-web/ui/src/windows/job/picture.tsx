@@ -1,6 +1,7 @@
 // A picture of an operation in its numbers: from above and in section, where the kind has one.
 import type { Document } from "../../store/document";
 import type { Path } from "../../toml/parse";
+import { untranslated } from "../../app/verbatim";
 import { t } from "../../words";
 
 const numeric = (v: unknown): number | null => (typeof v === "number" && v > 0 ? v : null);
@@ -21,7 +22,7 @@ export function Picture({ doc, path }: { doc: Document; path: Path }) {
   const rings = step === null ? 0 : Math.min(5, Math.max(1, Math.floor(diameter / 2 / step) - 1));
   return (
     <figure>
-      <svg viewBox="0 0 228 92" role="img" aria-label={t("form.picture")} translate={false}>
+      <svg viewBox="0 0 228 92" role="img" aria-label={t("form.picture")} {...untranslated}>
         <rect x="10" y="8" width="88" height="76" fill="var(--sunk)" />
         <circle cx="54" cy="46" r="33" fill="var(--stage)" stroke="var(--ink)" stroke-width="1.6" />
         {Array.from({ length: rings }, (_, i) => (

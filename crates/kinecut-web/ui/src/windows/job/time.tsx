@@ -7,6 +7,7 @@ import { goTo, programLine } from "../../app/go";
 import { clock, fixed, short, ticks, timeTicks } from "../../base/format";
 import { type Document, pathOf } from "../../store/document";
 import { active, place } from "../../store/session";
+import { untranslated } from "../../app/verbatim";
 import { t } from "../../words";
 import { type Band, bandsOf } from "./bands";
 import { findingFrom, goTime, now, playing, speed, step, stepOperation, toggle } from "./player";
@@ -217,7 +218,7 @@ function Chart({ doc, track, show }: { doc: Document; track: Track | null; show:
               {curve.unit}
             </text>
             {marks.map((n) => (
-              <g key={n} translate={false}>
+              <g key={n} {...untranslated}>
                 <path class="grid" d={`M${left} ${(bottom - n * scale).toFixed(1)}H${right}`} />
                 <text x={left - 6} y={bottom - n * scale + 4} text-anchor="end">
                   {short(n, 3)}
@@ -229,7 +230,7 @@ function Chart({ doc, track, show }: { doc: Document; track: Track | null; show:
         )}
         <path class="axis" d={`M${left} ${bottom}H${right}`} />
         {timeTicks(total, narrow ? 4 : Math.max(4, Math.floor(room / 120))).map((s) => (
-          <text key={s} x={x(s)} y={height - 5} text-anchor={s === 0 ? "start" : "middle"} translate={false}>
+          <text key={s} x={x(s)} y={height - 5} text-anchor={s === 0 ? "start" : "middle"} {...untranslated}>
             {show(s)}
           </text>
         ))}
@@ -245,7 +246,7 @@ function Chart({ doc, track, show }: { doc: Document; track: Track | null; show:
         <path class="hair" d={`M${px} 26V${bottom}`} />
         <path class="hand" d={`M${px - 6} 4h12v12l-6 6-6-6Z`} />
         {told && line >= 0 && (
-          <g class="told" transform={`translate(${Math.min(px + 8, right - (told.length * 6.4 + 14))} ${top})`} translate={false}>
+          <g class="told" transform={`translate(${Math.min(px + 8, right - (told.length * 6.4 + 14))} ${top})`} {...untranslated}>
             <rect width={told.length * 6.4 + 14} height="18" rx="3" />
             <text x="7" y="13" class="w">
               {told}
@@ -269,7 +270,7 @@ function BandRect({ doc, band, x, number }: { doc: Document; band: Band; x: (s: 
     <g
       data-band={band.run.key}
       class={`band${chosen ? " on" : ""}${doubt ? " doubt" : ""}`}
-      translate={false}
+      {...untranslated}
       onPointerDown={(e) => {
         e.stopPropagation();
         doc.chosen.value = pathOf(band.run.key);
