@@ -192,5 +192,9 @@ mod tests {
             assert!(gate.check(&head("GET", path, &host)).is_err(), "{path}");
         }
         assert!(gate.check(&head("GET", "http://evil.example/", &host)).is_err());
+        // A page of another name sends no Origin when it reads.
+        for name in ["evil.example:4711", "127.0.0.1", "LOCALHOST:4711", "127.0.0.1:4712", ""] {
+            assert!(gate.check(&head("GET", "/", &[("host", name)])).is_err(), "{name}");
+        }
     }
 }
