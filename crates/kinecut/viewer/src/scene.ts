@@ -69,6 +69,8 @@ export class View {
   /** Axis of the section plane: 0, 1, 2; -1 for none. */
   private axis = -1;
   private waiting = false;
+  /** What is no longer shown; given back after the next picture, so that its shaders are still there for those that have come. */
+  private old: Object3D[] = [];
   private shown = { past: false, tool: true, holder: true, part: true, path: true, rapids: true, fixtures: true, machine: false };
   /** The stock over time; made when it is first shown. */
   private stock: Stock | null = null;
@@ -111,7 +113,10 @@ export class View {
     if (mesh?.geometry.boundingBox) this.bounds.copy(mesh.geometry.boundingBox);
     this.growByPath(track);
     const size = this.bounds.getSize(new Vector3()).length() || 1;
-    for (const gone of [this.lines?.group, this.fixtures?.group, this.machine?.group]) if (gone) freed([gone], true);
+    for (const gone of [this.lines?.group, this.fixtures?.group, this.machine?.group]) {
+      gone?.removeFromParent();
+      if (gone) this.old.push(gone);
+    }
     this.lines = track.pieces > 0 ? new PathLines(track, size) : null;
     for (const shapes of this.tools) for (const shape of shapes) shape?.dispose();
     this.tools = head.tools.map(shapes);
@@ -128,7 +133,10 @@ export class View {
 
   private loadPart(head: Head): void {
     freed(this.part.children, false);
-    if (this.stock) freed([this.stock.group], true);
+    if (this.stock) {
+      this.stock.group.removeFromParent();
+      this.old.push(this.stock.group);
+    }
     this.stock = null;
     this.facing.set(1, 1, 1);
     this.partHead = head.part;
@@ -210,6 +218,8 @@ export class View {
   private drawNow(): void {
     this.waiting = false;
     this.renderer.render(this.scene, this.camera);
+    freed(this.old, true);
+    this.old = [];
     this.overlay.update(this.camera, this.pixels() * this.camera.zoom, this.canvas.clientWidth, this.canvas.clientHeight);
   }
 
@@ -221,7 +231,8 @@ export class View {
   private resize(): void {
     const { clientWidth: width, clientHeight: height } = this.canvas.parentElement as HTMLElement;
     if (width === 0 || height === 0) return;
-    this.renderer.setSize(width, height, false);
+    const ratio = this.renderer.getPixelRatio();
+    if (this.canvas.width !== Math.floor(width * ratio) || this.canvas.height !== Math.floor(height * ratio)) this.renderer.setSize(width, height, false);
     const half = this.camera.top;
     this.camera.left = (-half * width) / height;
     this.camera.right = (half * width) / height;

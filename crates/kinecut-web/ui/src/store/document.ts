@@ -40,8 +40,6 @@ export class Document {
   readonly conflict = signal<{ text: string | null; sha256: string | null } | null>(null);
 
   readonly planned = signal<Planned | null>(null);
-  /** The text of the last plan that could be made. */
-  readonly plannedText = signal("");
   readonly wrong = signal<Finding | null>(null);
   readonly simulated = signal<Simulated | null>(null);
   readonly judged = signal<Judged | null>(null);

@@ -57,7 +57,6 @@ export class Worker {
       doc.refused.value = null;
       doc.wrong.value = null;
       doc.planned.value = kept.planned;
-      doc.plannedText.value = kept.text;
       doc.simulated.value = kept.simulated;
       doc.shown.value = kept.shown;
       doc.judged.value = kept.judged;
@@ -130,7 +129,6 @@ export class Worker {
         doc.wrong.value = null;
         doc.simulated.value = null;
         doc.planned.value = planned;
-        doc.plannedText.value = text;
         doc.shown.value = shown;
       });
       this.whenDrawn(generation);

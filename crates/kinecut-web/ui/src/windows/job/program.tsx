@@ -19,8 +19,7 @@ export function ProgramPanel({ doc }: { doc: Document }) {
   const list = useRef<HTMLDivElement>(null);
   const from = useSignal(0);
   const room = useSignal(40);
-  const finding = useSignal<string | null>(null);
-  const missed = useSignal(false);
+  const finding = useSignal(false);
   const work = doc.work.value;
   const track = doc.shown.value?.track ?? null;
   const lines = linesOf(work);
@@ -68,19 +67,13 @@ export function ProgramPanel({ doc }: { doc: Document }) {
     e.preventDefault();
     go(Math.min(lines.length - 1, Math.max(0, to)));
   };
-  const search = (text: string) => {
-    const what = text.toUpperCase();
-    if (what === "") return;
-    for (let i = 1; i <= lines.length; i++) {
-      const l = (Math.max(line, 0) + i) % lines.length;
-      if (lines[l].toUpperCase().includes(what)) {
-        missed.value = false;
-        go(l);
-        toSight(l);
-        return;
-      }
-    }
-    missed.value = true;
+  /** Goes to the next line that has a text; tells whether there is one. */
+  const search = (text: string): boolean => {
+    const l = found(lines, text.toUpperCase(), Math.max(line, 0));
+    if (l < 0) return false;
+    go(l);
+    toSight(l);
+    return true;
   };
   const own = doc.kind === "program" ? [] : runsOf(work?.operations, chosenPath(doc));
   const program = work?.programs.findLast((p) => line < 0 ? p.first === 0 : p.first <= line) ?? work?.programs[0];
@@ -115,25 +108,11 @@ export function ProgramPanel({ doc }: { doc: Document }) {
             ))}
           </select>
         )}
-        <button class="ghost" aria-expanded={finding.value !== null} disabled={lines.length === 0} onClick={() => (finding.value = finding.value === null ? "" : null)}>
+        <button class="ghost" aria-expanded={finding.value} disabled={lines.length === 0} onClick={() => (finding.value = !finding.value)}>
           {t("program.find")}
         </button>
       </header>
-      {finding.value !== null && (
-        <form
-          class="find"
-          onSubmit={(e) => {
-            e.preventDefault();
-            search(finding.value ?? "");
-          }}
-        >
-          <input aria-label={t("program.findWhat")} autocomplete="off" spellcheck={false} value={finding.value} onInput={(e) => (finding.value = e.currentTarget.value)} ref={(input) => {
-              if (input && finding.peek() === "") input.focus();
-            }} />
-          <button>{t("program.find")}</button>
-          {missed.value && <span class="q">{t("program.notFound")}</span>}
-        </form>
-      )}
+      {finding.value && <FindBar search={search} />}
       <div class={`code${doc.wrong.value ? " dim" : ""}`} tabIndex={0} role="region" aria-label={t("program.text")} ref={list} onKeyDown={keys} translate={false}>
         {lines.length === 0 ? (
           <p class="q hint" translate={true}>
@@ -148,6 +127,36 @@ export function ProgramPanel({ doc }: { doc: Document }) {
         )}
       </div>
     </section>
+  );
+}
+
+/** The next line behind one that has a text, from the beginning on if need be; -1 for none. */
+function found(lines: string[], what: string, from: number): number {
+  if (what === "") return -1;
+  for (let i = 1; i <= lines.length; i++) {
+    const l = (from + i) % lines.length;
+    if (lines[l].toUpperCase().includes(what)) return l;
+  }
+  return -1;
+}
+
+function FindBar({ search }: { search: (text: string) => boolean }) {
+  const text = useSignal("");
+  const missed = useSignal(false);
+  const field = useRef<HTMLInputElement>(null);
+  useEffect(() => field.current?.focus(), []);
+  return (
+    <form
+      class="find"
+      onSubmit={(e) => {
+        e.preventDefault();
+        missed.value = !search(text.value);
+      }}
+    >
+      <input aria-label={t("program.findWhat")} autocomplete="off" spellcheck={false} value={text.value} onInput={(e) => (text.value = e.currentTarget.value)} ref={field} />
+      <button>{t("program.find")}</button>
+      {missed.value && <span class="q">{t("program.notFound")}</span>}
+    </form>
   );
 }
 

@@ -153,26 +153,17 @@ function Chart({ doc, track, show }: { doc: Document; track: Track | null; show:
     return () => watch.disconnect();
   }, []);
   const [width, height] = size.value;
-  const narrow = width < 420;
-  const left = narrow ? 30 : 44;
+  const left = width < 420 ? 30 : 44;
   const right = width - 12;
   const room = Math.max(20, right - left);
-  const bottom = height - 20;
-  const top = 40;
   const total = track?.totalTime ?? 0;
   const work = doc.work.value;
   const bands = useMemo(() => (track ? bandsOf(track, work?.operations) : []), [track, work]);
   const curve = useMemo(() => (track && total > 0 ? curveOf(doc, track, Math.floor(room)) : null), [track, work, Math.floor(room)]);
   if (!track || total <= 0) return <div class="chart" ref={box} />;
-  const x = (seconds: number) => left + (seconds / total) * room;
   const seconds = (px: number) => ((px - left) / room) * total;
-  const marks = curve ? ticks(curve.most, bottom - top > 60 ? 3 : 2) : [];
-  const scale = curve ? (bottom - top) / Math.max(curve.most, marks[marks.length - 1] || 1e-9) : 0;
   const at = place.value.line < 0 ? total : now.value;
-  const px = x(at);
-  const under = curve?.columns[Math.min(curve.columns.length - 1, Math.max(0, Math.floor(px - left)))] ?? 0;
-  const line = place.value.line;
-  const told = [curve && under > 0 ? curve.told(under) : "", line >= 0 ? t("time.lineShort", { n: line + 1 }) : ""].filter(Boolean).join(", ");
+  const frame = { width, height, left, right, top: 40, bottom: height - 20 };
   const drag = (e: PointerEvent) => {
     const rect = (box.current as HTMLDivElement).getBoundingClientRect();
     goTime(seconds(e.clientX - rect.left));
@@ -208,53 +199,90 @@ function Chart({ doc, track, show }: { doc: Document; track: Track | null; show:
       }}
       onPointerLeave={() => (hover.value = null)}
     >
-      <svg width={width} height={height} aria-hidden="true">
-        {bands.map((band, i) => (
-          <BandRect key={i} doc={doc} band={band} x={x} number={i + 1} />
-        ))}
-        {curve && (
-          <>
-            <text x={2} y={top - 5}>
-              {curve.unit}
-            </text>
-            {marks.map((n) => (
-              <g key={n} {...untranslated}>
-                <path class="grid" d={`M${left} ${(bottom - n * scale).toFixed(1)}H${right}`} />
-                <text x={left - 6} y={bottom - n * scale + 4} text-anchor="end">
-                  {short(n, 3)}
-                </text>
-              </g>
-            ))}
-            <path class="area" d={area(curve.columns, left, bottom, scale)} />
-          </>
-        )}
-        <path class="axis" d={`M${left} ${bottom}H${right}`} />
-        {timeTicks(total, narrow ? 4 : Math.max(4, Math.floor(room / 120))).map((s) => (
-          <text key={s} x={x(s)} y={height - 5} text-anchor={s === 0 ? "start" : "middle"} {...untranslated}>
-            {show(s)}
-          </text>
-        ))}
-        {doc.findings.value.map((finding, i) => {
-          const l = programLine(doc, finding);
-          if (l === null || finding.severity === "note" || l >= track.lines) return null;
-          const time = track.value(track.ofLine(l), track.timeEnd);
-          if (Number.isNaN(time)) return null;
-          const c = x(time);
-          return <path key={i} class={`mark ${finding.severity}`} d={`M${c} ${top - 2}l6 7-6 7-6-7Z`} onPointerDown={(e) => { e.stopPropagation(); doc.finding.value = i; goTo(doc, finding); }} />;
-        })}
-        {hover.value !== null && hover.value >= left && hover.value <= right && <path class="hair thin" d={`M${hover.value} ${top - 8}V${bottom}`} />}
-        <path class="hair" d={`M${px} 26V${bottom}`} />
-        <path class="hand" d={`M${px - 6} 4h12v12l-6 6-6-6Z`} />
-        {told && line >= 0 && (
-          <g class="told" transform={`translate(${Math.min(px + 8, right - (told.length * 6.4 + 14))} ${top})`} {...untranslated}>
-            <rect width={told.length * 6.4 + 14} height="18" rx="3" />
-            <text x="7" y="13" class="w">
-              {told}
-            </text>
-          </g>
-        )}
-      </svg>
+      <Drawing doc={doc} track={track} curve={curve} bands={bands} frame={frame} at={at} hover={hover.value} show={show} />
     </div>
+  );
+}
+
+interface Frame {
+  width: number;
+  height: number;
+  left: number;
+  right: number;
+  top: number;
+  bottom: number;
+}
+
+interface DrawingProps {
+  doc: Document;
+  track: Track;
+  curve: Curve | null;
+  bands: Band[];
+  frame: Frame;
+  at: number;
+  hover: number | null;
+  show: (seconds: number) => string;
+}
+
+function Drawing({ doc, track, curve, bands, frame, at, hover, show }: DrawingProps) {
+  const { width, height, left, right, top, bottom } = frame;
+  const room = Math.max(20, right - left);
+  const total = track.totalTime;
+  const x = (seconds: number) => left + (seconds / total) * room;
+  const marks = curve ? ticks(curve.most, bottom - top > 60 ? 3 : 2) : [];
+  const scale = curve ? (bottom - top) / Math.max(curve.most, marks[marks.length - 1] || 1e-9) : 0;
+  const px = x(at);
+  const under = curve?.columns[Math.min(curve.columns.length - 1, Math.max(0, Math.floor(px - left)))] ?? 0;
+  const line = place.value.line;
+  const told = [curve && under > 0 ? curve.told(under) : "", line >= 0 ? t("time.lineShort", { n: line + 1 }) : ""].filter(Boolean).join(", ");
+  const every = width < 420 ? 4 : Math.max(4, Math.floor(room / 120));
+  return (
+    <svg width={width} height={height} aria-hidden="true">
+      {bands.map((band, i) => (
+        <BandRect key={i} doc={doc} band={band} x={x} number={i + 1} />
+      ))}
+      {curve && (
+        <>
+          <text x={2} y={top - 5}>
+            {curve.unit}
+          </text>
+          {marks.map((n) => (
+            <g key={n} {...untranslated}>
+              <path class="grid" d={`M${left} ${(bottom - n * scale).toFixed(1)}H${right}`} />
+              <text x={left - 6} y={bottom - n * scale + 4} text-anchor="end">
+                {short(n, 3)}
+              </text>
+            </g>
+          ))}
+          <path class="area" d={area(curve.columns, left, bottom, scale)} />
+        </>
+      )}
+      <path class="axis" d={`M${left} ${bottom}H${right}`} />
+      {timeTicks(total, every).map((s) => (
+        <text key={s} x={x(s)} y={height - 5} text-anchor={s === 0 ? "start" : "middle"} {...untranslated}>
+          {show(s)}
+        </text>
+      ))}
+      {doc.findings.value.map((finding, i) => {
+        const l = programLine(doc, finding);
+        if (l === null || finding.severity === "note" || l >= track.lines) return null;
+        const time = track.value(track.ofLine(l), track.timeEnd);
+        if (Number.isNaN(time)) return null;
+        const c = x(time);
+        return <path key={i} class={`mark ${finding.severity}`} d={`M${c} ${top - 2}l6 7-6 7-6-7Z`} onPointerDown={(e) => { e.stopPropagation(); doc.finding.value = i; goTo(doc, finding); }} />;
+      })}
+      {hover !== null && hover >= left && hover <= right && <path class="hair thin" d={`M${hover} ${top - 8}V${bottom}`} />}
+      <path class="hair" d={`M${px} 26V${bottom}`} />
+      <path class="hand" d={`M${px - 6} 4h12v12l-6 6-6-6Z`} />
+      {told && line >= 0 && (
+        <g class="told" transform={`translate(${Math.min(px + 8, right - (told.length * 6.4 + 14))} ${top})`} {...untranslated}>
+          <rect width={told.length * 6.4 + 14} height="18" rx="3" />
+          <text x="7" y="13" class="w">
+            {told}
+          </text>
+        </g>
+      )}
+    </svg>
   );
 }
 
