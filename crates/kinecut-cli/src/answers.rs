@@ -6,13 +6,12 @@ use std::path::Path;
 use kinecut::base::{Error, Finding, Severity};
 use kinecut::job::TextItems;
 use kinecut::verbs::poses::{PoseTexts, PoseWords};
-use kinecut::verbs::{Answer, several_drawings};
-use serde::Serialize;
+use kinecut::verbs::{Answer, Answers, several_drawings};
 use serde::de::DeserializeOwned;
 
 use crate::printing::{Deny, Printing};
 use crate::show::{self, complain, data, put};
-use crate::{FINDINGS, FINE, WRONG_INPUT, files, render};
+use crate::{files, render};
 
 /// The questions of a text.
 pub(crate) trait Questions {
@@ -124,7 +123,9 @@ fn all<A: Answer>(
     list: bool,
     asked: impl Iterator<Item = Result<A, Error>>,
 ) -> Result<u8, Error> {
-    let mut shown = Shown { args, to, list, count: 0, parts: 0, failed: 0, told: false };
+    // An error or a doubt always counts in the exit code, a warning when it is denied.
+    let least = if args.deny.contains(&Deny::Warnings) { Severity::Warning } else { Severity::Doubt };
+    let mut shown = Shown { args, to, answers: Answers::new(list, least) };
     // An answer that nothing is made of is shown and forgotten: a text may have very many.
     if to.out.is_none() && to.svg.is_none() && !matches!(to.data, Data::File(_)) {
         asked.for_each(|one| shown.put(one.as_ref()));
@@ -171,33 +172,20 @@ fn write<A: Answer>(to: To<'_>, answers: &[&A]) -> Result<String, Error> {
 struct Shown<'a> {
     args: &'a Printing,
     to: To<'a>,
-    list: bool,
-    count: usize,
-    parts: usize,
-    failed: usize,
-    told: bool,
+    answers: Answers,
 }
 
 impl Shown<'_> {
     fn put<A: Answer>(&mut self, one: Result<&A, &Error>) {
-        let [parts, failed] = one.map_or([1, 1], Answer::parts);
-        self.parts += parts;
-        self.failed += failed;
-        self.told |= one.is_ok_and(|answer| answer.is_no() || counts(self.args, answer.findings()));
-        match (self.args.json, one) {
-            (true, Ok(answer)) => self.json(answer),
-            (true, Err(error)) if self.list => {
-                #[derive(Serialize)]
-                struct Wrong<'a> {
-                    error: &'a Finding,
-                }
-                self.json(&Wrong { error: &error.0 });
-            }
-            (true, Err(error)) => self.json(&*error.0),
-            (false, Ok(answer)) => self.text(answer),
-            (false, Err(error)) => complain(render::finding(&error.0, self.args.colour())),
+        if self.args.json {
+            show::json(&self.answers.json(one));
+            return;
         }
-        self.count += 1;
+        match one {
+            Ok(answer) => self.text(answer),
+            Err(error) => complain(render::finding(&error.0, self.args.colour())),
+        }
+        self.answers.add(one);
     }
 
     /// The text for a person, and that for another program.
@@ -211,7 +199,7 @@ impl Shown<'_> {
                 }
             }
             other => {
-                put(format!("{}{text}", if self.count > 0 { "\n" } else { "" }));
+                put(format!("{}{text}", if self.answers.count() > 0 { "\n" } else { "" }));
                 if matches!(other, Data::Below) {
                     put(format!("\n{}", answer.data()));
                 }
@@ -223,30 +211,10 @@ impl Shown<'_> {
         }
     }
 
-    /// A list as `to_string_pretty` writes it, one item at a time.
-    fn json(&self, value: &impl Serialize) {
-        match (self.list, self.count) {
-            (false, _) => show::json(value),
-            (true, 0) => show::json_item("[\n  ", value),
-            (true, _) => show::json_item(",\n  ", value),
-        }
-    }
-
     fn end(&self) -> u8 {
-        if self.args.json && self.list {
-            put(if self.count == 0 { "[]\n" } else { "\n]\n" });
+        if self.args.json {
+            show::json(self.answers.json_end());
         }
-        match self.failed {
-            0 if self.told => FINDINGS,
-            0 => FINE,
-            failed if failed == self.parts => WRONG_INPUT,
-            _ => FINDINGS,
-        }
+        self.answers.exit_code()
     }
-}
-
-/// Whether findings count in the exit code: an error or a doubt always does, a warning when it is denied.
-fn counts<'a>(args: &Printing, findings: impl IntoIterator<Item = &'a Finding>) -> bool {
-    let least = if args.deny.contains(&Deny::Warnings) { Severity::Warning } else { Severity::Doubt };
-    findings.into_iter().any(|f| f.severity >= least)
 }

@@ -14,6 +14,7 @@ use kinecut::verbs::schema::Schema;
 use crate::answers::{Data, To, answer};
 use crate::layouts::Layouts;
 use crate::machine::{Fk, Ik, Machine, Reach};
+use crate::open::Open;
 use crate::planned::{Drill, Face, Hole};
 use crate::printing::Printing;
 use crate::program::{Check, Post, Run, Simulate};
@@ -35,6 +36,7 @@ pub(crate) struct Args {
 const EXAMPLES: &str = "\
 Examples:
   kinecut run examples/01_bore/job.toml --out out   plan, post, read back, simulate, report
+  kinecut open examples/01_bore                     the workbench: edit, see and save a job in the browser
   kinecut verify out/verdict.json                   does the verdict still hold?
   kinecut simulate O1234.nc --job job.toml          cut a program that others wrote
   kinecut check O1234.nc --control fanuc            read it, and say what is wrong with it
@@ -93,6 +95,8 @@ pub(crate) enum Verb {
     Layouts(Layouts),
     /// Generation of a surface: codes, redistributions between machine and tool, processes
     Surface(Surface),
+    /// Open the workbench in the browser: a job with its program and its part, planned again as it is edited
+    Open(Open),
     /// Say whether a verdict still holds for the files as they are now
     Verify(Verify),
     /// Print the JSON Schema of an input
@@ -130,6 +134,7 @@ impl Verb {
             Verb::Reach(verb) => verb.answer(args),
             Verb::Layouts(verb) => verb.answer(args),
             Verb::Surface(verb) => verb.answer(args),
+            Verb::Open(verb) => verb.answer(args),
             Verb::Verify(of) => answer(args, to, kinecut::verify(&of.verdict, of.job.as_deref())?),
             Verb::Schema { name } => answer(args, To { data: Data::Alone, ..to }, name.schema()),
             Verb::Explain { code: None } => answer(args, to, Manual::all()),

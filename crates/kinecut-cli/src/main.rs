@@ -6,6 +6,7 @@ mod files;
 mod layouts;
 mod machine;
 mod numbers;
+mod open;
 mod planned;
 mod printing;
 mod program;
@@ -21,14 +22,14 @@ use std::process::ExitCode;
 
 use clap::Parser as _;
 use kinecut::base::{Error, Severity};
+use kinecut::verbs::json_document;
 
 use args::Args;
 use printing::Printing;
 use show::{complain, json as print_json, put};
 
-/// Exit codes: fine or safe; not safe, not proven or a denied warning; wrong input or cannot say; a defect of ours.
-const FINE: u8 = 0;
-const FINDINGS: u8 = 1;
+/// Exit codes: fine or safe; 1 is not safe, not proven or a denied warning; wrong input or cannot say; a defect of ours.
+pub(crate) const FINE: u8 = 0;
 pub(crate) const WRONG_INPUT: u8 = 2;
 const DEFECT: u8 = 3;
 
@@ -69,7 +70,7 @@ fn not_understood(error: &clap::Error) -> ExitCode {
 
 fn print_error(args: &Printing, error: &Error) {
     if args.json {
-        print_json(&*error.0);
+        print_json(&json_document(&*error.0));
     } else {
         debug_assert_eq!(error.0.severity, Severity::Error);
         complain(render::finding(&error.0, args.colour()));

@@ -8,7 +8,6 @@ use std::fmt::Display;
 use std::io::{IsTerminal as _, Write as _};
 
 use kinecut::page::terminal;
-use serde::Serialize;
 
 /// Text that was made harmless: what [`plain`] gives, and findings, whose parts were before they were coloured.
 pub(crate) struct Shown(String);
@@ -60,33 +59,9 @@ pub(crate) fn data(text: &str) {
     if std::io::stdout().is_terminal() { put(text) } else { write(text.as_bytes()) }
 }
 
-/// A value as JSON on standard output; what a terminal would obey is written as JSON escapes, which mean the same.
-pub(crate) fn json(value: &impl Serialize) {
-    match serde_json::to_string_pretty(value) {
-        Ok(text) => write(format!("{}\n", json_escaped(&text)).as_bytes()),
-        Err(e) => complain(format!("cannot print JSON: {e}")),
-    }
-}
-
-/// A value as JSON in a list, behind what stands before it: as `json` writes it, two columns to the right.
-pub(crate) fn json_item(before: &str, value: &impl Serialize) {
-    match serde_json::to_string_pretty(value) {
-        Ok(text) => write(format!("{before}{}", json_escaped(&text).replace('\n', "\n  ")).as_bytes()),
-        Err(e) => complain(format!("cannot print JSON: {e}")),
-    }
-}
-
-/// JSON text without characters that steer a terminal; outside of its strings there are none.
-fn json_escaped(text: &str) -> String {
-    let mut out = String::with_capacity(text.len());
-    for c in text.chars() {
-        if c == '\n' || *terminal(c.encode_utf8(&mut [0; 4])) == *c.encode_utf8(&mut [0; 4]) {
-            out.push(c);
-        } else {
-            c.encode_utf16(&mut [0; 2]).iter().for_each(|unit| out.push_str(&format!("\\u{unit:04x}")));
-        }
-    }
-    out
+/// A JSON document, or a piece of one: it has nothing that steers a terminal.
+pub(crate) fn json(text: &str) {
+    write(text.as_bytes());
 }
 
 fn write(bytes: &[u8]) {
@@ -101,8 +76,5 @@ mod tests {
     fn nothing_shown_steers_a_terminal() {
         let text = "a\u{1b}]0;x\u{7}\u{9b}31m\u{202e}\nb\r\tc";
         assert_eq!(plain(text).0, "a\\x1b]0;x\\x07\\x9b31m⟨U+202E⟩\nb\\x0d\\x09c");
-        let json = json_escaped(&serde_json::to_string_pretty(&[text, "Ø µm"]).unwrap_or_default());
-        assert!(json.chars().all(|c| c == '\n' || !(c.is_control() || c == '\u{202e}')));
-        assert_eq!(serde_json::from_str::<Vec<String>>(&json).ok(), Some(vec![text.into(), "Ø µm".into()]));
     }
 }

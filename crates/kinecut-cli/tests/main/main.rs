@@ -15,6 +15,7 @@ mod files;
 mod grazing;
 mod letters;
 mod machine;
+mod open;
 mod program;
 mod shown;
 mod surface;

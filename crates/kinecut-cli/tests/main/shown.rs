@@ -53,6 +53,9 @@ fn files(folder: &Path) -> BTreeMap<PathBuf, Vec<u8>> {
 
 /// Runs a shown command in a folder; its output, or what is wrong.
 fn run(shown: &Shown, folder: &Path) -> Result<String, String> {
+    if shown.words[0] == "open" {
+        return open(shown, folder);
+    }
     let done = Command::new(env!("CARGO_BIN_EXE_kinecut"))
         .args(&shown.words)
         .current_dir(folder)
@@ -90,6 +93,24 @@ fn run(shown: &Shown, folder: &Path) -> Result<String, String> {
         }
     }
     Ok(stdout)
+}
+
+/// Opens the workbench that a document shows, without a browser, until it says its address.
+fn open(shown: &Shown, folder: &Path) -> Result<String, String> {
+    use std::io::{BufRead as _, BufReader};
+    let mut program = Command::new(env!("CARGO_BIN_EXE_kinecut"))
+        .args(shown.words.iter().filter(|word| *word != "--no-browser"))
+        .arg("--no-browser")
+        .current_dir(folder)
+        .stdout(std::process::Stdio::piped())
+        .spawn()
+        .unwrap();
+    let lines: Vec<String> =
+        BufReader::new(program.stdout.take().unwrap()).lines().take(2).map(Result::unwrap).collect();
+    program.kill().unwrap();
+    program.wait().unwrap();
+    let said = lines.join("\n");
+    if said.contains("http://127.0.0.1:") { Ok(said) } else { Err(format!("no address: {said}")) }
 }
 
 /// Commands in their order, those that read `out` behind the first that wrote it; equal ones once.

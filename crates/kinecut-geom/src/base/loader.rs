@@ -126,7 +126,7 @@ pub fn read_text_stream(name: &str, stream: impl Read) -> Result<String> {
     text_of(name, read_stream(name, FileKind::Text, stream)?)
 }
 
-fn within(name: &str, kind: FileKind, size: u64) -> Result<()> {
+pub(super) fn within(name: &str, kind: FileKind, size: u64) -> Result<()> {
     if size <= kind.limit() {
         return Ok(());
     }

@@ -97,6 +97,21 @@ pub(super) fn error_in_its_units(text: &str, loader: &dyn Loader, mut error: Err
     error
 }
 
+/// Findings of a job in the units of the text that each is about.
+pub(super) fn findings_in_their_units(job: &Job, found: &mut [Finding]) {
+    if !job.units.is_inch() && job.in_other_unit.is_empty() {
+        return;
+    }
+    let inches = InInches::of(Some(job));
+    for finding in found {
+        let place = finding.place.as_ref().map(|place| &place.file);
+        let is_other = place.is_some_and(|file| job.in_other_unit.contains(file));
+        if job.units.is_inch() != is_other {
+            inches.finding(finding);
+        }
+    }
+}
+
 /// The sections of a page in inches; its view of the part, drawings, charts and plans stay in mm. Its findings are in inches already.
 pub(super) fn report_in_inches(report: &mut Report, job: &Job) {
     let inches = InInches::of(Some(job));

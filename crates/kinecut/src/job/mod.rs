@@ -7,6 +7,7 @@ mod closer;
 mod contacts;
 pub mod contour;
 mod cutting;
+mod draft;
 pub(crate) mod engagement;
 pub(crate) mod external;
 pub(crate) mod facets;
@@ -62,6 +63,7 @@ pub use check::{
     Design, Job, JobProgram, JobSetup, Region, Subprogram, Uncertainty, check, program_text, subprograms,
 };
 pub use cutting::{DataOrigin, SpeedLimit, TakenData, TakenNumber};
+pub use draft::Draft;
 pub use engagement::{Engagement, engagement_json};
 pub use external::{
     Carried, CarriedStock, CarriedTool, ExternalProgram, GivenFile, GivenJob, GivenStock, ProgramWants,
@@ -79,7 +81,7 @@ pub(crate) use output::StreamedFile;
 pub use part_surface::PartSurface;
 pub use parts::parts;
 pub use plan::{PlannedOperation, SetupPlan, plan};
-pub use plan_json::plan_json;
+pub use plan_json::{draft_json, plan_json};
 pub use playback::PlayedStock;
 pub(crate) use posted::posted;
 pub use read::JobText;

@@ -7,7 +7,7 @@ use super::shape::Deviation;
 use super::simulate::Simulation;
 use super::verdict::Verdict;
 use crate::geom::Mesh;
-use crate::operations::{Operation, OperationPlan, Shown};
+use crate::operations::{OperationPlan, Shown};
 use crate::stock::{CutId, Volume};
 
 /// All that a run has found out.
@@ -55,7 +55,7 @@ impl Outcome {
             let number = operation.number;
             let shown = Shown {
                 number,
-                name: self.job.operation(number).map(Operation::name).unwrap_or_default(),
+                name: self.job.operation_name(number),
                 posted,
                 first_line,
                 begins,

@@ -4,9 +4,12 @@ use std::collections::BTreeMap;
 
 use serde::Serialize;
 
+use super::check::Job;
 use super::cutting::{CuttingJson, cutting_json};
+use super::draft::Draft;
 use super::outcome::Outcome;
-use super::{ReadBack, json_text};
+use super::setup_outcome::SetupOutcome;
+use super::{ReadBack, Subject, json_text};
 use crate::geom::{Curve, CurveKind, SpiralLaw};
 use crate::motion::ProgramTime;
 use crate::operations::OperationJson;
@@ -22,15 +25,24 @@ struct Plan<'a> {
     title: &'a str,
     job: &'a str,
     setups: Vec<SetupJson<'a>>,
-    /// Volume of the raw stock, and what the program removes [mm3].
+    /// Volumes; none of a draft.
+    #[serde(flatten)]
+    volumes: Option<Volumes>,
+    /// Speeds and feeds that operations were given, with their origins.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    cutting: Vec<CuttingJson>,
+    /// The bores as they were measured; none of a draft.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    bores: Option<Vec<BoreFigures>>,
+}
+
+/// Volume of the raw stock, and what the program removes [mm3].
+#[derive(Serialize)]
+struct Volumes {
     stock_volume: f64,
     removed_volume: f64,
     /// The true removed volume is no farther off than this.
     removed_volume_bound: f64,
-    /// Speeds and feeds that operations were given, with their origins.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    cutting: Vec<CuttingJson>,
-    bores: Vec<BoreFigures>,
 }
 
 #[derive(Serialize)]
@@ -121,17 +133,37 @@ struct BoreFigures {
 
 /// The plan of an outcome as JSON text; points in part coordinates.
 pub fn plan_json(outcome: &Outcome) -> String {
+    let subjects = &outcome.verdict.subjects;
+    let one = |i: usize| setup(&outcome.job, &outcome.setups[i], subjects, lists(outcome, i));
     json_text(&Plan {
         format: 1,
         kinecut: crate::VERSION,
         title: &outcome.job.title,
         job: &outcome.job_file,
-        setups: (0..outcome.setups.len()).map(|i| setup(outcome, i)).collect(),
-        stock_volume: outcome.simulation.raw.value,
-        removed_volume: outcome.removed.value,
-        removed_volume_bound: outcome.removed.bound,
+        setups: (0..outcome.setups.len()).map(one).collect(),
+        volumes: Some(Volumes {
+            stock_volume: outcome.simulation.raw.value,
+            removed_volume: outcome.removed.value,
+            removed_volume_bound: outcome.removed.bound,
+        }),
         cutting: cutting_json(&outcome.job),
-        bores: outcome.deviation.bores.iter().map(figures).collect(),
+        bores: Some(outcome.deviation.bores.iter().map(figures).collect()),
+    })
+}
+
+/// The plan of a draft as JSON text: that of its outcome without what only cutting tells.
+pub fn draft_json(draft: &Draft) -> String {
+    let setups = draft.setups.iter().enumerate();
+    let setups = setups.map(|(i, done)| setup(&draft.job, done, &draft.subjects, draft.lists(i)));
+    json_text(&Plan {
+        format: 1,
+        kinecut: crate::VERSION,
+        title: &draft.job.title,
+        job: &draft.job_file,
+        setups: setups.collect(),
+        volumes: None,
+        cutting: cutting_json(&draft.job),
+        bores: None,
     })
 }
 
@@ -147,8 +179,13 @@ fn figures(m: &BoreMeasure) -> BoreFigures {
     }
 }
 
-fn setup(outcome: &Outcome, index: usize) -> SetupJson<'_> {
-    let s = &outcome.setups[index];
+/// A setup's program; a program that others wrote has its hash among the `subjects`, operations say of themselves what `lists` has.
+fn setup<'a>(
+    job: &Job,
+    s: &'a SetupOutcome,
+    subjects: &'a [Subject],
+    lists: BTreeMap<&'static str, Vec<OperationJson>>,
+) -> SetupJson<'a> {
     let trace = if s.external.is_some() { &s.trace } else { &s.plan_trace };
     let segments = || trace.segments.iter().filter(|x| !x.alternative);
     let moves = segments().map(|x| MovePlan {
@@ -165,21 +202,20 @@ fn setup(outcome: &Outcome, index: usize) -> SetupJson<'_> {
     });
     SetupJson {
         program: &s.file,
-        control: s.control(&outcome.job).name(),
+        control: s.control(job).name(),
         time: s.seconds(),
         time_has_rapids: s.time.is_some() || s.trace.duration().1,
         time_without_jerk_limit: s.time.as_ref().map(ProgramTime::total_without_jerk),
         read_back: s.external.is_none().then_some(&s.read_back),
         move_count: segments().count(),
         moves: s.external.is_none().then(|| moves.collect()),
-        program_sha256: s.external.as_ref().and_then(|_| hash_of(outcome, &s.file)),
-        operations: lists(outcome, index),
+        program_sha256: s.external.as_ref().and_then(|_| hash_of(subjects, &s.file)),
+        operations: lists,
     }
 }
 
 /// The hash of a program that others wrote, as the verdict has it.
-fn hash_of<'a>(outcome: &'a Outcome, file: &str) -> Option<&'a str> {
-    let subjects = &outcome.verdict.subjects;
+fn hash_of<'a>(subjects: &'a [Subject], file: &str) -> Option<&'a str> {
     let own = subjects.iter().find(|s| s.file.as_deref() == Some(file))?;
     Some(&own.sha256)
 }

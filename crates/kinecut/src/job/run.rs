@@ -16,7 +16,7 @@ use super::contacts;
 use super::external::{GivenJob, external_setup};
 use super::facets::facets_note;
 use super::following::{LinePlaces, line_place, trace_options};
-use super::inches::{InInches, error_in_its_units, in_other_unit};
+use super::inches::{InInches, error_in_its_units, findings_in_their_units, in_other_unit};
 use super::measure::{self, Measured, loose_cores, tallies};
 use super::outcome::Outcome;
 use super::part_surface::part_surface;
@@ -165,23 +165,15 @@ pub(crate) fn run_checked(
     let scope = scope(&job, &setups, &simulation, &deviation);
     let mut unchecked = unchecked.groups();
     let mut ensured = to_ensure(&job, &setups, &simulation);
-    let inches = (job.units.is_inch() || !job.in_other_unit.is_empty()).then(|| InInches::of(Some(&job)));
-    if let Some(inches) = inches {
-        for finding in &mut found {
-            let place = finding.place.as_ref().map(|place| &place.file);
-            let is_other = place.is_some_and(|file| job.in_other_unit.contains(file));
-            if job.units.is_inch() != is_other {
-                inches.finding(finding);
-            }
-        }
-        if job.units.is_inch() {
-            let claims = proven.iter_mut().flat_map(|proof| [&mut proof.claim, &mut proof.bound]);
-            let open = unchecked.iter_mut().flat_map(|group| &mut group.items).map(|item| &mut item.what);
-            let things = ensured
-                .iter_mut()
-                .flat_map(|item| [&mut item.what, &mut item.value].into_iter().chain(&mut item.room));
-            claims.chain(open).chain(things).for_each(|text| inches.text(text));
-        }
+    findings_in_their_units(&job, &mut found);
+    if job.units.is_inch() {
+        let inches = InInches::of(Some(&job));
+        let claims = proven.iter_mut().flat_map(|proof| [&mut proof.claim, &mut proof.bound]);
+        let open = unchecked.iter_mut().flat_map(|group| &mut group.items).map(|item| &mut item.what);
+        let things = ensured
+            .iter_mut()
+            .flat_map(|item| [&mut item.what, &mut item.value].into_iter().chain(&mut item.room));
+        claims.chain(open).chain(things).for_each(|text| inches.text(text));
     }
     let verdict = Verdict::new(subjects, &files, scope, proven, found, unchecked).ensuring(ensured);
     Ok(Outcome {
@@ -333,7 +325,7 @@ fn in_text(mut error: Error, file: &str, posted: &Posted, lines: &[Option<u32>])
 
 /// A warning when the stock stands higher over the first operation of a job than that reckons with. Where other operations come
 /// first the stock is not known here.
-fn under_stock(job: &Job) -> Option<Finding> {
+pub(super) fn under_stock(job: &Job) -> Option<Finding> {
     let setup = job.setups.first()?;
     let top = Aabb::of_points(corners(&job.stock.bounds(), &setup.to_work())).max.z;
     let finding = setup.operations.first()?.under_stock(top)?;
@@ -403,7 +395,12 @@ fn findings(
         f.key = operation_key(job, *number);
         found.push(located(f));
     }
-    // The worst first; equal ones in the order of the programs, what has no line after them.
+    worst_first(&mut found, setups);
+    found
+}
+
+/// The worst first; equal ones in the order of the programs, what has no line after them.
+pub(super) fn worst_first(found: &mut [Finding], setups: &[SetupOutcome]) {
     found.sort_by_key(|f| {
         let of = |place: &Location| {
             let file = setups.iter().position(|s| s.file == place.file).unwrap_or(setups.len());
@@ -412,7 +409,6 @@ fn findings(
         let place = f.place.as_ref().filter(|p| p.line > 0).map_or((usize::MAX, u32::MAX), of);
         (std::cmp::Reverse(f.severity), place)
     });
-    found
 }
 
 /// The programs that are written, then what they were made from.

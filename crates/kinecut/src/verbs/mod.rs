@@ -1,5 +1,6 @@
 //! The verbs of the command line, one folder each: its question, its answer, and the answer as a person sees it.
 
+mod answers;
 pub mod check;
 pub mod drill;
 pub mod envelope;
@@ -32,6 +33,8 @@ use serde::Serialize;
 use crate::base::{Finding, Result};
 use crate::job::Outputs;
 use crate::page::{Section, WIDTH, text};
+
+pub use answers::{Answers, json_document};
 
 /// The answer of a verb to one question: as JSON what serde makes of it, as text for a terminal, and as files.
 pub trait Answer: Serialize {

@@ -7,7 +7,7 @@ use rayon::prelude::*;
 use serde::Serialize;
 
 use super::Answer;
-use crate::base::{Code, DiskLoader, FilesRead, Finding, Loader as _, Location, Progress, Result};
+use crate::base::{Code, DiskLoader, FilesRead, Finding, Loader, Location, Progress, Result};
 use crate::geom::{Mesh, write_3mf, write_glb, write_ply, write_stl};
 use crate::job::{
     self, InspectWants, Inspection, Outcome, Outputs, PartSurface, RunWants, StockWants, Verdict,
@@ -120,8 +120,23 @@ pub fn run(
     read: &FilesRead,
     progress: &dyn Progress,
 ) -> Result<Done> {
+    let (text, loader) = job_text(job, read)?;
+    run_text((&job.display().to_string(), &text), wants, files, &loader, progress)
+}
+
+/// As [`run`], from the name and the text of a job; files that it names come through `loader`.
+///
+/// # Errors
+/// As [`run`].
+pub fn run_text(
+    (name, text): (&str, &str),
+    wants: &RunWants,
+    files: &ResultFiles,
+    loader: &dyn Loader,
+    progress: &dyn Progress,
+) -> Result<Done> {
     let wants = RunWants { stock: files.settings(&wants.stock), ..wants.clone() };
-    done(outcome_of(job, &wants, read, progress)?, files, progress)
+    done(job::run_with(name, text, &wants, loader, progress)?, files, progress)
 }
 
 /// As [`run`], for a job with programs of others in all its setups: nothing is planned or posted.

@@ -31,7 +31,8 @@ export interface Head {
     bodies: (BodyHead & { link: number | null })[];
   };
   path: { pieces: number; points: number; step: number; axes: number; axis_step: number; done_step: number; runs: number; run_step: number; joint_step: number };
-  tools: { number: number; outline: [number, number][]; flutes: number }[];
+  /** `holder`: height above the tip [mm] at which the outline becomes that of the holder. */
+  tools: { number: number; outline: [number, number][]; flutes: number; holder?: number | null }[];
   roles: string[];
   lines: number;
   line_step: number;
@@ -40,21 +41,32 @@ export interface Head {
 }
 
 /** What the packed elements hold, by their names. */
-const streams = new Map<string, Uint8Array>();
+let streams = new Map<string, Uint8Array>();
 
-/** Unpacks all data of the page; the elements then give their memory back. Fails in a browser that cannot. */
+/** Unpacks streams, which come by their names in base64. Fails in a browser that cannot. */
+export async function unpacked(packed: [string, string][]): Promise<Map<string, Uint8Array>> {
+  const all = packed.map(async ([id, text]): Promise<[string, Uint8Array]> => {
+    const binary = atob(text);
+    const bytes = new Uint8Array(binary.length);
+    for (let i = 0; i < binary.length; i++) bytes[i] = binary.charCodeAt(i);
+    const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("deflate-raw"));
+    return [id, new Uint8Array(await new Response(stream).arrayBuffer())];
+  });
+  return new Map(await Promise.all(all));
+}
+
+/** Lets streams be read: those of the page, or of data that has come since. Gives back what was to be read before. */
+export function use(all: Map<string, Uint8Array>): Map<string, Uint8Array> {
+  const before = streams;
+  streams = all;
+  return before;
+}
+
+/** Unpacks all data of the page; the elements then give their memory back. */
 export async function unpack(): Promise<void> {
   const elements = [...document.querySelectorAll<HTMLElement>("script[data-packed]")];
-  await Promise.all(
-    elements.map(async (element) => {
-      const text = atob(element.textContent ?? "");
-      const bytes = new Uint8Array(text.length);
-      for (let i = 0; i < text.length; i++) bytes[i] = text.charCodeAt(i);
-      const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("deflate-raw"));
-      streams.set(element.id, new Uint8Array(await new Response(stream).arrayBuffer()));
-      element.remove();
-    }),
-  );
+  use(await unpacked(elements.map((element) => [element.id, element.textContent ?? ""])));
+  for (const element of elements) element.remove();
 }
 
 /** The bytes of a stream, which is then forgotten; none where the page has no such stream. */

@@ -11,6 +11,10 @@ import type { Track } from "./track";
 const WIDE = 60_000;
 /** How near the pointer must be [px]. */
 const NEAR = 8;
+/** Width of the piece under the cursor, and where it is so many times longer than wide that it would fill its picture [px]. */
+const MARK = 4.5;
+const MARK_DENSE = 1.8;
+const DENSE = 12;
 const WIDTH: Record<string, number> = { rapid: 1.4, link: 1.4, lead: 1.8, feed: 1.6, rough: 1.6, finish: 2.4 };
 
 interface Role {
@@ -67,7 +71,7 @@ export class PathLines {
       });
       this.roles.push({ name, objects, piece: Uint32Array.from(piece) });
     });
-    this.highlight = new LineSegments2(new LineSegmentsGeometry(), new LineMaterial({ linewidth: 4.5, depthTest: false, transparent: true }));
+    this.highlight = new LineSegments2(new LineSegmentsGeometry(), new LineMaterial({ linewidth: MARK, depthTest: false, transparent: true }));
     this.highlight.renderOrder = 5;
     this.highlight.frustumCulled = false;
     this.highlight.visible = false;
@@ -145,6 +149,11 @@ export class PathLines {
     if (xyz.length === 0) return;
     this.highlight.geometry.dispose();
     this.highlight.geometry = new LineSegmentsGeometry().setPositions(xyz);
+    let length = 0;
+    for (let i = 0; i < xyz.length; i += 6) length += Math.hypot(xyz[i + 3] - xyz[i], xyz[i + 4] - xyz[i + 1], xyz[i + 5] - xyz[i + 2]);
+    this.highlight.geometry.computeBoundingSphere();
+    const size = 2 * (this.highlight.geometry.boundingSphere?.radius ?? 0);
+    this.highlight.material.linewidth = length > DENSE * size ? MARK_DENSE : MARK;
   }
 
   /** The piece nearest to a place on the screen [px], and how far along it; null when none is near. */

@@ -11,6 +11,21 @@ import { Cursor, Track } from "./track";
 
 const element = <T extends HTMLElement>(id: string) => document.getElementById(id) as T | null;
 
+function viewOf(canvas: HTMLCanvasElement, head: Head, track: Track, cursor: Cursor): View {
+  const readout = element("kc-readout");
+  const view = new View(canvas, cursor, {
+    readout: (text) => readout && (readout.textContent = text),
+    notCompared: "not compared",
+    tolerances: "tolerances",
+    nowOn: () => {
+      const box = document.querySelector<HTMLInputElement>('[data-show="now"]');
+      if (box) box.checked = true;
+    },
+  });
+  view.load(head, track);
+  return view;
+}
+
 function startView(head: Head, track: Track, cursor: Cursor): View | null {
   const canvas = element<HTMLCanvasElement>("kc-canvas");
   if (!canvas) return null;
@@ -18,7 +33,7 @@ function startView(head: Head, track: Track, cursor: Cursor): View | null {
   // Asked first, because the renderer would write to the console when there is none.
   const possible = document.createElement("canvas").getContext("webgl2") !== null;
   try {
-    if (possible) return new View(canvas, head, track, cursor);
+    if (possible) return viewOf(canvas, head, track, cursor);
   } catch (error) {
     stage.dataset.error = String(error);
   }

@@ -27,7 +27,7 @@ export class Overlay {
     this.ring = element("g", { visibility: "hidden" }, this.rings);
     element("circle", { class: "halo", r: 11 }, this.ring);
     element("circle", { class: "ring", r: 11 }, this.ring);
-    const svg = element("svg", { class: "overlay", width: 220, height: 84, "aria-hidden": "true" }, stage);
+    const svg = element("svg", { class: "overlay", width: 220, height: 84, "aria-hidden": "true", translate: "no" }, stage);
     this.axes = ["X", "Y", "Z"].map((name, k) => {
       const arm = element("line", { class: "arm", x1: 40, y1: 44 }, svg);
       const word = element("text", { "text-anchor": "middle", "dominant-baseline": "central" }, svg);

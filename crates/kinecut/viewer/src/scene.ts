@@ -1,7 +1,7 @@
 // The 3-D view. It draws when something has changed and rests otherwise.
 import {
   AmbientLight, Box3, DirectionalLight, DoubleSide, BackSide, FrontSide, Group, LatheGeometry, Mesh, MeshBasicMaterial,
-  MeshLambertMaterial, OrthographicCamera, Plane, Quaternion, Raycaster, Scene, Triangle, Vector2, Vector3,
+  MeshLambertMaterial, MeshPhongMaterial, type Object3D, OrthographicCamera, Plane, Quaternion, Raycaster, Scene, Triangle, Vector2, Vector3,
   WebGLRenderer,
 } from "three";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
@@ -20,6 +20,8 @@ import { micrometres, millimetres } from "./words";
 const HOVER = 120_000;
 /** Sources of the cursor that move it on. */
 const MOVING = ["play", "slider", "step"];
+/** Pieces of the outline of a tool that meet at a greater angle make an edge [rad]. */
+const CORNER = Math.PI / 9;
 /** Directions from the part to the eye. */
 const VIEWS: Record<string, [number, number, number]> = {
   iso: [0.9, -1.2, 1.05],
@@ -29,6 +31,20 @@ const VIEWS: Record<string, [number, number, number]> = {
   right: [1, 0, 0],
 };
 
+/** What surrounds a view. */
+export interface Around {
+  /** Takes the words about what lies under the pointer. */
+  readout: (text: string) => void;
+  /** Words for a place that was not compared, and the unit of relative deviations. */
+  notCompared: string;
+  tolerances: string;
+  /** Told when who plays or steps wants to see material go. */
+  nowOn: () => void;
+}
+
+/** Cutting part, shank, holder. */
+type ToolShape = (LatheGeometry | null)[];
+
 export class View {
   private readonly renderer: WebGLRenderer;
   private readonly scene = new Scene();
@@ -36,70 +52,109 @@ export class View {
   private readonly controls: OrbitControls;
   private readonly part = new Group();
   private readonly tool = new Group();
-  private readonly lines: PathLines | null;
+  private lines: PathLines | null = null;
   private readonly overlay: Overlay;
-  private readonly fixtures: Fixtures;
-  private readonly machine: Machine | null;
+  private fixtures: Fixtures | null = null;
+  private machine: Machine | null = null;
   private readonly clip = new Plane(new Vector3(0, 0, -1), 0);
   private readonly bounds = new Box3();
-  private readonly data: PartData | null = null;
+  private data: PartData | null = null;
   private readonly surface = new MeshLambertMaterial({ side: FrontSide, polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1 });
   private readonly inside = new MeshBasicMaterial({ side: BackSide, polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1 });
-  private readonly steel = new MeshLambertMaterial({ side: DoubleSide, transparent: true, opacity: 0.3, depthWrite: false });
-  private readonly tools: (LatheGeometry | null)[];
+  /** Of the cutting part, the shank and the holder. */
+  private readonly steel = ["tool", "shank", "holder"].map((name) => ({ name, material: new MeshPhongMaterial({ side: DoubleSide, shininess: 40, specular: 0x333333 }) }));
+  private tools: ToolShape[] = [];
   /** Signs that turn the iso view to the side from which the worst place is seen. */
   private readonly facing = new Vector3(1, 1, 1);
   /** Axis of the section plane: 0, 1, 2; -1 for none. */
   private axis = -1;
   private waiting = false;
-  private shown = { past: false, tool: true, part: true };
+  /** What is no longer shown; given back after the next picture, so that its shaders are still there for those that have come. */
+  private old: Object3D[] = [];
+  private shown = { past: false, tool: true, holder: true, part: true, path: true, rapids: true, fixtures: true, machine: false };
   /** The stock over time; made when it is first shown. */
   private stock: Stock | null = null;
   /** Whether the stock is shown as it is at the cursor instead of the finished part, and whether the reader said so. */
   private now = { on: false, chosen: false };
 
-  constructor(private readonly canvas: HTMLCanvasElement, private readonly head: Head, private readonly track: Track, private readonly cursor: Cursor) {
+  private head: Head | undefined;
+  private track: Track | undefined;
+  /** The head whose part is shown. */
+  private partHead: Head["part"] = null;
+
+  constructor(private readonly canvas: HTMLCanvasElement, private readonly cursor: Cursor, private readonly around: Around) {
     this.renderer = new WebGLRenderer({ canvas, antialias: true, alpha: true });
     this.renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
-    if (head.part) {
-      this.data = readPart(head.part);
-      const mesh = geometry(this.data, head.part.tolerance, head.part.edges);
-      this.part.add(new Mesh(mesh, this.surface), new Mesh(mesh, this.inside));
-      mesh.computeBoundingBox();
-      if (mesh.boundingBox) this.bounds.copy(mesh.boundingBox);
-      this.face(head.part.tolerance);
-    }
-    this.growByPath();
-    const size = this.bounds.getSize(new Vector3()).length() || 1;
-    this.lines = track.pieces > 0 ? new PathLines(track, size) : null;
-    if (this.lines) this.scene.add(this.lines.group);
-    this.tools = head.tools.map(({ outline }) => {
-      if (outline.length < 2) return null;
-      return new LatheGeometry(outline.map(([r, h]) => new Vector2(r, h)), 40).rotateX(Math.PI / 2);
-    });
-    this.fixtures = new Fixtures(head.fixtures);
-    this.machine = head.machine ? new Machine(head.machine, track) : null;
-    if (this.machine) this.scene.add(this.machine.group);
     this.tool.visible = false;
-    this.tool.renderOrder = 4;
     const light = new DirectionalLight(0xffffff, 2.1);
     light.position.set(-0.5, 0.8, 1);
     this.camera.add(light, light.target);
     light.target.position.set(0, 0, -1);
-    this.scene.add(new AmbientLight(0xffffff, 1.25), this.camera, this.part, this.fixtures.group, this.tool);
-
+    this.scene.add(new AmbientLight(0xffffff, 1.25), this.camera, this.part, this.tool);
     this.camera.up.set(0, 0, 1);
     this.controls = new OrbitControls(this.camera, canvas);
     this.controls.zoomToCursor = true;
     this.controls.addEventListener("change", () => this.draw());
     this.overlay = new Overlay(canvas.parentElement as HTMLElement);
-    this.recolour();
     onTheme(() => this.recolour());
     new ResizeObserver(() => this.resize()).observe(canvas.parentElement as HTMLElement);
-    this.resize();
-    this.look("iso");
     this.pointer();
     cursor.listen((place, source) => this.follow(place, source));
+  }
+
+  /** Shows other data; the camera stays unless `fit`. With `keepPart` the part stays that of the data before, where it had one. */
+  load(head: Head, track: Track, { fit = true, keepPart = false } = {}): void {
+    const first = !this.head;
+    this.head = head;
+    this.track = track;
+    if (!keepPart || this.data === null) this.loadPart(head);
+    this.bounds.makeEmpty();
+    const mesh = this.part.children[0] as Mesh | undefined;
+    if (mesh?.geometry.boundingBox) this.bounds.copy(mesh.geometry.boundingBox);
+    this.growByPath(track);
+    const size = this.bounds.getSize(new Vector3()).length() || 1;
+    for (const gone of [this.lines?.group, this.fixtures?.group, this.machine?.group]) {
+      gone?.removeFromParent();
+      if (gone) this.old.push(gone);
+    }
+    this.lines = track.pieces > 0 ? new PathLines(track, size) : null;
+    for (const shapes of this.tools) for (const shape of shapes) shape?.dispose();
+    this.tools = head.tools.map(shapes);
+    this.tool.clear();
+    this.fixtures = new Fixtures(head.fixtures);
+    this.machine = head.machine ? new Machine(head.machine, track) : null;
+    for (const come of [this.lines?.group, this.fixtures.group, this.machine?.group]) if (come) this.scene.add(come);
+    this.recolour();
+    this.resize();
+    this.showAll();
+    if (fit || first) this.look("iso");
+    this.follow(this.cursor.place, "load");
+  }
+
+  private loadPart(head: Head): void {
+    freed(this.part.children, false);
+    if (this.stock) {
+      this.stock.group.removeFromParent();
+      this.old.push(this.stock.group);
+    }
+    this.stock = null;
+    this.facing.set(1, 1, 1);
+    this.partHead = head.part;
+    this.data = head.part && readPart(head.part);
+    if (!head.part || !this.data) return;
+    const mesh = geometry(this.data, head.part.tolerance, head.part.edges);
+    this.part.add(new Mesh(mesh, this.surface), new Mesh(mesh, this.inside));
+    this.part.children[1].visible = this.axis >= 0;
+    mesh.computeBoundingBox();
+    this.face(head.part.tolerance);
+  }
+
+  /** Switches everything as it was, on data that has just come. */
+  private showAll(): void {
+    if (this.lines) this.lines.group.visible = this.shown.path;
+    this.lines?.showRapids(this.shown.rapids);
+    if (this.fixtures) this.fixtures.group.visible = this.shown.fixtures;
+    if (this.machine) this.machine.group.visible = this.shown.machine;
   }
 
   /** When the part is out of tolerance, its worst triangle shall look at the eye. */
@@ -120,8 +175,7 @@ export class View {
   }
 
   /** Cuts belong to the picture, moves through the air do not: they would make the part small. */
-  private growByPath(): void {
-    const { track } = this;
+  private growByPath(track: Track): void {
     const add = (names: string[]) => {
       const roles = names.map((name) => track.head.roles.indexOf(name));
       for (let p = 0; p < track.pieces; p++) {
@@ -137,20 +191,20 @@ export class View {
   }
 
   private recolour(): void {
-    const compared = this.head.part?.compared ?? false;
-    if (compared && this.head.part) {
-      this.surface.map?.dispose();
-      this.surface.map = bandTexture(this.head.part.edges);
+    this.surface.map?.dispose();
+    this.surface.map = null;
+    if (this.partHead?.compared) {
+      this.surface.map = bandTexture(this.partHead.edges);
       this.surface.color.set(0xffffff);
     } else {
       this.surface.color = colour("part");
     }
     this.surface.needsUpdate = true;
     this.inside.color = colour("cut");
-    this.steel.color = colour("steel");
+    for (const { name, material } of this.steel) material.color = colour(name);
     this.lines?.recolour();
     this.stock?.recolour();
-    this.fixtures.recolour();
+    this.fixtures?.recolour();
     this.machine?.recolour();
     this.draw();
   }
@@ -164,6 +218,8 @@ export class View {
   private drawNow(): void {
     this.waiting = false;
     this.renderer.render(this.scene, this.camera);
+    freed(this.old, true);
+    this.old = [];
     this.overlay.update(this.camera, this.pixels() * this.camera.zoom, this.canvas.clientWidth, this.canvas.clientHeight);
   }
 
@@ -175,7 +231,8 @@ export class View {
   private resize(): void {
     const { clientWidth: width, clientHeight: height } = this.canvas.parentElement as HTMLElement;
     if (width === 0 || height === 0) return;
-    this.renderer.setSize(width, height, false);
+    const ratio = this.renderer.getPixelRatio();
+    if (this.canvas.width !== Math.floor(width * ratio) || this.canvas.height !== Math.floor(height * ratio)) this.renderer.setSize(width, height, false);
     const half = this.camera.top;
     this.camera.left = (-half * width) / height;
     this.camera.right = (half * width) / height;
@@ -232,14 +289,16 @@ export class View {
       this.shown.part = on;
       this.showMoment();
     }
-    if (what === "path" && this.lines) this.lines.group.visible = on;
-    if (what === "fixtures") this.fixtures.group.visible = on;
-    if (what === "machine" && this.machine && this.machine.group.visible !== on) {
-      this.machine.group.visible = on;
-      this.look("iso");
+    if (what === "path" || what === "fixtures" || what === "rapids") {
+      this.shown[what] = on;
+      this.showAll();
     }
-    if (what === "rapids") this.lines?.showRapids(on);
-    if (what === "past" || what === "tool") {
+    if (what === "machine" && this.shown.machine !== on) {
+      this.shown.machine = on;
+      this.showAll();
+      if (this.machine) this.look("iso");
+    }
+    if (what === "past" || what === "tool" || what === "holder") {
       this.shown[what] = on;
       this.follow(this.cursor.place, "switch");
     }
@@ -250,7 +309,36 @@ export class View {
   colourPath(quantity: Quantity | ""): number {
     this.lines?.colourBy(quantity);
     this.draw();
-    return quantity === "" ? 0 : greatest(this.track, quantity);
+    return quantity === "" || !this.track ? 0 : greatest(this.track, quantity);
+  }
+
+  /** Turns the camera about the part [rad]: to the side and up. */
+  turn(side: number, up: number): void {
+    const arm = this.camera.position.clone().sub(this.controls.target);
+    const length = arm.length();
+    const around = Math.atan2(arm.y, arm.x) + side;
+    // At the poles the view would have no upward direction.
+    const above = Math.min(Math.PI / 2 - 1e-5, Math.max(1e-5 - Math.PI / 2, Math.asin(arm.z / length) + up));
+    arm.set(Math.cos(above) * Math.cos(around), Math.cos(above) * Math.sin(around), Math.sin(above)).multiplyScalar(length);
+    this.camera.position.copy(this.controls.target).add(arm);
+    this.controls.update();
+    this.draw();
+  }
+
+  /** Shifts the picture [px]. */
+  pan(right: number, up: number): void {
+    const mm = 1 / (this.pixels() * this.camera.zoom || 1);
+    const shift = new Vector3(-right * mm, -up * mm, 0).applyQuaternion(this.camera.quaternion);
+    this.camera.position.add(shift);
+    this.controls.target.add(shift);
+    this.controls.update();
+    this.draw();
+  }
+
+  zoom(by: number): void {
+    this.camera.zoom *= by;
+    this.camera.updateProjectionMatrix();
+    this.draw();
   }
 
   /** Cuts the part open across an axis; `share` from 0 to 1 through it. Returns the place [mm], null when off. */
@@ -276,9 +364,10 @@ export class View {
 
   /** The part as it is finished, or the stock as it is at the cursor. */
   private showMoment(): void {
+    if (!this.head) return;
     const { playback } = this.head;
     const { place } = this.cursor;
-    const tick = playback && place.piece >= 0 ? Math.floor(this.track.done(place) * playback.ticks + 0.5) : Infinity;
+    const tick = playback && this.track && place.piece >= 0 ? Math.floor(this.track.done(place) * playback.ticks + 0.5) : Infinity;
     const now = this.now.on && playback !== null && tick < playback.ticks;
     if (now && this.stock === null) {
       this.stock = new Stock(playback);
@@ -296,15 +385,15 @@ export class View {
 
   private follow(place: Place, source: string): void {
     const { track, lines } = this;
+    if (!track) return;
     // Who plays or steps wants to see material go.
-    if (MOVING.includes(source) && !this.now.chosen && this.head.playback) {
+    if (MOVING.includes(source) && !this.now.chosen && this.head?.playback) {
       this.now.on = true;
-      const box = document.querySelector<HTMLInputElement>('[data-show="now"]');
-      if (box) box.checked = true;
+      this.around.nowOn();
     }
     this.showMoment();
     this.overlay.point = null;
-    this.fixtures.at(place.line);
+    this.fixtures?.at(place.line);
     this.machine?.at(place);
     if (place.piece < 0) {
       lines?.mark(0, 0);
@@ -313,22 +402,28 @@ export class View {
     } else {
       lines?.mark(track.runStart(place.piece), track.runEnd(place.piece));
       lines?.upTo(this.shown.past ? place.piece : Infinity);
-      const tip = track.tip(place);
-      const shape = this.tools[track.tool[place.piece]] ?? null;
-      this.tool.visible = this.shown.tool && tip !== null && shape !== null;
-      if (tip && shape) {
-        const axis = new Vector3().fromArray(track.axes, 3 * track.axis[place.piece]).normalize();
-        this.tool.position.set(...tip);
-        this.tool.quaternion.copy(new Quaternion().setFromUnitVectors(new Vector3(0, 0, 1), axis));
-        if ((this.tool.children[0] as Mesh | undefined)?.geometry !== shape) {
-          this.tool.clear();
-          const mesh = new Mesh(shape, this.steel);
-          mesh.renderOrder = 4;
-          this.tool.add(mesh);
-        }
-      }
+      this.place(place, track);
     }
     this.draw();
+  }
+
+  /** Moves tool and holder to a place on the path. */
+  private place(place: Place, track: Track): void {
+    const tip = track.tip(place);
+    const shape = this.tools[track.tool[place.piece]];
+    this.tool.visible = tip !== null && (shape?.some((s) => s !== null) ?? false);
+    if (!tip || !shape) return;
+    const axis = new Vector3().fromArray(track.axes, 3 * track.axis[place.piece]).normalize();
+    this.tool.position.set(...tip);
+    this.tool.quaternion.copy(new Quaternion().setFromUnitVectors(new Vector3(0, 0, 1), axis));
+    if (this.tool.userData.shape !== shape) {
+      this.tool.clear();
+      this.tool.userData.shape = shape;
+      shape.forEach((part, i) => this.tool.add(new Mesh(part ?? undefined, this.steel[i].material)));
+    }
+    this.tool.children.forEach((mesh, i) => {
+      mesh.visible = shape[i] !== null && (i < 2 ? this.shown.tool : this.shown.holder);
+    });
   }
 
   /** Shows a place in space, as that of a finding. */
@@ -339,7 +434,7 @@ export class View {
 
   private pointer(): void {
     const { canvas } = this;
-    const readout = document.getElementById("kc-readout") as HTMLElement;
+    const { readout } = this.around;
     const place = (e: PointerEvent | MouseEvent): [number, number] => {
       const box = canvas.getBoundingClientRect();
       return [e.clientX - box.left, e.clientY - box.top];
@@ -353,15 +448,15 @@ export class View {
       down = null;
       if (!still || e.button !== 0) return;
       const hit = this.lines?.group.visible ? this.lines.pick(x, y, this.camera, canvas.clientWidth, canvas.clientHeight) : null;
-      if (hit) this.cursor.go(this.track.ofPiece(hit.piece, hit.part), "view");
-      readout.textContent = this.read(x, y);
+      if (hit && this.track) this.cursor.go(this.track.ofPiece(hit.piece, hit.part), "view");
+      readout(this.read(x, y));
     });
     canvas.addEventListener("pointermove", (e) => {
-      if (down || (this.head.part?.triangles ?? 0) > HOVER) return;
+      if (down || (this.partHead?.triangles ?? 0) > HOVER) return;
       cancelAnimationFrame(frame);
-      frame = requestAnimationFrame(() => (readout.textContent = this.read(...place(e))));
+      frame = requestAnimationFrame(() => readout(this.read(...place(e))));
     });
-    canvas.addEventListener("pointerleave", () => (readout.textContent = ""));
+    canvas.addEventListener("pointerleave", () => readout(""));
   }
 
   /** Coordinates and deviation of the part under the pointer. */
@@ -380,13 +475,69 @@ export class View {
     const text = `X ${millimetres(p.x)}  Y ${millimetres(p.y)}  Z ${millimetres(p.z)}`;
     if (!deviation || !weight) return text;
     const d = deviation[corners[0]] * weight.x + deviation[corners[1]] * weight.y + deviation[corners[2]] * weight.z;
-    const shown = this.head.part?.relative ? `${d.toFixed(2)} tolerances` : micrometres(d);
-    return `${text}  ·  ${Number.isNaN(d) ? "not compared" : shown}`;
+    const shown = this.partHead?.relative ? `${d.toFixed(2)} ${this.around.tolerances}` : micrometres(d);
+    return `${text}  ·  ${Number.isNaN(d) ? this.around.notCompared : shown}`;
   }
 
   /** The picture as it is, for paper. */
   still(): string {
     this.drawNow();
     return this.canvas.toDataURL("image/png");
+  }
+}
+
+/** A tool as bodies of revolution: its outline cut where the flutes end and where the holder begins. */
+function shapes({ outline, flutes, holder }: Head["tools"][number]): ToolShape {
+  const top = outline.reduce((most, [, h]) => Math.max(most, h), 0);
+  const held = Math.min(holder ?? top, top);
+  const heights = [0, Math.min(Math.max(flutes, 0), held), held, top];
+  return [0, 1, 2].map((i) => {
+    const points = between(outline, heights[i], heights[i + 1]);
+    return points.length < 2 ? null : new LatheGeometry(creased(points), 40).rotateX(Math.PI / 2);
+  });
+}
+
+/** An outline whose corners stand twice, so that light does not run round them. */
+function creased(points: [number, number][]): Vector2[] {
+  const all = points.map(([r, h]) => new Vector2(r, h));
+  return all.flatMap((p, i) => {
+    if (i === 0 || i + 1 === all.length) return [p];
+    const turn = Math.abs(all[i + 1].clone().sub(p).angleTo(p.clone().sub(all[i - 1])));
+    return turn > CORNER ? [p, p.clone()] : [p];
+  });
+}
+
+/** The part of an outline between two heights, closed at both. */
+function between(outline: [number, number][], from: number, to: number): [number, number][] {
+  if (!(to > from)) return [];
+  const points: [number, number][] = [];
+  for (let i = 0; i + 1 < outline.length; i++) {
+    const [[ra, ha], [rb, hb]] = [outline[i], outline[i + 1]];
+    const [low, high] = [Math.min(ha, hb), Math.max(ha, hb)];
+    // A step at the lower end belongs to what is above it, one at the upper end to what is below.
+    if (high < from || low > to || (high === low && (low <= from ? from > 0 : low >= to && i + 2 < outline.length && rb > ra))) continue;
+    for (const [r, h] of [outline[i], outline[i + 1]]) {
+      const at = Math.min(to, Math.max(from, h));
+      const radius = at === h ? r : ra + ((rb - ra) * (at - ha)) / (hb - ha);
+      const last = points[points.length - 1];
+      if (!last || last[0] !== radius || last[1] !== at) points.push([radius, at]);
+    }
+  }
+  if (points.length === 0) return points;
+  if (points[0][0] > 0) points.unshift([0, points[0][1]]);
+  const last = points[points.length - 1];
+  if (last[0] > 0) points.push([0, last[1]]);
+  return points;
+}
+
+/** Takes objects out of their groups and gives back what they have on the graphics card, with `materials` if no other has them. */
+function freed(objects: Object3D[], materials: boolean): void {
+  for (const object of [...objects]) {
+    object.removeFromParent();
+    object.traverse((o) => {
+      const { geometry, material } = o as Mesh;
+      geometry?.dispose();
+      if (materials && material) for (const one of [material].flat()) one.dispose();
+    });
   }
 }

@@ -119,6 +119,11 @@ impl Job {
         super::cutting::notes(&self.cutting, has_limit)
     }
 
+    /// The name of the operation of a number, over all setups.
+    pub(crate) fn operation_name(&self, number: u32) -> String {
+        self.operation(number).map(Operation::name).unwrap_or_default()
+    }
+
     /// The operation of a number, over all setups.
     pub fn operation(&self, number: u32) -> Option<&Operation> {
         self.setups.iter().flat_map(|s| &s.operations).nth(number as usize)

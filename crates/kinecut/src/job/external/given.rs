@@ -1,8 +1,6 @@
 //! A program that is given by itself: the job about it, from a job file whose operations do not count, or from the few things
 //! that are said beside it.
 
-use std::borrow::Cow;
-
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -14,7 +12,7 @@ use super::super::read::read_table;
 use super::super::wants::StockWants;
 use super::super::{JobText, Subject, json_text, parts, sha256};
 use super::carried::{TableTools, all_in_words, is_tool_table, toml_of};
-use crate::base::{Code, Error, FileId, FileKind, Finding, Loader, MemoryLoader, Result, Sources};
+use crate::base::{Code, Error, FileId, Finding, Loader, MemoryLoader, OverlayLoader, Result, Sources};
 use crate::machine::Machine;
 use crate::nc::{Control, Detected, NumberInput, detect};
 use crate::tool::Holder;
@@ -149,28 +147,6 @@ struct ToolsFile {
     tools: Vec<ToolTable>,
 }
 
-/// Serves some files from memory and the others from elsewhere.
-struct With<'a> {
-    files: Vec<GivenFile<'a>>,
-    others: &'a dyn Loader,
-}
-
-impl Loader for With<'_> {
-    fn read_as(&self, path: &str, kind: FileKind) -> Result<Vec<u8>> {
-        match self.files.iter().find(|file| file.name == path) {
-            Some(file) => Ok(file.bytes.to_vec()),
-            None => self.others.read_as(path, kind),
-        }
-    }
-
-    fn lend_as(&self, path: &str, kind: FileKind) -> Result<Cow<'_, [u8]>> {
-        match self.files.iter().find(|file| file.name == path) {
-            Some(file) => Ok(Cow::Borrowed(file.bytes)),
-            None => self.others.lend_as(path, kind),
-        }
-    }
-}
-
 /// The control of a file's ending, where that tells it: `.mpf`, `.spf`, `.ngc`, `.gcode`, `.h`.
 pub fn control_of_name(name: &str) -> Option<Control> {
     let ending = name.rsplit_once('.')?.1.to_ascii_lowercase();
@@ -267,7 +243,7 @@ pub fn given_with_job(
             .call_program(&mut file, &String::from_utf8_lossy(bytes))
             .map_err(|e| job_text.locate(&sources, e))?;
     }
-    let all = With { files: with_beside(program, wants), others: loader };
+    let all = over(with_beside(program, wants), loader);
     let job = check(&file, "program", &all).map_err(|e| job_text.locate(&sources, e))?;
     let mut subjects =
         vec![of_file("given program", program.name, program.bytes), of_file("job", name, text.as_bytes())];
@@ -384,7 +360,8 @@ pub fn given_alone(program: GivenFile<'_>, wants: &ProgramWants, needs_stock: bo
             })
         }],
     };
-    let all = With { files, others: &MemoryLoader::default() };
+    let none = MemoryLoader::default();
+    let all = over(files, &none);
     let mut job = check(&file, "program", &all)?;
     if let Some(program) = job.setups.first_mut().and_then(|setup| setup.program.as_mut()) {
         program.detected = why;
@@ -399,6 +376,11 @@ pub fn given_alone(program: GivenFile<'_>, wants: &ProgramWants, needs_stock: bo
         job.machine = Some(machine.clone());
     }
     Ok(GivenJob { name: program.name.to_owned(), job, subjects, place: JobPlace::default() })
+}
+
+/// Files that were given over those of a loader; the first of a name counts.
+fn over<'a>(files: Vec<GivenFile<'a>>, others: &'a dyn Loader) -> OverlayLoader<'a> {
+    files.into_iter().rev().fold(OverlayLoader::new(others), |all, file| all.with(file.name, file.bytes))
 }
 
 /// A program with the files that it calls and the parameters of its machine.

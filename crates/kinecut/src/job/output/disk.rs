@@ -60,6 +60,13 @@ impl Disk for RealDisk {
     }
 }
 
+/// Gives a temporary file the rights of the file that it will replace; where the system cannot, it has those of a new one.
+pub(super) fn keep_rights(temporary: &Path, place: &Path) {
+    if let Some(old) = std::fs::symlink_metadata(place).ok().filter(std::fs::Metadata::is_file) {
+        let _ = std::fs::set_permissions(temporary, old.permissions());
+    }
+}
+
 /// Names tried before writing is given up.
 const MOST_NAMES: u32 = 10_000;
 

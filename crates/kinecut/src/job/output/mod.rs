@@ -58,7 +58,7 @@ impl Outputs {
     /// Writes all files into `folder`, making it if it is not there.
     ///
     /// All are first written whole under temporary names of their own beside their places, and renamed only when all
-    /// are there; the seal last. Runs into one folder take turns. What a killed run has left is removed. On an
+    /// are there; the seal last. A file that is replaced leaves its rights to the new one. Runs into one folder take turns. What a killed run has left is removed. On an
     /// error the temporary files are removed, and unless a file was already replaced, all is as it was before.
     ///
     /// # Errors
@@ -108,6 +108,7 @@ impl Outputs {
                 disk.create(folder).and_then(|(temporary, file)| {
                     made.push(temporary.clone());
                     disk.fill(file, bytes)?;
+                    disk::keep_rights(&temporary, &place);
                     Ok(temporary)
                 })
             };

@@ -2,27 +2,28 @@
 
 use std::f64::consts::TAU;
 
-use crate::job::{DataOrigin, Outcome, TakenData};
+use crate::job::check::Job;
+use crate::job::{DataOrigin, TakenData};
 use crate::page::{Cell, Row, Section, Table, fixed, trimmed};
 
 /// The section; none where every operation has its own.
-pub(super) fn section(outcome: &Outcome) -> Option<Section> {
-    let all = &outcome.job.cutting;
+pub(super) fn section(job: &Job) -> Option<Section> {
+    let all = &job.cutting;
     if all.is_empty() {
         return None;
     }
     let columns = "Operation; Tool; Cutting speed [m/min]; S [rev/min]; Feed [mm]; From";
-    let rows = all.iter().filter_map(|taken| row(outcome, taken));
+    let rows = all.iter().filter_map(|taken| row(job, taken));
     let table = Table::new("Speeds and feeds that operations were given", columns).rows(rows);
     let any_start = all.iter().any(TakenData::has_start);
     let note = "Values to start with are usual ones of catalogues for stable clamping and, in the full width, half the diameter deep at most; no recommendation: those of the shop are given in an operation or as [[tool.preset]].";
     Some(Section::new("Cutting data").with(if any_start { table.note(note) } else { table }))
 }
 
-fn row(outcome: &Outcome, taken: &TakenData) -> Option<Row> {
+fn row(job: &Job, taken: &TakenData) -> Option<Row> {
     let (setup, index) = taken.operation;
-    let before: usize = outcome.job.setups[..setup].iter().map(|s| s.operations.len()).sum();
-    let operation = outcome.job.setups.get(setup)?.operations.get(index)?;
+    let before: usize = job.setups[..setup].iter().map(|s| s.operations.len()).sum();
+    let operation = job.setups.get(setup)?.operations.get(index)?;
     let turns = operation.milling().spindle * 60.0 / TAU;
     let speed = match (&taken.limited, &taken.speed) {
         (Some(limited), _) => limited.cutting_speed.map(|v| trimmed(v, 1)),

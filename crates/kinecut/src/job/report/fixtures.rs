@@ -5,6 +5,7 @@ use glam::{DVec2, DVec3};
 use super::{BodyView, FixtureView};
 use crate::contact::Meeting;
 use crate::geom::{Rigid, Solid, convex_hull};
+use crate::job::check::Job;
 use crate::job::contacts::LOOK;
 use crate::job::{Outcome, SetupOutcome};
 use crate::operations::setting::corners;
@@ -39,10 +40,10 @@ pub(super) fn section(outcome: &Outcome, first_lines: &[u32]) -> Option<Section>
 }
 
 /// The bodies for the 3-D view; the programs have so many `lines` together.
-pub(super) fn views(outcome: &Outcome, first_lines: &[u32], lines: u32) -> Vec<FixtureView> {
+pub(super) fn views(job: &Job, first_lines: &[u32], lines: u32) -> Vec<FixtureView> {
     let ends = first_lines.iter().copied().skip(1).chain([lines]);
     let mut views = Vec::new();
-    for (setup, lines) in outcome.job.setups.iter().zip(first_lines.iter().copied().zip(ends)) {
+    for (setup, lines) in job.setups.iter().zip(first_lines.iter().copied().zip(ends)) {
         let setup = &setup.clamping.setup;
         let to_part = setup.part_on_table.inverse();
         views.extend(setup.fixtures.iter().map(|fixture| {

@@ -55,19 +55,13 @@ pub(super) fn section(outcome: &Outcome, first_lines: &[u32], page: bool) -> Opt
 
 /// The machine for the 3-D view; none where it has no bodies, or where the positions of its axes are not known along the whole `path`. The
 /// programs have so many `lines` together.
-pub(super) fn view(
-    outcome: &Outcome,
-    path: &[PathPiece],
-    first_lines: &[u32],
-    lines: u32,
-) -> Option<MachineView> {
-    let machine = outcome.job.machine.as_ref().filter(|machine| !machine.bodies.is_empty())?;
+pub(super) fn view(job: &Job, path: &[PathPiece], first_lines: &[u32], lines: u32) -> Option<MachineView> {
+    let machine = job.machine.as_ref().filter(|machine| !machine.bodies.is_empty())?;
     let count = machine.joints.len();
-    let compared = outcome.simulation.machine.iter().flatten().any(|c| c.not_compared.is_none());
     let known = |piece: &PathPiece| {
         piece.joints.len() == count * piece.points.len() && piece.joints.iter().all(|q| q.is_finite())
     };
-    if !compared || !path.iter().all(known) {
+    if !path.iter().all(known) {
         return None;
     }
     let joint = |joint: &Joint| JointView {
@@ -83,7 +77,7 @@ pub(super) fn view(
         (link, BodyView::new(&body.name, &Facets::of(&body.solid, &body.place)))
     };
     let ends = first_lines.iter().copied().skip(1).chain([lines]);
-    let setups = outcome.job.setups.iter().zip(first_lines.iter().copied().zip(ends));
+    let setups = job.setups.iter().zip(first_lines.iter().copied().zip(ends));
     let setup = |(setup, lines): (&JobSetup, (u32, u32))| {
         let part = machine.work.after(&setup.clamping.setup.part_on_table);
         let mut columns = [0.0; 12];

@@ -23,19 +23,26 @@ mod findings;
 mod fixtures;
 mod machine;
 mod model;
+mod of_draft;
 mod of_job;
 mod page;
 mod path;
+mod programs;
+mod sections;
 mod text;
 mod thin;
+mod tools;
 mod workspace;
 
 pub use deviation::{BAND_EDGES, Band, bands, extremes};
+pub use encode::{Scene, scene};
 pub use model::{
     BodyView, FixtureView, JointView, MachineSetup, MachineView, PartView, ProgramPart, ProgramView, Report,
     ReportVerdict, ToolView,
 };
+pub use of_draft::of_draft;
 pub use of_job::{of_job, of_job_in_words};
 pub use page::html;
 pub use path::{EngagedRun, PathPiece, PathRole};
+pub use sections::{ShownSection, facts, shown_sections};
 pub use text::sections;

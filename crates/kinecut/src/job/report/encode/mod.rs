@@ -34,15 +34,15 @@ const LINE_STEP: f64 = 1e-4;
 /// Streams by element id, not yet packed.
 type Streams = Vec<(&'static str, Vec<u8>)>;
 
-/// Data of the page for the viewer.
-#[derive(Debug, Default)]
-pub(super) struct Scene {
-    /// JSON head, not yet escaped for a page.
-    pub(super) head: String,
-    /// Packed streams by element id.
-    pub(super) streams: Vec<(&'static str, String)>,
+/// Part, path and program of a report, packed for a viewer.
+#[derive(Clone, Debug, Default)]
+pub struct Scene {
+    /// Sizes of all parts as JSON, not yet escaped for a page.
+    pub head: String,
+    /// Streams by name: integers, deflated without head, in base64.
+    pub streams: Vec<(&'static str, String)>,
     /// Cell [mm] to which the mesh was thinned for the screen.
-    pub(super) thinned: Option<f64>,
+    pub thinned: Option<f64>,
 }
 
 #[derive(Serialize)]
@@ -72,8 +72,17 @@ pub(super) fn packs_text(program: &ProgramView) -> bool {
     program.lines.len() > TEXT_LINES
 }
 
-/// Encodes what the viewer needs of a report.
-pub(super) fn scene(report: &Report) -> Scene {
+/// Packs what a viewer needs of a report.
+///
+/// ```
+/// use kinecut::job::Judgement;
+/// use kinecut::job::report::{PathPiece, PathRole, Report, ReportVerdict, scene};
+/// let mut report = Report::new("t", ReportVerdict::new(Judgement::Safe, ""));
+/// report.path.push(PathPiece::new(0, PathRole::Rapid, vec![[0.0; 3], [10.0, 0.0, 0.0]]));
+/// let scene = scene(&report);
+/// assert!(scene.head.contains("\"pieces\":1") && scene.streams.iter().any(|s| s.0 == "kc-path"));
+/// ```
+pub fn scene(report: &Report) -> Scene {
     let ((thinned, part, mut streams), (path, others)) =
         rayon::join(|| shown_part(report), || path_and_program(report));
     streams.extend(others);

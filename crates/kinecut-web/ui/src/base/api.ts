@@ -1,0 +1,238 @@
+// The server's protocol: requests with the token of this start, answers as they come.
+
+export interface Quantity {
+  value: number;
+  unit: string;
+}
+
+export interface Finding {
+  code: string;
+  severity: "note" | "warning" | "doubt" | "error";
+  message: string;
+  help?: string;
+  key?: string;
+  place?: { file: string; line: number; column?: number; start?: number; end?: number; text?: string };
+  point?: [number, number, number];
+  value?: Quantity;
+  bound?: Quantity;
+}
+
+export type FileKind = "job" | "machine" | "tools" | "cutting" | "question" | "program" | "mesh" | "outline" | "text" | "result";
+
+export interface FileName {
+  id: string;
+  name: string;
+  kind: FileKind;
+  bytes: number;
+}
+
+export interface Project {
+  folder: string;
+  version: string;
+  protocol: number;
+  cores: number;
+  open: string | null;
+  truncated: boolean;
+  files: FileName[];
+}
+
+export interface FileText extends FileName {
+  text: string | null;
+  sha256: string;
+}
+
+export interface Program {
+  file: string;
+  control: string;
+  first: number;
+  lines: number;
+  text: string;
+  seconds: number | null;
+  sha256: string;
+}
+
+/** A run of program lines that belongs to an operation of the text; `to` is the line after the last. */
+export interface OperationRun {
+  key: string;
+  title: string;
+  tool: number | null;
+  tool_name: string | null;
+  from: number;
+  to: number;
+}
+
+export interface Scene {
+  head: import("viewer/decode").Head;
+  streams: Record<string, string>;
+}
+
+export interface Verdict {
+  outcome: "safe" | "not-proven" | "not-safe";
+  headline: string;
+  scope: string[];
+  found: Finding[];
+  not_checked: { heading: string; count: number; items: { what: string; count?: number }[] }[];
+  to_ensure: { what: string; value: string }[];
+  proven: { claim: string; bound: string }[];
+}
+
+interface Answer {
+  generation: number;
+  seconds: number;
+}
+
+/** What plan and simulation tell alike. */
+export interface Work extends Answer {
+  state: "done";
+  findings: Finding[];
+  programs: Program[];
+  operations?: OperationRun[];
+  tools?: { number: number; name: string }[];
+  scene: Scene;
+  control?: string;
+  guessed?: string[];
+}
+
+export interface Planned extends Work {
+  step: number;
+  coarse_step: number;
+}
+
+export interface Simulated extends Work {
+  step: number;
+  coarse: boolean;
+  result: string;
+  verdict: Verdict;
+  removal?: [number, number][];
+}
+
+export interface Wrong extends Answer {
+  state: "wrong";
+  error: Finding;
+  findings: Finding[];
+}
+
+export interface Cancelled extends Answer {
+  state: "cancelled";
+}
+
+/** A refusal of the server. */
+export class Refused extends Error {
+  constructor(
+    readonly status: number,
+    readonly reason: string,
+    readonly finding: Partial<Finding>,
+    readonly body: unknown,
+  ) {
+    super(finding.message ?? reason);
+  }
+}
+
+/** The server does not answer. */
+export class Gone extends Error {}
+
+const TOKEN = "kinecut-token";
+
+function token(): string {
+  const given = /^#token=([0-9a-f]+)$/.exec(location.hash)?.[1];
+  if (given) {
+    sessionStorage.setItem(TOKEN, given);
+    history.replaceState(null, "", location.pathname + location.search);
+  }
+  return given ?? sessionStorage.getItem(TOKEN) ?? "";
+}
+
+const authorization = `Bearer ${token()}`;
+
+/** A word of this page, by which the server tells its requests from those of others. */
+export const client = `p${crypto.randomUUID().replaceAll("-", "")}`;
+
+async function answer(path: string, method: string, body: unknown, signal?: AbortSignal): Promise<Response> {
+  const headers: Record<string, string> = { Authorization: authorization };
+  if (body !== undefined) headers["Content-Type"] = "application/json";
+  let response: Response;
+  try {
+    response = await fetch(path, { method, headers, body: body === undefined ? undefined : JSON.stringify(body), signal, cache: "no-store" });
+  } catch (error) {
+    if (signal?.aborted) throw error;
+    throw new Gone();
+  }
+  if (response.ok) return response;
+  const told = (await response.json().catch(() => ({}))) as { error?: Partial<Finding> & { reason?: string } };
+  throw new Refused(response.status, told.error?.reason ?? "", told.error ?? {}, told);
+}
+
+async function json<T>(path: string, method = "GET", body?: unknown, signal?: AbortSignal): Promise<T> {
+  return (await answer(path, method, body, signal)).json() as Promise<T>;
+}
+
+export const project = () => json<Project>("/api/project");
+export const file = (id: string) => json<FileText>(`/api/file/${id}`);
+export const schema = (name: string) => json<Record<string, unknown>>(`/api/schema/${name}`);
+
+/** Saves a text over one that was read; Refused with `changed` when the file is another by now. */
+export const save = (id: string, text: string, sha256: string | null) => json<{ id: string; sha256: string }>(`/api/file/${id}`, "PUT", { text, sha256 });
+
+export const create = (name: string, text: string) => json<FileText>("/api/file", "POST", { new: name, text });
+
+export interface Question {
+  generation: number;
+  file: string;
+  text?: string;
+}
+
+export const plan = (question: Question, signal: AbortSignal) => json<Planned | Wrong | Cancelled>("/api/plan", "POST", { client, ...question }, signal);
+
+export const simulate = (question: Question & { step: "coarse" | "job" }, signal: AbortSignal) =>
+  json<Simulated | Wrong | Cancelled>("/api/simulate", "POST", { client, ...question }, signal);
+
+export const stop = (kind: "simulate" | "plan", file: string) => json<{ stopped: number }>("/api/stop", "POST", { client, kind, file });
+
+export async function report(result: string): Promise<Blob> {
+  return (await answer("/api/report", "POST", { result })).blob();
+}
+
+export interface Events {
+  progress: { kind: string; file: string; generation: number; stage: string; done: number; of: number; note: string | null };
+  end: { kind: string; file: string; generation: number; state: string; seconds: number };
+  changed: { id: string; name: string; sha256: string | null };
+  files: Record<string, never>;
+  bye: Record<string, never>;
+}
+
+/** No word for so long means that the server is gone [ms]. */
+const SILENCE = 12_000;
+const AGAIN = 1500;
+
+/** Listens to the server's events for ever; `there` is told when it goes and comes. */
+export async function listen(hear: <N extends keyof Events>(name: N, data: Events[N]) => void, there: (on: boolean) => void): Promise<never> {
+  for (;;) {
+    const control = new AbortController();
+    let timer = setTimeout(() => control.abort(), SILENCE);
+    try {
+      const response = await answer(`/api/events?client=${client}`, "GET", undefined, control.signal);
+      const reader = (response.body as ReadableStream<Uint8Array>).pipeThrough(new TextDecoderStream() as unknown as TransformStream<Uint8Array, string>).getReader();
+      there(true);
+      let waiting = "";
+      for (;;) {
+        const { value, done } = await reader.read();
+        if (done) break;
+        clearTimeout(timer);
+        timer = setTimeout(() => control.abort(), SILENCE);
+        waiting += value;
+        const events = waiting.split("\n\n");
+        waiting = events.pop() ?? "";
+        for (const event of events) {
+          const name = /^event: ?(.*)$/m.exec(event)?.[1] as keyof Events | undefined;
+          const data = [...event.matchAll(/^data: ?(.*)$/gm)].map((m) => m[1]).join("\n");
+          if (name) hear(name, JSON.parse(data || "{}"));
+        }
+      }
+    } catch {
+      // Whatever the cause, the next try tells.
+    }
+    clearTimeout(timer);
+    there(false);
+    await new Promise((done) => setTimeout(done, AGAIN));
+  }
+}
