@@ -63,7 +63,7 @@ pub(crate) async fn asset(Path(path): Path<String>) -> Result<Response<Body>, Re
     let kind = kind(&name);
     match find(&name).zip(kind) {
         Some((content, kind)) => Ok(bytes(StatusCode::OK, kind, content)),
-        None => Err(Refusal::not_found("there is no such asset")),
+        None => Err(Refusal::not_found("the page has no asset of this name")),
     }
 }
 

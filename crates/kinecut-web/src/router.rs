@@ -103,7 +103,7 @@ async fn schema_of(Path(name): Path<String>) -> Result<Response<Body>, Refusal> 
         "cutting" => file::cutting_schema(),
         "surface" => file::surface_schema(),
         "contour" | "tool" => file::contour_schema(),
-        _ => return Err(Refusal::not_found("there is no such schema")),
+        _ => return Err(Refusal::not_found("no schema has this name")),
     });
     Ok(bytes(StatusCode::OK, "application/json", schema.data().into_owned()))
 }

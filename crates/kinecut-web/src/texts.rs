@@ -78,7 +78,7 @@ impl About {
 pub(crate) fn new_name(app: &App, new: &str, beside: Option<&str>) -> Result<String, Refusal> {
     if !may_be_new(new) {
         return Err(Refusal::request(format!("`{}` is no name for a new file", kinecut::page::visible(new)))
-            .help("one name with an ending that kinecut reads, such as part.toml"));
+            .help("one name with an ending that kinecut reads, for example part.toml"));
     }
     let neighbour = beside.map(|id| app.file(id)).transpose()?;
     let folder = neighbour.as_ref().map_or("", |file| split(&file.name).0);

@@ -93,7 +93,8 @@ async fn asked_of(
 ) -> Result<Response<Body>, Refusal> {
     asked.rest.is_empty()?;
     let quoted = serde_json::Value::String(name.to_owned());
-    let name = Name::deserialize(quoted).map_err(|_| Refusal::not_found("there is no such verb here"))?;
+    let name = Name::deserialize(quoted)
+        .map_err(|_| Refusal::not_found("no verb of the workbench has this name"))?;
     let texts = asked.about.texts(&app)?;
     let (id, mut flags) = (texts.id(), asked.flags);
     // Its page has what the flags ask for.

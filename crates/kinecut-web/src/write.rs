@@ -50,7 +50,7 @@ pub(crate) async fn write(
     let file = app.file(&asked.file)?;
     let folder = asked.folder.unwrap_or_else(|| "out".to_owned());
     if !is_folder_name(&folder) {
-        return Err(Refusal::request("`folder` is one name, such as out"));
+        return Err(Refusal::request("`folder` is one name, for example out"));
     }
     work(app, (asked.who, Work::Write, file.id.clone()), move |app, watch| {
         let (above, name) = split(&file.name);

@@ -11,6 +11,8 @@ use crate::base::{Code, Error, Finding, Result};
 const FASTEST: f64 = 1e6 / 60.0;
 /// Steepest ramp [rad].
 const STEEPEST: f64 = FRAC_PI_4;
+/// Most loops of roughing beside one another.
+const MOST_LOOPS: u32 = 1000;
 /// Depth beyond the flutes that is rounding [mm].
 const ROUNDING: f64 = 1e-6;
 
@@ -28,6 +30,7 @@ pub(super) fn check(spec: &ContourSpec) -> Result<()> {
     let lengths = [
         ("depth", Some(spec.depth)),
         ("stepdown", spec.stepdown),
+        ("stepover", spec.loops_beside.map(|(_, step)| step)),
         ("tool", Some(spec.cutter.diameter)),
         ("room", spec.room),
         ("lead_radius", spec.lead_radius),
@@ -66,6 +69,25 @@ pub(super) fn check(spec: &ContourSpec) -> Result<()> {
             ));
         }
     }
+    if let Some((count, step)) = spec.loops_beside {
+        if step > spec.cutter.diameter {
+            let what = "loops beside one another leave stock between them";
+            let help = "write a stepover of the cutter's diameter at most";
+            return Err(out_of_range("stepover", what, step, spec.cutter.diameter, "mm", help));
+        }
+        if !(1..=MOST_LOOPS).contains(&count) {
+            let what = "the number of loops is out of range";
+            let most = f64::from(MOST_LOOPS);
+            return Err(out_of_range("passes", what, f64::from(count), most, "", "write a number from 1 on"));
+        }
+        if spec.side == ContourSide::On {
+            let finding = Finding::error(Code::PLAN_VALUE, "a contour on its line has nothing beside it");
+            return Err(finding
+                .help("leave out `stepover` and `passes`, or give a side")
+                .key("passes")
+                .into());
+        }
+    }
     if spec.side == ContourSide::On && spec.finish.is_some() {
         let finding =
             Finding::error(Code::PLAN_VALUE, "a contour on its line has no wall that could be finished");
@@ -85,8 +107,9 @@ pub(super) fn check(spec: &ContourSpec) -> Result<()> {
         ));
     }
     pieces(spec)?;
+    lines(spec)?;
     let Some(ramp) = spec.ramp else {
-        if spec.cutter.centre_cutting || spec.cleared {
+        if spec.cutter.centre_cutting || spec.cleared || spec.clear_ends {
             return Ok(());
         }
         let finding =
@@ -103,6 +126,27 @@ pub(super) fn check(spec: &ContourSpec) -> Result<()> {
         return Err(out_of_range("entry.ramp", what, ramp, most, "deg", "write a flatter ramp, above 0"));
     }
     Ok(())
+}
+
+/// Looks whether the side is one of the outline: closed loops have an outside and an inside, open lines a left and a right.
+fn lines(spec: &ContourSpec) -> Result<()> {
+    let beside_line = matches!(spec.side, ContourSide::Left | ContourSide::Right);
+    let beside_face = matches!(spec.side, ContourSide::Outside | ContourSide::Inside);
+    let (what, help) = match spec.outline.is_of_lines() {
+        true if beside_face => (
+            "an open line has no outside and no inside",
+            "write side = \"left\" or \"right\" of its direction",
+        ),
+        false if beside_line => {
+            ("a closed loop has no left and no right", "write side = \"outside\" or \"inside\"")
+        }
+        true if spec.tabs.is_some() => {
+            let finding = Finding::error(Code::PLAN_VALUE, "a contour along an open line cuts nothing loose");
+            return Err(finding.help("leave out `tabs`").key("tabs").into());
+        }
+        _ => return Ok(()),
+    };
+    Err(Finding::error(Code::PLAN_VALUE, what).help(help).key("side").into())
 }
 
 /// Looks at pieces of the outline.

@@ -5,6 +5,8 @@
 //! leaves the path on tangent arcs for which room is looked for. It may run along pieces of the loops only, each with a lead at both
 //! ends.
 //!
+//! Open lines have a path on their left or right, with a lead at each end.
+//!
 //! # Signs
 //! *Climb* with a clockwise spindle: the material that is kept lies on the right of the travel, so that the path runs
 //! clockwise around a part and counter-clockwise inside one. Feeds are those of the cutter's centre; where the feed at the
@@ -18,9 +20,11 @@ mod covered;
 mod edge_break;
 mod feed;
 mod lead;
+mod line;
 mod pieces;
 mod plan;
 mod room;
+mod rough;
 mod spec;
 mod stretches;
 mod tabs;

@@ -140,10 +140,10 @@ fn beside(edge: &OutlineEdge, outline: &Outline, near: &NearestEdge) -> Option<B
 }
 
 /// An open stretch of a track with the leads at its ends.
-struct Open {
-    along: [f64; 2],
-    on: Lead,
-    off: Lead,
+pub(super) struct Open {
+    pub(super) along: [f64; 2],
+    pub(super) on: Lead,
+    pub(super) off: Lead,
 }
 
 impl Planner<'_> {
@@ -191,7 +191,10 @@ impl Planner<'_> {
             let closed = open.is_none();
             here = match open {
                 Some(open) => self.open(track, *outer, &open, heights)?,
-                None => self.rough(track, *outer, tracks, wall, heights)?,
+                None => {
+                    let start = self.beginning(track, wall)?;
+                    self.rough(track, *outer, (start, Vec::new()), heights)?
+                }
             };
             self.spares_edges(pieces, &run, beyond);
             if let Some(last) = self.loops.last_mut() {
@@ -243,7 +246,7 @@ impl Planner<'_> {
     }
 
     /// The leads at the ends of a run: where there is no room for one, the run goes a little farther.
-    fn ends(&self, track: &Track, [from, to]: [f64; 2], wall: f64) -> Result<Open> {
+    pub(super) fn ends(&self, track: &Track, [from, to]: [f64; 2], wall: f64) -> Result<Open> {
         let [on, off] = [(from, false), (to, true)].map(|(s, leaving)| self.end(track, s, leaving, wall));
         match (on, off) {
             (Some((from, on)), Some((to, off))) => Ok(Open { along: [from, to], on, off }),
@@ -303,7 +306,14 @@ impl Planner<'_> {
         let (on, off) = (open.on.on(p, along, left), open.off.off(q, ahead, left));
         self.travel.route.finishing = false;
         let edges = track.part(from, to);
-        self.loops.push(PlannedLoop { edges, outer, finishing: false, tabs: Vec::new(), piece: None });
+        self.loops.push(PlannedLoop {
+            edges,
+            outer,
+            finishing: false,
+            farther: 0.0,
+            tabs: Vec::new(),
+            piece: None,
+        });
         for (k, floor) in heights[1..].iter().enumerate() {
             self.travel.route.level = k as u32;
             self.travel.route.over(on.first().map_or(p, |e| e.start));

@@ -7,8 +7,10 @@ use glam::DVec2;
 use super::check::{check, out_of_range};
 use super::corners::{UncutCorner, remark, uncut};
 use super::lead::Lead;
+use super::line::plan_lines;
 use super::pieces::CutPiece;
 use super::room::{nearer, reaching};
+use super::rough::Beginning;
 use super::spec::{ContourFinish, ContourLoops, ContourSide, ContourSpec, Tabs};
 use super::tabs::{PlacedTab, lifted, placed};
 use super::track::Track;
@@ -20,7 +22,7 @@ use crate::holes::levels::levels;
 use crate::holes::{PlannedMove, ToolpathPace, ToolpathRole};
 
 /// Height over the material at which a ramp begins [mm].
-const RAMP_ABOVE: f64 = 0.5;
+pub(super) const RAMP_ABOVE: f64 = 0.5;
 /// Room of a lead beyond the wall that is rounding [mm].
 const ROUNDING: f64 = 1e-6;
 /// Least radius of a lead, in radii of the cutter.
@@ -28,6 +30,9 @@ pub(super) const LEAST_LEAD: f64 = 0.2;
 /// The same where no place has room for that, and least radius of such an arc [mm].
 const TIGHT_LEAD: f64 = 0.02;
 const LEAST_ARC: f64 = 0.005;
+
+/// Length of the line of a lead on which the control switches its compensation, in largest wears.
+pub(super) const SWITCH: f64 = 1.1;
 
 /// A planned contour.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -53,6 +58,8 @@ pub struct PlannedLoop {
     pub outer: bool,
     /// Whether it belongs to finishing.
     pub finishing: bool,
+    /// Distance from the loop beside the wall of a loop that roughs farther away; 0 of all others [mm].
+    pub farther: f64,
     /// Tabs on it.
     pub tabs: Vec<PlacedTab>,
     /// The piece of the outline that it cuts; `None`: all of its loop.
@@ -90,6 +97,9 @@ impl PlannedLoop {
 /// # Ok::<(), kinecut::base::Error>(())
 /// ```
 pub fn plan_contour(spec: &ContourSpec) -> Result<ContourPlan> {
+    if spec.outline.is_of_lines() {
+        return plan_lines(spec);
+    }
     check(spec)?;
     let a = spec.radius();
     let wall = match spec.side {
@@ -101,8 +111,7 @@ pub fn plan_contour(spec: &ContourSpec) -> Result<ContourPlan> {
     let depth = spec.depth + spec.breakthrough;
     let floors = levels(spec.top, depth, step, |_| Ok(a))?;
     let near = NearestEdge::new(spec.outline.edges());
-    let mut planner =
-        Planner { spec, near: &near, travel: Travel::new(spec), findings: Vec::new(), loops: Vec::new() };
+    let mut planner = Planner::new(spec, &near);
     let rough = planner.tracks(wall + allowance)?;
     let mut heights = vec![spec.top];
     heights.extend(floors.iter().map(|l| l.floor));
@@ -113,16 +122,19 @@ pub fn plan_contour(spec: &ContourSpec) -> Result<ContourPlan> {
     {
         at = Some(DVec2::ZERO);
     }
-    for (track, outer) in planner.ordered(&rough).into_iter().filter(|_| roughed) {
-        at = Some(planner.rough(track, outer, &rough, wall + allowance, &heights)?);
+    if roughed {
+        at = planner.rough_all(&rough, wall + allowance, &heights)?;
     }
     let mut corners = Vec::new();
     let last = match spec.finish {
         Some(finish) => {
             let fine = planner.tracks(wall)?;
             if let Some(wear) = finish.wear {
-                let farther = |wear: f64| planner.paths(wall + wear);
-                fits(&planner.paths(wall)?, farther, wear.largest, (a, wall))?;
+                let edges = |wear: f64| {
+                    let paths = planner.paths(wall + wear)?;
+                    Ok(paths.into_iter().map(|l| l.edges).collect::<Vec<_>>())
+                };
+                fits(&edges(0.0)?, edges, wear.largest, (a, wall))?;
             }
             for (track, outer) in planner.ordered(&fine) {
                 at = Some(planner.finish(track, outer, &rough, wall, &finish)?);
@@ -163,10 +175,11 @@ pub(super) struct Planner<'a> {
     pub(super) loops: Vec<PlannedLoop>,
 }
 
-/// A beginning of a loop: the place along it, and the lead.
-struct Beginning {
-    at: f64,
-    lead: Lead,
+impl<'a> Planner<'a> {
+    /// Without a move.
+    pub(super) fn new(spec: &'a ContourSpec, near: &'a NearestEdge) -> Planner<'a> {
+        Planner { spec, near, travel: Travel::new(spec), findings: Vec::new(), loops: Vec::new() }
+    }
 }
 
 impl Planner<'_> {
@@ -188,11 +201,16 @@ impl Planner<'_> {
     }
 
     /// The tracks at a distance from the outline, as they are travelled, each with whether it is an outer one.
-    fn tracks(&self, distance: f64) -> Result<Vec<(Track, bool)>> {
-        let spec = self.spec;
+    pub(super) fn tracks(&self, distance: f64) -> Result<Vec<(Track, bool)>> {
         let loops = self.paths(distance)?;
         self.covered(&loops)?;
         self.spares_others(&loops)?;
+        Ok(self.tracks_of(&loops))
+    }
+
+    /// Paths as they are travelled, each with whether it is an outer one.
+    pub(super) fn tracks_of(&self, loops: &[OffsetLoop]) -> Vec<(Track, bool)> {
+        let spec = self.spec;
         // Material of the face lies on the right of an offset's loops; inside of it, that is not the material kept.
         let keeps_right = spec.side != ContourSide::Inside;
         let tracks = loops.iter().map(|l| {
@@ -200,7 +218,7 @@ impl Planner<'_> {
             let track = if keeps_right == spec.keeps_right() { track } else { track.reversed() };
             (track, l.area() > 0.0)
         });
-        Ok(tracks.collect())
+        tracks.collect()
     }
 
     /// No path comes too near to a loop of the outline that is not cut.
@@ -227,7 +245,7 @@ impl Planner<'_> {
     }
 
     /// Tracks in the order of cutting: those of holes first, each time the nearest one.
-    fn ordered<'t>(&self, tracks: &'t [(Track, bool)]) -> Vec<(&'t Track, bool)> {
+    pub(super) fn ordered<'t>(&self, tracks: &'t [(Track, bool)]) -> Vec<(&'t Track, bool)> {
         let mut left: Vec<&(Track, bool)> = tracks.iter().collect();
         let mut at = DVec2::ZERO;
         let mut order = Vec::with_capacity(left.len());
@@ -250,6 +268,7 @@ impl Planner<'_> {
         let signed = self.near.at(p, wall).map(|n| n.distance);
         match (self.spec.side, signed) {
             (ContourSide::On, _) => true,
+            (ContourSide::Left | ContourSide::Right, near) => near.is_none_or(|d| d >= wall - ROUNDING),
             (ContourSide::Outside, None) => !self.spec.outline.contains(p),
             (ContourSide::Inside, None) => self.spec.outline.contains(p),
             (ContourSide::Outside, Some(d)) => d >= wall - ROUNDING,
@@ -264,17 +283,16 @@ impl Planner<'_> {
 
     /// Radius of a lead where there is room [mm].
     pub(super) fn usual_lead(&self) -> f64 {
-        let a = self.spec.radius();
-        self.spec.lead_radius.unwrap_or(if a > 2.0 { 0.5 * a } else { 1.0 })
+        self.spec.usual_lead()
     }
 
     /// Whether the path runs through a point.
-    fn runs_by(&self, p: DVec2) -> bool {
+    pub(super) fn runs_by(&self, p: DVec2) -> bool {
         self.loops.iter().flat_map(|l| &l.edges).any(|e| e.nearest(p).1 <= ROUNDING)
     }
 
     /// The place at which a loop begins, and a lead for which there is room; `free`: whether its free end is usable.
-    fn begin(
+    pub(super) fn begin(
         &self,
         track: &Track,
         wall: f64,
@@ -348,7 +366,7 @@ impl Planner<'_> {
     }
 
     /// A lead whose free end lies so far from a wall [mm] and so much farther: where roughing has run.
-    fn beside(&self, lead: Lead, (p, along): (DVec2, DVec2), wall: f64, farther: f64) -> Lead {
+    pub(super) fn beside(&self, lead: Lead, (p, along): (DVec2, DVec2), wall: f64, farther: f64) -> Lead {
         /// Lengths of line that are tried where a quarter turn does not reach, and by how much each is longer, in `farther`.
         const LONGER: (u32, f64) = (32, 0.125);
         let is_far = |lead: Lead| {
@@ -408,7 +426,7 @@ impl Planner<'_> {
     }
 
     /// Tabs of a loop that is roughed; places that are given belong to the nearest of all tracks.
-    fn tabs(&mut self, track: &Track, start: f64, all: &[(Track, bool)]) -> Vec<PlacedTab> {
+    pub(super) fn tabs(&mut self, track: &Track, start: f64, all: &[(Track, bool)]) -> Vec<PlacedTab> {
         let Some(tabs) = &self.spec.tabs else { return Vec::new() };
         let far = |t: &Track, p: DVec2| t.at(t.nearest(p)).0.distance(p);
         let is_own = |p: &DVec2| all.iter().all(|(t, _)| far(track, *p) <= far(t, *p));
@@ -464,7 +482,7 @@ impl Planner<'_> {
     /// The tabs that roughing has left beside a track that is finished.
     fn left_tabs(&self, track: &Track, allowance: f64) -> Vec<PlacedTab> {
         let mut found = Vec::new();
-        for one in self.loops.iter().filter(|l| !l.finishing) {
+        for one in self.loops.iter().filter(|l| !l.finishing && l.farther == 0.0) {
             for tab in &one.tabs {
                 let s = track.nearest(tab.at);
                 if track.at(s).0.distance(tab.at) <= 2.0 * allowance {
@@ -476,105 +494,22 @@ impl Planner<'_> {
         found
     }
 
-    fn keep(&mut self, track: &Track, outer: bool, start: f64, tabs: &[PlacedTab]) {
+    pub(super) fn keep(&mut self, track: &Track, outer: bool, start: f64, tabs: &[PlacedTab]) {
         let edges = track.part(start, start + track.length());
         let finishing = self.travel.route.finishing;
-        self.loops.push(PlannedLoop { edges, outer, finishing, tabs: tabs.to_vec(), piece: None });
+        self.loops.push(PlannedLoop {
+            edges,
+            outer,
+            finishing,
+            farther: 0.0,
+            tabs: tabs.to_vec(),
+            piece: None,
+        });
     }
 
-    fn overlap(&self) -> f64 {
+    pub(super) fn overlap(&self) -> f64 {
         let usual = 0.5 * self.spec.radius();
         self.spec.overlap.unwrap_or(if usual < 2.0 { usual } else { 2.0 })
-    }
-
-    /// Roughs a loop level by level, `heights` from the top down.
-    pub(super) fn rough(
-        &mut self,
-        track: &Track,
-        outer: bool,
-        all: &[(Track, bool)],
-        wall: f64,
-        heights: &[f64],
-    ) -> Result<DVec2> {
-        let spec = self.spec;
-        let start = self.begin(
-            track,
-            wall,
-            |radius, _, _| Lead { radius, angle: FRAC_PI_2, line: 0.0 },
-            |_| true,
-            |_| true,
-        )?;
-        let tabs = self.tabs(track, start.at, all);
-        self.travel.route.finishing = false;
-        self.keep(track, outer, start.at, &tabs);
-        let left = spec.keeps_right();
-        let (p, along) = track.at(start.at);
-        let on = start.lead.on(p, along, left);
-        let role = ToolpathRole::Circle;
-        let feed = spec.feed;
-        let mut s = start.at;
-        for (k, pair) in heights.windows(2).enumerate() {
-            let (above, floor) = (pair[0], pair[1]);
-            self.travel.route.level = k as u32;
-            let whole = track.length();
-            if let Some(angle) = spec.ramp {
-                let mut from = above;
-                if k == 0 {
-                    from = (above + RAMP_ABOVE).min(spec.approach_z);
-                    self.travel.route.over(on.first().map_or(p, |e| e.start));
-                    self.travel.route.vertically(
-                        ToolpathRole::Entry,
-                        ToolpathPace::Feed(spec.plunge_feed),
-                        from,
-                    );
-                    self.travel.route.edges(ToolpathRole::LeadIn, feed, &on)?;
-                }
-                let end = s + (from - floor) / angle.tan();
-                let ramp = Stretch { along: [s, end], heights: [from, floor], feed };
-                self.travel.follow(ToolpathRole::Entry, track, &tabs, ramp)?;
-                let lap = Stretch { along: [end, end + whole], heights: [floor, floor], feed };
-                self.travel.follow(role, track, &tabs, lap)?;
-                s = end + whole;
-            } else {
-                self.travel.route.over(on.first().map_or(p, |e| e.start));
-                if above < spec.approach_z {
-                    // What a level above has cut is open; the first one feeds down from over the material.
-                    let open = match k {
-                        _ if spec.cleared => (floor + RAMP_ABOVE).min(spec.approach_z),
-                        0 => spec.approach_z,
-                        _ => (above + RAMP_ABOVE).min(spec.approach_z),
-                    };
-                    self.travel.route.vertically(ToolpathRole::Entry, ToolpathPace::Feed(feed), open);
-                }
-                self.travel.route.vertically(
-                    ToolpathRole::Entry,
-                    ToolpathPace::Feed(spec.plunge_feed),
-                    floor,
-                );
-                self.travel.route.edges(ToolpathRole::LeadIn, feed, &on)?;
-                let end = start.at + whole + self.overlap();
-                let lap = Stretch { along: [start.at, end], heights: [floor, floor], feed };
-                self.travel.follow(role, track, &tabs, lap)?;
-                s = end;
-                if k + 2 < heights.len() {
-                    let (p, along) = track.at(s);
-                    let off = start.lead.off(p, along, left);
-                    self.travel.route.edges(ToolpathRole::LeadOut, feed, &off)?;
-                }
-            }
-        }
-        // Off the path at its start, for which there is room, a little beyond it.
-        if let Some(floor) = heights.last().filter(|_| spec.ramp.is_some()) {
-            let end = start.at + self.overlap();
-            let end = end + ((s - end) / track.length()).ceil() * track.length();
-            let rest = Stretch { along: [s, end], heights: [*floor, *floor], feed };
-            self.travel.follow(role, track, &tabs, rest)?;
-            s = end;
-        }
-        let (p, along) = track.at(s);
-        let off = start.lead.off(p, along, left);
-        self.travel.route.edges(ToolpathRole::LeadOut, feed, &off)?;
-        Ok(p)
     }
 
     /// Finishes a loop; `rough`: the tracks that roughing has run.
@@ -586,8 +521,6 @@ impl Planner<'_> {
         wall: f64,
         finish: &ContourFinish,
     ) -> Result<DVec2> {
-        /// Length of the line of a lead on which the control switches its compensation, in largest wears.
-        const SWITCH: f64 = 1.1;
         let spec = self.spec;
         let wear = finish.wear.map_or(0.0, |w| w.largest);
         let line = if finish.wear.is_some() { SWITCH * wear + 0.1 } else { 0.0 };

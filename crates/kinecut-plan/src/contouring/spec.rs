@@ -24,6 +24,10 @@ pub enum ContourSide {
     Inside,
     /// With the cutter's centre on the outline: an engraving, or a path that was offset elsewhere.
     On,
+    /// Beside open lines, on the left of their direction.
+    Left,
+    /// Beside open lines, on the right of their direction.
+    Right,
 }
 
 /// Loops of the outline that are cut.
@@ -85,7 +89,7 @@ pub struct ContourFinish {
 /// A contour to be milled [mm, mm/s, rad].
 #[derive(Clone, Debug, PartialEq)]
 pub struct ContourSpec {
-    /// The outline, in coordinates of the work offset.
+    /// The outline, in coordinates of the work offset; for a contour on the left or right, or on lines, [`Outline::of_lines`].
     pub outline: Outline,
     /// Side on which the cutter runs.
     pub side: ContourSide,
@@ -107,6 +111,8 @@ pub struct ContourSpec {
     pub stock_to_leave: f64,
     /// Largest depth of a level; `None`: the length of the flutes.
     pub stepdown: Option<f64>,
+    /// Loops of roughing: their number, and the distance from one to the next; the farthest from the wall comes first. `None`: one.
+    pub loops_beside: Option<(u32, f64)>,
     /// Feed along the contour.
     pub feed: f64,
     /// Place for which the feeds are meant.
@@ -125,6 +131,10 @@ pub struct ContourSpec {
     /// Distance from all edges at which the cutter comes down and goes up, and below which it comes only towards the contour: for
     /// one that is wider above its tip; `None`: that of the path.
     pub room: Option<f64>,
+    /// Whether open lines begin and end outside of the material: the cutter comes straight down there.
+    pub clear_ends: bool,
+    /// Lengths by which each open line goes on before its begin and beyond its end; none of other contours.
+    pub extended: Vec<[f64; 2]>,
     /// Radius of the lead arcs; `None`: half the cutter's radius, 1 mm at least.
     pub lead_radius: Option<f64>,
     /// A point near which the contour begins.
@@ -143,6 +153,28 @@ impl ContourSpec {
     /// Radius of the cutter [mm].
     pub fn radius(&self) -> f64 {
         0.5 * self.cutter.diameter
+    }
+
+    /// Distances of the loops of roughing from the nearest of them, the farthest first [mm].
+    pub(super) fn farther(&self) -> impl Iterator<Item = f64> {
+        let (count, step) = self.loops_beside.unwrap_or((1, 0.0));
+        (0..count).rev().map(move |k| f64::from(k) * step)
+    }
+
+    /// Radius of a lead where there is room [mm].
+    pub fn usual_lead(&self) -> f64 {
+        let a = self.radius();
+        self.lead_radius.unwrap_or(if a > 2.0 { 0.5 * a } else { 1.0 })
+    }
+
+    /// Lengths by which an open line goes on where the travel along it begins, and where it ends [mm].
+    pub(super) fn extended(&self, line: usize) -> [f64; 2] {
+        let [begin, end] = self.extended.get(line).copied().unwrap_or([0.0; 2]);
+        let along = match self.side {
+            ContourSide::Right => !self.keeps_right(),
+            _ => self.keeps_right(),
+        };
+        if along { [begin, end] } else { [end, begin] }
     }
 
     /// Height of the lowest level [mm].
@@ -201,6 +233,7 @@ impl ContourSpec {
             breakthrough: 0.0,
             stock_to_leave: 0.0,
             stepdown: None,
+            loops_beside: None,
             feed,
             feed_at: FeedAt::Centre,
             plunge_feed: 0.5 * feed,
@@ -209,6 +242,8 @@ impl ContourSpec {
             finish: None,
             pieces: None,
             room: None,
+            clear_ends: false,
+            extended: Vec::new(),
             lead_radius: None,
             start: None,
             overlap: None,

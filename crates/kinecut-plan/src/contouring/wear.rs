@@ -8,7 +8,7 @@ use glam::DVec2;
 
 use super::check::out_of_range;
 use crate::base::{Code, Finding, Result};
-use crate::geom::{NearestEdge, OffsetLoop, OutlineEdge};
+use crate::geom::{NearestEdge, OutlineEdge};
 
 /// Shortest edge of a path that counts [mm]: less than a control resolves.
 const LEAST: f64 = 2e-5;
@@ -21,8 +21,8 @@ const TOLD: f64 = 1e-4;
 /// # Errors
 /// `KC0404` with the place and the largest wear that fits; those of `paths`.
 pub(super) fn fits(
-    path: &[OffsetLoop],
-    paths: impl Fn(f64) -> Result<Vec<OffsetLoop>>,
+    path: &[Vec<OutlineEdge>],
+    paths: impl Fn(f64) -> Result<Vec<Vec<OutlineEdge>>>,
     wear: f64,
     (radius, wall): (f64, f64),
 ) -> Result<()> {
@@ -71,11 +71,11 @@ enum Trouble {
 
 impl Trouble {
     /// Of a path, and the same moved by a wear [mm].
-    fn of(path: &[OffsetLoop], moved: &[OffsetLoop], wear: f64) -> Option<Trouble> {
-        let own: Vec<OutlineEdge> = path.iter().flat_map(|l| l.edges.iter().copied()).collect();
+    fn of(path: &[Vec<OutlineEdge>], moved: &[Vec<OutlineEdge>], wear: f64) -> Option<Trouble> {
+        let own: Vec<OutlineEdge> = path.concat();
         let near = NearestEdge::new(&own);
         let mut is_kept = vec![false; own.len()];
-        for edge in moved.iter().flat_map(|l| &l.edges) {
+        for edge in moved.iter().flatten() {
             // Back towards the wall it comes to the edge that it was.
             if let Some(source) = near.at(edge.at(0.5), wear + 10.0 * near.rounding()) {
                 is_kept[source.edge] = true;
@@ -96,7 +96,7 @@ impl Trouble {
         }
         (!is_one).then(|| {
             // A corner where there was none.
-            let moved: Vec<OutlineEdge> = moved.iter().flat_map(|l| l.edges.iter().copied()).collect();
+            let moved: Vec<OutlineEdge> = moved.concat();
             let corners = |edges: &[OutlineEdge]| edges.iter().map(|e| e.start).collect::<Vec<_>>();
             let old = corners(&own);
             let far = |p: &DVec2| old.iter().map(|q| q.distance(*p)).fold(f64::INFINITY, f64::min);

@@ -1,5 +1,7 @@
 //! The strip along a contour that a cutter takes away, with the wall at one side of it: what an operation along a contour wants.
 
+use std::ops::Range;
+
 use glam::DVec2;
 
 use crate::geom::{NearestEdge, Outline, OutlineEdge};
@@ -7,7 +9,9 @@ use crate::geom::{NearestEdge, Outline, OutlineEdge};
 /// A strip along an outline, in coordinates of the work offset [mm].
 #[derive(Clone, Debug)]
 pub(crate) struct Band {
-    outline: Outline,
+    edges: Vec<OutlineEdge>,
+    /// Ranges of the edges of each loop or line.
+    loops: Vec<Range<usize>>,
     near: NearestEdge,
     /// Whether the face stays, or what is around it.
     keeps_face: bool,
@@ -119,10 +123,35 @@ impl Fillet {
 
 impl Band {
     pub(crate) fn new(outline: &Outline, keeps_face: bool, leave: f64, width: f64) -> Band {
-        let near = NearestEdge::new(outline.edges());
-        let [min, max] = outline.bounds();
+        let loops = outline.loops().iter().map(|l| l.edges.clone()).collect();
+        Band::along(outline.edges().to_vec(), loops, keeps_face, (leave, width))
+    }
+
+    /// On the left of open lines.
+    pub(crate) fn beside_lines(lines: Vec<Vec<OutlineEdge>>, leave: f64, width: f64) -> Band {
+        /// Length at the ends of a line that is not compared [mm]: there the cutter begins to leave.
+        const ENDS: f64 = 2e-3;
+        let (mut loops, mut only) = (Vec::new(), Vec::new());
+        for line in &lines {
+            let first = loops.last().map_or(0, |l: &Range<usize>| l.end);
+            let length: f64 = line.iter().map(OutlineEdge::length).sum();
+            only.push((loops.len(), [ENDS, length - ENDS]));
+            loops.push(first..first + line.len());
+        }
+        Band::along(lines.concat(), loops, true, (leave, width)).only(only.into_iter())
+    }
+
+    fn along(
+        edges: Vec<OutlineEdge>,
+        loops: Vec<Range<usize>>,
+        keeps_face: bool,
+        (leave, width): (f64, f64),
+    ) -> Band {
+        let near = NearestEdge::new(&edges);
+        let [min, max] = bounds(&edges);
         Band {
-            outline: outline.clone(),
+            edges,
+            loops,
             near,
             keeps_face,
             leave,
@@ -157,11 +186,7 @@ impl Band {
         if edges.is_empty() {
             return band;
         }
-        let [[x0, x1], [y0, y1]] = [DVec2::X, DVec2::Y].map(|axis| {
-            let all = edges.iter().map(|e| e.extent(axis));
-            all.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], [l, h]| [low.min(l), high.max(h)])
-        });
-        let (min, max) = (DVec2::new(x0, y0), DVec2::new(x1, y1));
+        let [min, max] = bounds(&edges);
         band.middle = 0.5 * (min + max);
         band.reach = 0.5 * min.distance(max) + band.width + band.leave + band.slope.map_or(0.0, |s| s.width);
         band
@@ -169,11 +194,11 @@ impl Band {
 
     /// The edges along which it is wanted, or parts of them.
     fn wanted_edges(&self) -> Vec<OutlineEdge> {
-        let Some(only) = &self.only else { return self.outline.edges().to_vec() };
+        let Some(only) = &self.only else { return self.edges.clone() };
         let mut found = Vec::new();
         for &(of_loop, [from, to]) in only {
-            let Some(one) = self.outline.loops().get(of_loop) else { continue };
-            let edges = &self.outline.edges()[one.edges.clone()];
+            let Some(one) = self.loops.get(of_loop) else { continue };
+            let edges = &self.edges[one.clone()];
             let whole: f64 = edges.iter().map(OutlineEdge::length).sum();
             let from_first = from.rem_euclid(whole);
             let end = from_first + if to - from < whole { to - from } else { whole };
@@ -199,10 +224,10 @@ impl Band {
         const ENDS: f64 = 1e-3;
         let Some(only) = &self.only else { return true };
         let Some(nearest) = self.near.at(p, self.search()) else { return false };
-        let edges = self.outline.edges();
-        let found = self.outline.loops().iter().position(|l| l.edges.contains(&nearest.edge));
+        let edges = &self.edges;
+        let found = self.loops.iter().position(|l| l.contains(&nearest.edge));
         let Some(of_loop) = found else { return false };
-        let range = self.outline.loops()[of_loop].edges.clone();
+        let range = self.loops[of_loop].clone();
         let length = |edges: &[OutlineEdge]| edges.iter().map(|e| e.length()).sum::<f64>();
         let whole = length(&edges[range.clone()]);
         let at = length(&edges[range.start..nearest.edge]) + nearest.share * edges[nearest.edge].length();
@@ -298,7 +323,7 @@ impl Band {
     /// Whether a face with a normal looks away from the material that stays.
     pub(crate) fn faces_cut(&self, p: DVec2, normal: DVec2) -> bool {
         self.near.at(p, self.search()).is_some_and(|nearest| {
-            let edge = &self.outline.edges()[nearest.edge];
+            let edge = &self.edges[nearest.edge];
             let out = DVec2::from_angle(edge.outward(nearest.share));
             (normal.dot(out) > 0.0) == self.keeps_face
         })
@@ -316,6 +341,15 @@ impl Band {
         }
         edges.first().map_or(self.middle, |e| e.start)
     }
+}
+
+/// Least and greatest corner of the box around edges [mm].
+fn bounds(edges: &[OutlineEdge]) -> [DVec2; 2] {
+    let [[x0, x1], [y0, y1]] = [DVec2::X, DVec2::Y].map(|axis| {
+        let all = edges.iter().map(|e| e.extent(axis));
+        all.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], [l, h]| [low.min(l), high.max(h)])
+    });
+    [DVec2::new(x0, y0), DVec2::new(x1, y1)]
 }
 
 #[cfg(test)]
@@ -343,6 +377,28 @@ mod tests {
             assert!(band.compared(dvec2(20.0, -sign * 6.0), 0.0).is_nan());
             assert!(band.faces_cut(dvec2(20.0, 0.1), dvec2(0.0, -sign)));
         }
+    }
+
+    #[test]
+    fn a_strip_beside_a_line_ends_with_it_and_knows_what_is_cut_beyond() {
+        let line = vec![
+            OutlineEdge::line(dvec2(0.0, 0.0), dvec2(30.0, 0.0)),
+            OutlineEdge::line(dvec2(30.0, 0.0), dvec2(30.0, 20.0)),
+        ];
+        let band = Band::beside_lines(vec![line], 0.0, 10.0);
+        for (x, y, d) in [(10.0, 0.5, 0.5), (10.0, -0.1, -0.1), (29.6, 10.0, 0.4), (30.2, 10.0, -0.2)] {
+            assert!((band.compared(dvec2(x, y), 0.0) - d).abs() < 1e-12, "{x} {y}");
+        }
+        // Far from the wall, before its begin and beyond its end.
+        for (x, y) in [(10.0, 6.0), (-0.5, 0.2), (29.0, 20.5), (-0.5, -0.2)] {
+            assert!(band.compared(dvec2(x, y), 0.0).is_nan(), "{x} {y}");
+        }
+        assert!((band.inside(dvec2(10.0, 7.0), 0.0) - 3.0).abs() < 1e-12);
+        assert!(band.inside(dvec2(10.0, -7.0), 0.0) < 0.0 && band.inside(dvec2(-3.0, 2.0), 0.0) < 0.0);
+        assert!(
+            band.faces_cut(dvec2(10.0, 0.1), dvec2(0.0, 1.0))
+                && !band.faces_cut(dvec2(10.0, 0.1), dvec2(0.0, -1.0))
+        );
     }
 
     #[test]

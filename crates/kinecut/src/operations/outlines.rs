@@ -135,6 +135,21 @@ impl OutlineKeys<'_> {
         let weights = vec![1.0; outline.edges().len()];
         Ok(OutlineRead { outline, weights, notes: Vec::new() })
     }
+
+    /// The open lines of a drawing, in coordinates of the work offset.
+    ///
+    /// # Errors
+    /// As [`OutlineKeys::read`]; `KC0802` with the key `outline` where there is no drawing, or no open line in it.
+    pub(crate) fn read_lines(self, loader: &dyn Loader) -> Result<OutlineRead> {
+        match self.drawing {
+            Some(drawn) => drawn.read_as(true, loader),
+            None => {
+                let finding =
+                    Finding::error(Code::OUTLINE_FILE, "the operation has no drawing of open lines");
+                Err(finding.help("write outline = \"part.dxf\"").key("outline").into())
+            }
+        }
+    }
 }
 
 /// Distance of the arcs of a spline or an ellipse from it [mm]: a wall is cut along them.
@@ -153,18 +168,29 @@ impl Drawn<'_> {
     /// # Errors
     /// Those of the drawing's reader; `KC0103` for a place or angle out of range.
     pub(crate) fn read(self, loader: &dyn Loader) -> Result<OutlineRead> {
+        self.read_as(false, loader)
+    }
+
+    /// As [`Drawn::read`], its open lines if `lines`.
+    fn read_as(self, lines: bool, loader: &dyn Loader) -> Result<OutlineRead> {
         let under = |e: Error| e.under("outline");
         let options = OutlineOptions {
             unit: self.unit.or_else(|| self.unit_of_mesh(loader)),
             layers: self.layers.unwrap_or_default().to_vec(),
             snap: length("snap", self.snap.unwrap_or(OutlineOptions::default().snap), 0.0, 10.0)?,
             curve_tolerance: CURVE_TOLERANCE,
+            lines,
             ..OutlineOptions::default()
         };
         let read = match self.outline {
             OutlineEntry::Name(name) => {
                 let bytes = loader.read_as(name, FileKind::of_outline(name)).map_err(under)?;
                 read_outline(name, &bytes, &options).map_err(under)?
+            }
+            OutlineEntry::Loops(_) if lines => {
+                let finding = Finding::error(Code::OUTLINE_FILE, "loops of a table are closed");
+                let help = "write the points of an open line: polyline = [[0, 0], [60, 0]]";
+                return Err(finding.help(help).key("outline").into());
             }
             OutlineEntry::Loops(loops) => loops.outline(self.unit).map_err(under)?,
         };

@@ -46,16 +46,27 @@ impl RoundHole {
         })
     }
 
-    /// The hole under a motion; `None` where it is no longer along Z.
+    /// The hole under a motion; `None` where it is no longer along Z, or no longer open above.
     fn moved(&self, motion: &Rigid) -> Option<RoundHole> {
-        let [top, bottom] = [self.top, self.bottom].map(|z| motion.point(self.centre.extend(z)));
-        let along = motion.vector(DVec3::Z);
-        (along.z > 1.0 - ROUNDING).then_some(RoundHole {
+        let ends = [self.top, self.bottom].map(|z| motion.point(self.centre.extend(z)));
+        let along = motion.vector(DVec3::Z).z;
+        // Seen from its other side, one that goes through is the same hole.
+        let is_turned = along < ROUNDING - 1.0 && self.through;
+        let [top, bottom] = if is_turned { [ends[1], ends[0]] } else { ends };
+        (along > 1.0 - ROUNDING || is_turned).then_some(RoundHole {
             centre: top.truncate(),
             top: top.z,
             bottom: bottom.z,
             ..*self
         })
+    }
+}
+
+impl MadeHole {
+    /// Its ends and diameter in part coordinates, if it goes through.
+    pub(crate) fn ends_through(&self) -> Option<([DVec3; 2], f64)> {
+        let end = |z: f64| self.to_part.point(self.hole.centre.extend(z));
+        self.hole.through.then(|| ([end(self.hole.top), end(self.hole.bottom)], self.hole.diameter))
     }
 }
 

@@ -31,7 +31,7 @@ pub(super) struct Check<'a> {
 
 impl<'a> Check<'a> {
     pub(super) fn new(outline: &'a Outline, distance: f64) -> Check<'a> {
-        Check { outline, distance, near: NearestEdge::new(outline.edges()) }
+        Check { outline, distance, near: NearestEdge::of(outline) }
     }
 
     /// The edges of the outline.

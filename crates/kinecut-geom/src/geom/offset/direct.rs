@@ -94,7 +94,8 @@ fn corner(edge: &OutlineEdge, next: &OutlineEdge) -> f64 {
     const SAME: f64 = 1e-6;
     let turn = wrap(next.heading(0.0) - edge.heading(1.0));
     let apart = edge.curvature() + next.curvature();
-    if PI - turn.abs() < SAME && apart.abs() > SAME { turn.abs().copysign(-apart) } else { turn }
+    // At the end of a line, where one edge goes back along the other, there is nothing between them.
+    if PI - turn.abs() < SAME { turn.abs().copysign(if apart < -SAME { 1.0 } else { -1.0 }) } else { turn }
 }
 
 /// The pieces without those that lie on another one and run the same way.

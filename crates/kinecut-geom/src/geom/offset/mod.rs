@@ -8,6 +8,8 @@ mod chain;
 mod check;
 mod direct;
 mod library;
+#[cfg(test)]
+mod lines;
 
 use super::{Outline, OutlineEdge};
 use crate::base::{Code, Finding, Result};
@@ -114,7 +116,9 @@ pub fn offset(outline: &Outline, distance: f64) -> Result<Offset> {
         return Ok(Offset { loops: loops.collect(), direct: false });
     }
     let check = check::Check::new(outline, distance);
-    let by_library = library::loops(outline, distance).filter(|loops| check.of(loops).is_ok());
+    // The library takes a line there and back for a fault of the drawing.
+    let by_library = (!outline.is_of_lines()).then(|| library::loops(outline, distance)).flatten();
+    let by_library = by_library.filter(|loops| check.of(loops).is_ok());
     let (loops, direct) = match by_library {
         Some(loops) => (loops, false),
         None => (checked_direct(outline, distance, &check)?, true),

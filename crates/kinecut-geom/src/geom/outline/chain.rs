@@ -19,7 +19,23 @@ use crate::num::sets::Sets;
 const SAME: f64 = 1e-9;
 
 /// Turns the open chains of a drawing into loops.
+///
+/// # Errors
+/// `KC0803` where a chain stays open, or branches.
 pub(super) fn chain(drawing: &mut Drawing, snap: f64) -> Result<()> {
+    open_chains_but(drawing, snap, true).map(|_| ())
+}
+
+/// The chains of a drawing that stay open, each in the direction of its first entity; the others become loops of it.
+///
+/// # Errors
+/// `KC0803` where chains branch.
+pub(super) fn open_chains(drawing: &mut Drawing, snap: f64) -> Result<Vec<Vec<OutlineEdge>>> {
+    open_chains_but(drawing, snap, false)
+}
+
+/// As [`open_chains`]; none is open if all must close.
+fn open_chains_but(drawing: &mut Drawing, snap: f64, must_close: bool) -> Result<Vec<Vec<OutlineEdge>>> {
     let snap = if snap > SAME { snap } else { SAME };
     let mut notes = Vec::new();
     drop_specks(drawing, snap, &mut notes);
@@ -29,36 +45,32 @@ pub(super) fn chain(drawing: &mut Drawing, snap: f64) -> Result<()> {
     for (end, &joint) in joints.iter().enumerate() {
         ends_of[joint].push(end);
     }
-    check_degrees(drawing, &ends_of)?;
+    no_branches(drawing, &ends_of)?;
+    if must_close {
+        no_open_ends(drawing, &ends_of)?;
+    }
     let mut widest: (f64, usize) = (0.0, 0);
     let mut used = vec![false; drawing.paths.len()];
+    let mut lines = Vec::new();
+    // The end by which the next path is entered from one that is left by an end.
+    let beyond = |left: usize| ends_of[joints[left]].iter().copied().find(|&e| e != left);
     for first in 0..drawing.paths.len() {
         if used[first] {
             continue;
         }
-        let mut edges: Vec<OutlineEdge> = Vec::new();
-        // Even ends are starts, odd ones ends: leave each path by the end that was not entered.
-        let mut entered = 2 * first;
-        loop {
-            let path = entered / 2;
-            used[path] = true;
-            let forward = &drawing.paths[path];
-            if entered.is_multiple_of(2) {
-                edges.extend(forward.iter().copied());
-            } else {
-                edges.extend(forward.iter().rev().map(OutlineEdge::reversed));
-            }
-            let left = entered ^ 1;
-            // Two ends in each joint, so the walk comes back to where it began.
-            let next = ends_of[joints[left]].iter().copied().find(|&e| e != left).unwrap_or(2 * first);
-            if used[next / 2] {
-                break;
-            }
-            entered = next;
+        // Even ends are starts, odd ones ends.
+        let (mut edges, is_loop) = walk(drawing, &mut used, 2 * first, beyond);
+        if !is_loop && let Some(before) = beyond(2 * first) {
+            let (behind, _) = walk(drawing, &mut used, before, beyond);
+            edges = behind.iter().rev().map(OutlineEdge::reversed).chain(edges).collect();
         }
-        let (gap, count) = close(&mut edges);
+        let (gap, count) = close(&mut edges, is_loop);
         widest = (if gap > widest.0 { gap } else { widest.0 }, widest.1 + count);
-        drawing.loops.push(edges);
+        if is_loop {
+            drawing.loops.push(edges);
+        } else {
+            lines.push(edges);
+        }
     }
     drawing.paths.clear();
     if widest.1 > 0 {
@@ -66,7 +78,33 @@ pub(super) fn chain(drawing: &mut Drawing, snap: f64) -> Result<()> {
     }
     leave_out_repeated_loops(drawing, snap, &mut notes);
     drawing.notes.append(&mut notes);
-    Ok(())
+    Ok(lines)
+}
+
+/// The edges from a path, entered by an end, on to an end that no other meets, or around back to it: then it is a loop.
+fn walk(
+    drawing: &Drawing,
+    used: &mut [bool],
+    mut entered: usize,
+    beyond: impl Fn(usize) -> Option<usize>,
+) -> (Vec<OutlineEdge>, bool) {
+    let mut edges: Vec<OutlineEdge> = Vec::new();
+    loop {
+        let path = entered / 2;
+        used[path] = true;
+        let forward = &drawing.paths[path];
+        if entered.is_multiple_of(2) {
+            edges.extend(forward.iter().copied());
+        } else {
+            edges.extend(forward.iter().rev().map(OutlineEdge::reversed));
+        }
+        // Left by the end that was not entered; two ends meet in a joint, so that the walk comes back only to where it began.
+        match beyond(entered ^ 1) {
+            None => return (edges, false),
+            Some(next) if used[next / 2] => return (edges, true),
+            Some(next) => entered = next,
+        }
+    }
 }
 
 /// The ends that no other end meets, as index of the path and true if it is the path's last point.
@@ -119,15 +157,18 @@ fn joints(paths: &[Vec<OutlineEdge>], snap: f64) -> Vec<usize> {
     (0..points.len()).map(|i| joint.least(i as u32) as usize).collect()
 }
 
-fn check_degrees(drawing: &Drawing, ends_of: &[Vec<usize>]) -> Result<()> {
-    let edge_at = |end: usize| {
-        let path = &drawing.paths[end / 2];
-        if end.is_multiple_of(2) {
-            (path[0], path[0].start)
-        } else {
-            (path[path.len() - 1], path[path.len() - 1].end)
-        }
-    };
+/// The edge at an end, and its point.
+fn edge_at(drawing: &Drawing, end: usize) -> (OutlineEdge, DVec2) {
+    let path = &drawing.paths[end / 2];
+    if end.is_multiple_of(2) {
+        (path[0], path[0].start)
+    } else {
+        (path[path.len() - 1], path[path.len() - 1].end)
+    }
+}
+
+fn no_branches(drawing: &Drawing, ends_of: &[Vec<usize>]) -> Result<()> {
+    let edge_at = |end: usize| edge_at(drawing, end);
     if let Some(branch) = ends_of.iter().find(|ends| ends.len() > 2) {
         let p = edge_at(branch[0]).1;
         let names: Vec<String> = branch.iter().map(|&e| drawing.entity(edge_at(e).0.label)).collect();
@@ -140,6 +181,11 @@ fn check_degrees(drawing: &Drawing, ends_of: &[Vec<usize>]) -> Result<()> {
             .help("remove or move to another layer what does not belong to the outline")
             .into());
     }
+    Ok(())
+}
+
+fn no_open_ends(drawing: &Drawing, ends_of: &[Vec<usize>]) -> Result<()> {
+    let edge_at = |end: usize| edge_at(drawing, end);
     let open: Vec<usize> = ends_of.iter().filter(|ends| ends.len() == 1).map(|ends| ends[0]).collect();
     let Some(&end) = open.first() else { return Ok(()) };
     let (edge, p) = edge_at(end);
@@ -168,11 +214,11 @@ fn check_degrees(drawing: &Drawing, ends_of: &[Vec<usize>]) -> Result<()> {
         .into())
 }
 
-/// Brings the ends of neighbours together; the widest gap and their number.
-fn close(edges: &mut [OutlineEdge]) -> (f64, usize) {
+/// Brings the ends of neighbours together, and in a loop those of the last and the first; the widest gap and their number.
+fn close(edges: &mut [OutlineEdge], is_loop: bool) -> (f64, usize) {
     let n = edges.len();
     let mut widest = (0.0, 0);
-    for i in 0..n {
+    for i in 0..if is_loop { n } else { n.saturating_sub(1) } {
         let next = (i + 1) % n;
         let (a, b) = (edges[i].end, edges[next].start);
         let gap = a.distance(b);

@@ -1,6 +1,6 @@
 //! A collected drawing becomes an outline: closed, chained, its edges weighed and labelled.
 
-use super::chain::chain;
+use super::chain::{chain, open_chains};
 use super::drawing::Drawing;
 use super::half_section::close_along;
 use super::{Outline, OutlineEdge, OutlineOptions, OutlineRead};
@@ -9,13 +9,40 @@ use crate::base::Result;
 /// Weight of an edge that has none.
 const PLAIN: f64 = 1.0;
 
+/// Makes an outline of chains of edges, with labels, and with words for an edge by its number.
+type MakeOutline = fn(Vec<Vec<OutlineEdge>>, Vec<String>, &dyn Fn(usize) -> String) -> Result<Outline>;
+
 impl Drawing {
     /// The outline as the options say: closed along the axis of a half section, open chains joined.
     pub(super) fn finish_with(mut self, options: &OutlineOptions) -> Result<OutlineRead> {
         if let Some(axis) = options.half_section {
             close_along(&mut self, axis, options.snap)?;
         }
-        self.finish(options.snap)
+        if options.lines { self.finish_lines(options.snap) } else { self.finish(options.snap) }
+    }
+
+    /// The open lines: chains joined within `snap` [mm], what is drawn twice left out; closed loops are passed over.
+    fn finish_lines(mut self, snap: f64) -> Result<OutlineRead> {
+        let lines = open_chains(&mut self, snap)?;
+        let closed = self.loops.len();
+        if lines.is_empty() {
+            let what = match closed {
+                0 => "the file holds no open line".to_owned(),
+                1 => "the file holds no open line, but a closed loop".to_owned(),
+                _ => format!("the file holds no open line, but {closed} closed loops"),
+            };
+            let help = "for closed loops write side = \"outside\" or \"inside\"; or choose the layer of the line: layers = [\"..\"]";
+            return Err(self.source.whole(what).help(help).into());
+        }
+        if closed > 0 {
+            self.notes.push(match closed {
+                1 => "a closed loop is passed over: only open lines have a left and a right".to_owned(),
+                _ => {
+                    format!("{closed} closed loops are passed over: only open lines have a left and a right")
+                }
+            });
+        }
+        self.named(lines, Outline::named_lines)
     }
 
     /// The outline: open chains joined within `snap` [mm], what is drawn twice left out.
@@ -31,12 +58,17 @@ impl Drawing {
                 .into());
         }
         let loops = std::mem::take(&mut self.loops);
+        self.named(loops, Outline::named)
+    }
+
+    /// The outline of loops or lines, their edges weighed and labelled.
+    fn named(self, loops: Vec<Vec<OutlineEdge>>, make: MakeOutline) -> Result<OutlineRead> {
         let origin_of: Vec<u32> = loops.iter().flatten().map(|e| e.label).collect();
         let name = |i: usize| match origin_of.get(i) {
             Some(&label) => format!("{i} ({})", self.entity(label)),
             None => i.to_string(),
         };
-        let outline = Outline::named(loops, Vec::new(), &name).map_err(|mut error| {
+        let outline = make(loops, Vec::new(), &name).map_err(|mut error| {
             if error.0.place.is_none() {
                 error.0.place = Some(self.source.file());
             }

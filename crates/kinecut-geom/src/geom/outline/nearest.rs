@@ -3,7 +3,7 @@
 use glam::DVec2;
 
 use super::edge::EdgeFoot;
-use super::{EdgeBins, OutlineEdge};
+use super::{EdgeBins, Outline, OutlineEdge};
 
 /// Edges of an outline, sorted so that the one nearest to a point is found without a look at all of them.
 ///
@@ -26,6 +26,8 @@ pub struct NearestEdge {
     edges: Vec<OutlineEdge>,
     bins: EdgeBins,
     rounding: f64,
+    /// Whether every point is outside.
+    of_lines: bool,
 }
 
 /// Least sum of curvatures at a tip that has an arc (1/mm).
@@ -46,7 +48,12 @@ impl NearestEdge {
     /// Of edges in loops, each beginning where the one before it ends.
     pub fn new(edges: &[OutlineEdge]) -> NearestEdge {
         let bins = EdgeBins::new(edges);
-        NearestEdge { rounding: 1e-9 * (1.0 + bins.size()), bins, edges: edges.to_vec() }
+        NearestEdge { rounding: 1e-9 * (1.0 + bins.size()), bins, edges: edges.to_vec(), of_lines: false }
+    }
+
+    /// Of the edges of an outline; of one that is made of open lines every point is outside.
+    pub fn of(outline: &Outline) -> NearestEdge {
+        NearestEdge { of_lines: outline.is_of_lines(), ..NearestEdge::new(outline.edges()) }
     }
 
     /// Distance below which two points may be one [mm].
@@ -66,10 +73,10 @@ impl NearestEdge {
     }
 
     /// On which side a point beyond a tip is, where one edge ends and the next goes back along it: outside (1) of a tip of the
-    /// material, inside (-1) of one that is cut into it; nothing where both are straight.
-    fn beyond_tip(&self, edges: [usize; 2]) -> Option<f64> {
+    /// material, inside (-1) of one that is cut into it; outside where one edge lies on the other, with nothing between them.
+    fn beyond_tip(&self, edges: [usize; 2]) -> f64 {
         let apart = edges.map(|edge| self.edges[edge].curvature()).iter().sum::<f64>();
-        (apart.abs() > TIP).then(|| apart.signum())
+        if apart < -TIP { -1.0 } else { 1.0 }
     }
 
     /// The nearest edge, if there is one within a distance [mm].
@@ -97,7 +104,7 @@ impl NearestEdge {
                 if !is_tip || !self.is_joined([known, edge]) {
                     return false;
                 }
-                let Some(side) = self.beyond_tip([known, edge]) else { return false };
+                let side = self.beyond_tip([known, edge]);
                 if is_ahead {
                     ahead = Some((known, side));
                 }
@@ -110,7 +117,11 @@ impl NearestEdge {
         });
         best.map(|(edge, foot)| {
             let share = foot.share(&self.edges[edge]);
-            let side = ahead.filter(|&(known, _)| known == edge).map_or(foot.side, |(_, side)| side);
+            let side = match ahead.filter(|&(known, _)| known == edge) {
+                _ if self.of_lines => 1.0,
+                Some((_, side)) => side,
+                None => foot.side,
+            };
             EdgeDistance { edge, share, distance: foot.distance.copysign(side) }
         })
     }

@@ -35,6 +35,8 @@ pub struct OutlineOptions {
     /// The drawing is half a section about this axis: what is drawn along the axis is left out, and what is open there
     /// closed along it. Not for meshes.
     pub half_section: Option<SectionAxis>,
+    /// Open lines are read, and closed loops passed over; not of meshes.
+    pub lines: bool,
 }
 
 impl Default for OutlineOptions {
@@ -48,6 +50,7 @@ impl Default for OutlineOptions {
             arc_tolerance: 1e-3,
             section: None,
             half_section: None,
+            lines: false,
         }
     }
 }
@@ -73,7 +76,7 @@ impl OutlineOptions {
 /// Result of reading a file.
 #[derive(Clone, Debug, PartialEq)]
 pub struct OutlineRead {
-    /// The outline [mm]; labels are layers, names, identifiers of the file.
+    /// The outline [mm], or open lines as [`Outline::of_lines`]; labels are layers, names, identifiers of the file.
     pub outline: Outline,
     /// Weight of each edge as the file says; 1 where it says nothing.
     pub weights: Vec<f64>,

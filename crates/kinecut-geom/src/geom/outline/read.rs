@@ -22,6 +22,12 @@ use crate::base::{Code, Finding, Location, Result};
 pub fn read_outline(name: &str, bytes: &[u8], options: &OutlineOptions) -> Result<OutlineRead> {
     options.check()?;
     let ending = name.rsplit_once('.').map(|(_, ending)| ending.to_ascii_lowercase()).unwrap_or_default();
+    if options.lines && matches!(ending.as_str(), "json" | "stl") {
+        let finding =
+            Finding::error(Code::OUTLINE_FILE, format!("files of the kind {ending:?} hold no open line"));
+        let help = "export the line as .dxf or .svg, or write its points: polyline = [[0, 0], [60, 0]]";
+        return Err(finding.at(Location::whole_file(name)).help(help).into());
+    }
     match ending.as_str() {
         "dxf" => dxf::read_dxf(name, bytes, options),
         "svg" => svg::read_svg(name, bytes, options),

@@ -29,6 +29,8 @@ pub struct Outline {
     edges: Vec<OutlineEdge>,
     loops: Vec<OutlineLoop>,
     labels: Vec<String>,
+    /// Whether each loop is an open line, there and back.
+    of_lines: bool,
 }
 
 impl Outline {
@@ -50,7 +52,7 @@ impl Outline {
     /// The face of loops that were checked as an offset, which has them on its right: edges that are no longer than the rounding
     /// of offsets are left out, joints are closed, and loops may touch or overlap by that. Nothing is checked again.
     pub fn of_offset<'a>(loops: impl IntoIterator<Item = &'a OffsetLoop>) -> Outline {
-        let mut outline = Outline { edges: Vec::new(), loops: Vec::new(), labels: Vec::new() };
+        let mut outline = Outline::empty(Vec::new());
         for one in loops {
             let first = outline.edges.len();
             outline.edges.extend(one.joined());
@@ -72,7 +74,7 @@ impl Outline {
         if loops.iter().all(Vec::is_empty) {
             return Err(Finding::error(Code::OUTLINE_EDGE, "the outline has no edges").into());
         }
-        let mut outline = Outline { edges: Vec::new(), loops: Vec::new(), labels };
+        let mut outline = Outline::empty(labels);
         for edges in loops.into_iter().filter(|l| !l.is_empty()) {
             let first = outline.edges.len();
             outline.edges.extend(edges);
@@ -84,6 +86,75 @@ impl Outline {
         outline.check_simple(tolerance, name)?;
         outline.orient();
         Ok(outline)
+    }
+
+    fn empty(labels: Vec<String>) -> Outline {
+        Outline { edges: Vec::new(), loops: Vec::new(), labels, of_lines: false }
+    }
+
+    /// Open lines as faces without width: each loop runs along its line and back, so that what lies beside a line is on the left of
+    /// the loop on either side. The first half of a loop is its line, in the direction given.
+    ///
+    /// # Errors
+    /// `KC0803` for a line with a gap, `KC0804` where lines cross, touch or overlap; `KC0805` as [`Outline::new`].
+    ///
+    /// ```
+    /// # use kinecut_geom as kinecut;
+    /// use glam::dvec2;
+    /// use kinecut::geom::{Outline, OutlineEdge, offset};
+    /// let line = OutlineEdge::line(dvec2(0.0, 0.0), dvec2(30.0, 0.0));
+    /// let line = Outline::of_lines(vec![vec![line]], vec![])?;
+    /// assert!(line.is_of_lines() && line.area() == 0.0 && line.perimeter() == 60.0);
+    /// // At 5 mm around it: both sides, and a half circle about each end.
+    /// let around = offset(&line, -5.0)?;
+    /// assert!((around.length() - (60.0 + 10.0 * std::f64::consts::PI)).abs() < 1e-9);
+    /// # Ok::<(), kinecut::base::Error>(())
+    /// ```
+    pub fn of_lines(lines: Vec<Vec<OutlineEdge>>, labels: Vec<String>) -> Result<Outline> {
+        Outline::named_lines(lines, labels, &|i| i.to_string())
+    }
+
+    /// As [`Outline::of_lines`], with words for an edge by its number in messages.
+    pub(super) fn named_lines(
+        lines: Vec<Vec<OutlineEdge>>,
+        labels: Vec<String>,
+        name: &dyn Fn(usize) -> String,
+    ) -> Result<Outline> {
+        let mut there = Outline { of_lines: true, ..Outline::empty(labels) };
+        for edges in lines.into_iter().filter(|l| !l.is_empty()) {
+            let first = there.edges.len();
+            there.edges.extend(edges);
+            there.loops.push(OutlineLoop { edges: first..there.edges.len(), outer: true });
+        }
+        if there.edges.is_empty() {
+            return Err(Finding::error(Code::OUTLINE_EDGE, "the line has no edges").into());
+        }
+        there.check_edges(name)?;
+        let tolerance = Outline::JOINED * there.size();
+        there.check_joined(tolerance)?;
+        there.check_simple(tolerance, name)?;
+        let mut outline = Outline { edges: Vec::new(), loops: Vec::new(), ..there.clone() };
+        for one in &there.loops {
+            let (first, line) = (outline.edges.len(), &there.edges[one.edges.clone()]);
+            outline.edges.extend_from_slice(line);
+            outline.edges.extend(line.iter().rev().map(OutlineEdge::reversed));
+            outline.loops.push(OutlineLoop { edges: first..outline.edges.len(), outer: true });
+        }
+        Ok(outline)
+    }
+
+    /// Whether it is made of open lines, each there and back: [`Outline::of_lines`].
+    pub fn is_of_lines(&self) -> bool {
+        self.of_lines
+    }
+
+    /// The open lines of which it is made, in the direction that they were given; none of an outline of faces.
+    pub fn lines(&self) -> impl Iterator<Item = &[OutlineEdge]> {
+        let halves = self.loops.iter().map(|one| {
+            let half = one.edges.len() / 2;
+            &self.edges[one.edges.start..one.edges.start + half]
+        });
+        halves.take(if self.of_lines { self.loops.len() } else { 0 })
     }
 
     /// The outline of one polygon.
@@ -172,7 +243,7 @@ impl Outline {
     /// still lies on the right.
     #[must_use]
     pub fn with_loops(&self, keep: impl Fn(&OutlineLoop) -> bool) -> Outline {
-        let mut some = Outline { edges: Vec::new(), loops: Vec::new(), labels: self.labels.clone() };
+        let mut some = Outline { of_lines: self.of_lines, ..Outline::empty(self.labels.clone()) };
         for one in self.loops.iter().filter(|l| keep(l)) {
             let first = some.edges.len();
             some.edges.extend_from_slice(&self.edges[one.edges.clone()]);
@@ -242,7 +313,9 @@ impl Outline {
 
     fn check_joined(&self, largest: f64) -> Result<()> {
         for one in &self.loops {
-            for i in one.edges.clone() {
+            // The end of a line meets nothing.
+            let last = one.edges.end - usize::from(self.of_lines);
+            for i in one.edges.start..last {
                 let next = if i + 1 < one.edges.end { i + 1 } else { one.edges.start };
                 let (end, start) = (self.edges[i].end, self.edges[next].start);
                 if !(end.distance(start) <= largest) {
@@ -265,7 +338,9 @@ impl Outline {
     }
 
     fn check_simple(&self, tolerance: f64, name: &dyn Fn(usize) -> String) -> Result<()> {
-        let Some(crossing) = first_crossing(&self.edges, &self.loops, tolerance) else { return Ok(()) };
+        let Some(crossing) = first_crossing(&self.edges, &self.loops, self.of_lines, tolerance) else {
+            return Ok(());
+        };
         let [a, b] = crossing.edges;
         let p = crossing.point;
         Err(Finding::error(

@@ -9,6 +9,7 @@ use crate::base::{Code, Finding, Result};
 use crate::contouring::{ContourSide, Tabs};
 use crate::cutting::StartCut;
 use crate::geom::Outline;
+use crate::holes::CutterData;
 use crate::operations::kind::{self, Attempt};
 use crate::operations::named::NamedOutline;
 use crate::operations::outlines::{OutlineEntry, outline_keys};
@@ -59,6 +60,11 @@ impl ContourOperation {
         }
     }
 
+    /// Radius of the tool [mm].
+    pub(super) fn radius(&self) -> f64 {
+        0.5 * CutterData::of(&self.milling.tool).diameter
+    }
+
     /// Whether the spindle turns counter-clockwise.
     pub(super) fn left_hand(&self) -> bool {
         self.milling.tool.limits.hand == Hand::Left
@@ -85,7 +91,10 @@ impl kind::Checked for ContourOperation {
             ContourSide::Outside => "outside",
             ContourSide::Inside => "inside",
             ContourSide::On => "on",
+            ContourSide::Left => "left of",
+            ContourSide::Right => "right of",
         };
+        let side = if self.outline.is_of_lines() { format!("{side} line") } else { side.to_owned() };
         let shown = |mm: f64| crate::page::trimmed(mm, 2);
         format!("contour {side} {} x {}", shown(size.x), shown(size.y))
     }
@@ -170,7 +179,14 @@ fn operation(t: &ContourTable, around: &Around<'_>) -> Result<ContourOperation> 
     for (i, v) in t.start.iter().flatten().enumerate() {
         length(&format!("start[{i}]"), *v, -MAX_LENGTH, MAX_LENGTH)?;
     }
-    let read = outline_keys!(t).read(around.loader)?;
+    if let Some(extend) = t.extend {
+        length("extend", extend, 0.0, MAX_LENGTH)?;
+    }
+    let read = t.read(around.loader)?;
+    if let Some(extend) = t.extend.filter(|_| !read.outline.is_of_lines()) {
+        let finding = Finding::error(Code::JOB_SHAPE, "a closed contour has no ends").value_mm(extend);
+        return Err(finding.help("leave out `extend`").key("extend").into());
+    }
     let tabs = t.tabs.as_ref().map(|tabs| checked_tabs(tabs, &read.outline).map_err(|e| e.under("tabs")));
     Ok(ContourOperation {
         outline: read.outline,

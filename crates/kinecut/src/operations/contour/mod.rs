@@ -3,6 +3,7 @@
 mod check;
 mod finish;
 mod json;
+mod line;
 mod plan;
 mod section;
 mod table;

@@ -6,9 +6,12 @@ use glam::DVec2;
 
 use super::ContourOperation;
 use super::json::ContourJson;
+use super::line::LongerLines;
 use super::section::section;
+use crate::base::bounded::{MAX_LENGTH, positive};
 use crate::base::{Code, Finding, Result};
 use crate::contouring::{ContourFinish, ContourPlan, ContourSide, ContourSpec, plan_contour};
+use crate::geom::{NearestEdge, OutlineEdge};
 use crate::holes::CutterData;
 use crate::operations::band::{Band, TabPlace};
 use crate::operations::kind::{self, Attempt, Checked as _};
@@ -47,6 +50,18 @@ fn spec(setting: &Setting<'_>, of: &ContourOperation) -> Result<ContourSpec> {
     let t = &of.table;
     let wear = t.finish.as_ref().map(|f| f.wear(setting, &of.milling.tool)).transpose()?.flatten();
     let safe = setting.clamping.safe_height;
+    let usual = ContourSpec::new(of.outline.clone(), t.depth, CutterData::of(&of.milling.tool), of.feed);
+    let usual = match of.outline.is_of_lines() {
+        true => {
+            let lead = t.lead_radius.unwrap_or_else(|| usual.usual_lead());
+            let longer = of.longer_lines(&setting.around(&of.milling), lead)?;
+            let LongerLines { outline, extended, clear_ends } = longer;
+            ContourSpec { outline, extended, clear_ends, ..usual }
+        }
+        false => usual,
+    };
+    // Beside the stock the cutter comes straight down.
+    let ramp = if usual.clear_ends && t.entry.is_none() { None } else { of.ramp };
     Ok(ContourSpec {
         side: t.side,
         loops: t.loops,
@@ -56,9 +71,10 @@ fn spec(setting: &Setting<'_>, of: &ContourOperation) -> Result<ContourSpec> {
         breakthrough: t.breakthrough,
         stock_to_leave: t.stock_to_leave,
         stepdown: t.stepdown,
+        loops_beside: loops_beside(setting, of)?,
         feed_at: t.feed_at,
         plunge_feed: of.plunge_feed,
-        ramp: of.ramp,
+        ramp,
         finish: t.finish.as_ref().map(|f| ContourFinish {
             allowance: f.allowance,
             feed: of.finish_feed,
@@ -72,13 +88,57 @@ fn spec(setting: &Setting<'_>, of: &ContourOperation) -> Result<ContourSpec> {
         tabs: of.tabs.clone(),
         retract_z: safe,
         approach_z: (t.top + CLEARANCE).clamp(f64::NEG_INFINITY, safe),
-        ..ContourSpec::new(of.outline.clone(), t.depth, CutterData::of(&of.milling.tool), of.feed)
+        ..usual
     })
+}
+
+/// The loops of roughing beside one another: as many as are given, or as the stock outside of the contour needs.
+fn loops_beside(setting: &Setting<'_>, of: &ContourOperation) -> Result<Option<(u32, f64)>> {
+    /// Most loops that are reckoned.
+    const MOST: f64 = 1000.0;
+    let t = &of.table;
+    let refuse = |key: &str, what: &str, help: &str| {
+        Err(Finding::error(Code::JOB_SHAPE, what).help(help).key(key).into())
+    };
+    let step = match (t.stepover, t.passes) {
+        (None, None) => return Ok(None),
+        (None, Some(_)) => {
+            let help = "write the distance of the loops too, for example stepover = 4";
+            return refuse("passes", "loops beside one another need their distance", help);
+        }
+        (Some(step), Some(passes)) => return Ok(Some((passes, step))),
+        (Some(step), None) => positive("stepover", step, MAX_LENGTH, "mm")?,
+    };
+    if matches!(t.side, ContourSide::Inside | ContourSide::On) {
+        let help = "write passes = 2, for example; or use a pocket, which clears all of the inside";
+        return refuse("passes", "the number of loops inside of a contour is not given", help);
+    }
+    // As far out as the corner of the stock that is farthest from the contour.
+    let around = setting.around(&of.milling);
+    let near = NearestEdge::of(&of.outline);
+    let corners = [(0, 0), (0, 1), (1, 0), (1, 1)].map(|(i, j)| {
+        let (x, y) = ([around.min.x, around.max.x][i], [around.min.y, around.max.y][j]);
+        near.at(DVec2::new(x, y), f64::INFINITY).map_or(0.0, |n| n.distance)
+    });
+    let farthest = corners.into_iter().fold(0.0, f64::max);
+    let beside = t.stock_to_leave + t.finish.as_ref().map_or(0.0, |f| f.allowance);
+    let passes = 1.0 + ((farthest - beside - 2.0 * of.radius()) / step).ceil().max(0.0);
+    if passes > MOST {
+        let finding =
+            Finding::error(Code::JOB_VALUE, "the stock beside the contour needs more loops than are made");
+        return Err(finding
+            .value(passes, "")
+            .bound(MOST, "")
+            .help("write a larger stepover, or passes")
+            .key("stepover")
+            .into());
+    }
+    Ok(Some((passes as u32, step)))
 }
 
 /// A warning where a part, or what is cut out of one, comes loose with the tool beside it.
 fn loose(of: &ContourOperation, setting: &Setting<'_>, spec: &ContourSpec) -> Option<Finding> {
-    if spec.tabs.is_some() || spec.side == ContourSide::On {
+    if spec.tabs.is_some() || spec.side == ContourSide::On || of.outline.is_of_lines() {
         return None;
     }
     let around = setting.around(&of.milling);
@@ -117,10 +177,21 @@ impl kind::Plan for PlannedContour {
         if spec.side == ContourSide::On {
             return Vec::new();
         }
-        let outline = self.cut_outline();
         // A wear register moves the wall: positive values leave stock.
         let leave = spec.stock_to_leave + self.wear.map_or(0.0, |w| w.value);
-        let mut band = Band::new(&outline, spec.side == ContourSide::Outside, leave, spec.cutter.diameter);
+        let mut band = match self.of.outline.is_of_lines() {
+            true => {
+                let reversed = |line: &[OutlineEdge]| line.iter().rev().map(OutlineEdge::reversed).collect();
+                let lines = self.of.outline.lines();
+                let lines =
+                    lines.map(|l| if spec.side == ContourSide::Left { l.to_vec() } else { reversed(l) });
+                Band::beside_lines(lines.collect(), leave, spec.cutter.diameter)
+            }
+            false => {
+                let keeps_face = spec.side == ContourSide::Outside;
+                Band::new(&self.cut_outline(), keeps_face, leave, spec.cutter.diameter)
+            }
+        };
         band.corners = uncut::fillets(&self.plan.uncut, spec.radius());
         band.tabs = self.tabs();
         let through = t.breakthrough > 0.0;
@@ -172,7 +243,13 @@ impl PlannedContour {
         let mut parts = uncut::in_words(&self.plan.uncut, self.spec.radius());
         if let Some(longest) = tabs.iter().map(|tab| 2.0 * tab.radius).max_by(f64::total_cmp) {
             // Roughing and finishing have their tabs at one place.
-            let tabs = self.plan.loops.iter().filter(|l| !l.finishing).map(|l| l.tabs.len()).sum::<usize>();
+            let tabs = self
+                .plan
+                .loops
+                .iter()
+                .filter(|l| !l.finishing && l.farther == 0.0)
+                .map(|l| l.tabs.len())
+                .sum::<usize>();
             let each = if tabs == 1 { "" } else { " at each" };
             let length = crate::page::trimmed(longest, 1);
             let top = crate::page::trimmed(self.spec.bottom() + self.tab_height(), 2);
@@ -190,7 +267,8 @@ impl PlannedContour {
     /// The places of all tabs, and how far they may reach.
     fn tabs(&self) -> Vec<TabPlace> {
         let top = self.spec.bottom() + self.tab_height();
-        let loops = self.plan.loops.iter().flat_map(|l| l.tabs.iter().map(|tab| (tab, l.finishing)));
+        let beside = self.plan.loops.iter().filter(|l| l.farther == 0.0);
+        let loops = beside.flat_map(|l| l.tabs.iter().map(|tab| (tab, l.finishing)));
         // The cutter is lifted on this length, comes up and down beside it, and cuts its radius farther.
         loops
             .map(|(tab, finishing)| {

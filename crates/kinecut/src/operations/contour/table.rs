@@ -4,14 +4,14 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::contouring::{ContourLoops, ContourSide, TabShape};
-use crate::geom::LengthUnit;
+use crate::geom::{LengthUnit, PointEntry};
 use crate::holes::{FeedAt, Sense};
 use crate::operations::outlines::{OutlineCircle, OutlineEntry, OutlineRectangle};
 use crate::operations::slot_outline::OutlineSlot;
 use crate::operations::{CalledTool, PlaneTable};
 use crate::program::Coolant;
 
-/// Milling along the edges of an outline: outside of it, inside, or on it.
+/// Milling along the edges of an outline: outside of it, inside, or on it; or along an open line, on its left, its right, or on it.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ContourTable {
@@ -34,6 +34,11 @@ pub struct ContourTable {
     /// The outline as a closed polygon: its corners, in coordinates of the work offset.
     #[serde(default)]
     pub polygon: Option<Vec<[f64; 2]>>,
+    /// An open line by its points, in coordinates of the work offset; the third number of a point is the bulge of the edge that
+    /// begins there, tan(sweep / 4), counter-clockwise positive.
+    #[serde(default)]
+    #[schemars(example = vec![[0, 0], [60, 0]])]
+    pub polyline: Option<Vec<PointEntry>>,
     /// The outline as a slot: a line or an arc of a width, with round ends.
     #[serde(default)]
     pub slot: Option<OutlineSlot>,
@@ -56,7 +61,7 @@ pub struct ContourTable {
     #[serde(default)]
     pub angle: f64,
     /// Side on which the cutter runs: "outside" keeps the face and cuts its holes from within, "inside" keeps what is around
-    /// it, "on" runs on the line; default outside.
+    /// it, "on" runs on the line, "left" and "right" of the direction of an open line; default outside.
     #[serde(default)]
     pub side: ContourSide,
     /// Loops that are cut: "all", "outer", "inner"; default all.
@@ -74,6 +79,15 @@ pub struct ContourTable {
     /// Largest depth of a level; default: the length of the flutes.
     #[serde(default, alias = "axial_step")]
     pub stepdown: Option<f64>,
+    /// Distance of the loops of roughing from one another, where the stock beside the contour is wider than the cutter; the
+    /// farthest from the wall is cut first. Default: one loop.
+    #[serde(default)]
+    #[schemars(example = 4)]
+    pub stepover: Option<f64>,
+    /// Number of these loops; default: as many as the stock outside of the contour needs.
+    #[serde(default)]
+    #[schemars(example = 2)]
+    pub passes: Option<u32>,
     /// Stock to leave on the wall when all is done; default 0.
     #[serde(default, alias = "leave")]
     pub stock_to_leave: f64,
@@ -94,6 +108,10 @@ pub struct ContourTable {
     /// Point near which the contour begins, in coordinates of the work offset; default: the middle of its longest line.
     #[serde(default)]
     pub start: Option<[f64; 2]>,
+    /// Length by which the cutter goes along an open line before its begin and beyond its end, straight on; default: the
+    /// cutter's radius and 1 mm, less where the line ends outside of the stock; 0 for side = "on".
+    #[serde(default)]
+    pub extend: Option<f64>,
     /// Way beyond the start that is cut twice; default: a quarter of the cutter's diameter, 2 at most.
     #[serde(default)]
     pub overlap: Option<f64>,

@@ -6,7 +6,7 @@ use super::DrillOperation;
 use crate::base::Result;
 use crate::drilling::{BoundarySurface, PartFace, PartMesh, Passage, PreHole, Side};
 use crate::geom::{Aabb, EdgeProfile, Mesh, Rigid, Solid};
-use crate::operations::{Drilled, PlacedPlane, Setting};
+use crate::operations::{Drilled, MadeHole, PlacedPlane, Setting};
 
 /// A body that is drilled, in part coordinates, and the way from the work offset to it.
 pub(super) struct DrilledBody<'a> {
@@ -14,6 +14,8 @@ pub(super) struct DrilledBody<'a> {
     to_part: Rigid,
     kind: Kind<'a>,
     drilled: &'a [Drilled],
+    /// Holes that operations before leave.
+    made: &'a [MadeHole],
     /// Planes that have been milled before; on a stock that is a mesh they are not looked at.
     faced: &'a [PlacedPlane],
 }
@@ -54,7 +56,8 @@ impl<'a> DrilledBody<'a> {
             }
         };
         let faced = if drill.body.is_none() { setting.faced } else { &[] };
-        Ok(DrilledBody { to_part, kind, drilled, faced })
+        let made = if drill.body.is_none() { setting.made } else { &[] };
+        Ok(DrilledBody { to_part, kind, drilled, made, faced })
     }
 
     /// Surfaces that an edge meets at a place of the work offset; Z counts from `at.z`.
@@ -139,18 +142,19 @@ impl<'a> DrilledBody<'a> {
         Ok((surfaces, [top.is_some(), bottom.is_some()]))
     }
 
-    /// The hole of the raw stock that the drill opens out, if its axis is the drill's direction and it lies within the
-    /// drill.
+    /// The hole that the drill opens out, of the raw stock or made before, if its axis is the drill's direction and it lies within
+    /// the drill; of several the widest. Of holes that were made those that go through: the bottom of others has the form of a tool.
     fn pre_hole(&self, radius: f64, at: DVec3, surfaces: [BoundarySurface; 2]) -> Option<PreHole> {
         let to_work = self.to_part.inverse();
-        self.drilled.iter().find_map(|hole| {
-            let [a, b] = [hole.base, hole.base + DVec3::Z * hole.height].map(|p| to_work.point(p) - at);
+        let within = |ends: [DVec3; 2], diameter: f64| {
+            let [a, b] = ends.map(|p| to_work.point(p) - at);
             let across = a.truncate();
-            let parallel = (b - a).truncate().length() < 1e-9 * hole.height;
-            let inside = across.length() + hole.diameter / 2.0 <= radius && hole.diameter / 2.0 < radius;
-            if !(parallel && inside) {
-                return None;
-            }
+            let parallel = (b - a).truncate().length() < 1e-9 * (b - a).length();
+            let inside = across.length() + diameter / 2.0 <= radius && diameter / 2.0 < radius;
+            (parallel && inside).then_some((a, b, across))
+        };
+        let raw = self.drilled.iter().filter_map(|hole| {
+            let (a, b, across) = within([hole.base, hole.base + DVec3::Z * hole.height], hole.diameter)?;
             let (low, high) = if a.z < b.z { (a.z, b.z) } else { (b.z, a.z) };
             let [entry, exit] = surfaces.map(|s| s.height(0.0));
             // It counts where it is open to the drill's side.
@@ -162,7 +166,13 @@ impl<'a> DrilledBody<'a> {
                 return Some(PreHole::through(hole.diameter).moved(place));
             }
             PreHole::flat(hole.diameter, low).ok().map(|h| h.moved(place))
-        })
+        });
+        let made = self.made.iter().filter_map(|hole| {
+            let (ends, diameter) = hole.ends_through()?;
+            let (.., across) = within(ends, diameter)?;
+            Some(PreHole::through(diameter).moved(across.to_array()))
+        });
+        raw.chain(made).max_by(|a, b| a.diameter.total_cmp(&b.diameter))
     }
 }
 

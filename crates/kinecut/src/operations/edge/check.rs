@@ -221,6 +221,10 @@ fn edge<'a>(t: &EdgeKeys<'a>, around: &Around<'a>) -> Result<NamedOutline<'a>> {
         let finding = Finding::error(Code::JOB_SHAPE, "the operation that `of` names works in another plane");
         return Err(finding.help("give both the same plane").key("of").into());
     }
+    if matches!(of.side, ContourSide::Left | ContourSide::Right) {
+        let finding = Finding::error(Code::JOB_SHAPE, "the contour that `of` names runs along an open line");
+        return Err(finding.help("give a closed outline").key("of").into());
+    }
     if edge.side == ContourSide::On {
         let finding =
             Finding::error(Code::JOB_SHAPE, "the contour that `of` names runs on its line and has no side");

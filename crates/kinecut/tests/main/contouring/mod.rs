@@ -1,6 +1,7 @@
 //! Contours as planned: the path against dense points, its heights, its tabs, its leads, its feeds; turned and mirrored.
 
 mod chamfer;
+mod lines;
 mod pieces;
 mod tabs;
 mod wear;

@@ -181,3 +181,32 @@ fn tabs_that_run_into_one_another_are_one() {
     assert!((lowest(&plan, |_| true) - -8.0).abs() < 1e-9);
     assert!(plan.findings[0].message.contains("hold all of it"), "{:?}", plan.findings);
 }
+
+#[test]
+fn tabs_go_through_all_loops_beside_one_another() {
+    let plate = rectangle(90.0, 60.0);
+    let tabs =
+        Tabs { count: 4, width: 5.0, height: 1.5, shape: TabShape::Flat, finish: true, places: vec![] };
+    let spec = ContourSpec { loops_beside: Some((3, 4.0)), tabs: Some(tabs), ..spec(plate.clone()) };
+    let plan = plan_contour(&spec).unwrap();
+    sound(&spec, &plan);
+    // The farthest from the wall first.
+    let away: Vec<f64> = plan.loops.iter().map(|l| signed(&plate, l.edges[0].at(0.5))).collect();
+    assert!(away.iter().zip([11.0, 7.0, 3.0]).all(|(a, b)| (a - b).abs() < 1e-9), "{away:?}");
+    assert_eq!(plan.loops.iter().map(|l| l.farther).collect::<Vec<_>>(), [8.0, 4.0, 0.0]);
+    // Nothing below the top of a tab comes within half its width of the line straight out from its middle.
+    for tab in &plan.loops[2].tabs {
+        let foot =
+            plate.edges().iter().map(|e| (e, e.nearest(tab.at))).min_by(|a, b| a.1.1.total_cmp(&b.1.1));
+        let out = (tab.at - foot.map(|(e, (s, _))| e.at(s)).unwrap()).try_normalize().unwrap();
+        for m in plan.moves.iter() {
+            for i in 0..=40 {
+                let p = m.curve.at(m.curve.length() * f64::from(i) / 40.0).p;
+                let along = (p.truncate() - tab.at).dot(out);
+                let beside = (p.truncate() - tab.at).perp_dot(out).abs();
+                let is_near = (-0.1..8.1).contains(&along) && beside < 2.5 + 3.0 - 1e-6;
+                assert!(!is_near || p.z >= spec.bottom() + 1.5 - 1e-9, "{p} {tab:?}");
+            }
+        }
+    }
+}

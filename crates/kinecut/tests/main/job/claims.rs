@@ -109,3 +109,40 @@ fn a_bar_that_was_milled_flat_is_entered_at_its_flat() {
     });
     assert_eq!(found, given);
 }
+
+/// The programs of a job in which a drill of 5 mm goes through before one of 8, from above or, in a second setup, from below.
+fn opened(more: &str, turned: bool) -> Outcome {
+    let small = DRILL.replace("tool = 2", "tool = 3");
+    let tool = "[[tool]]\nnumber = 3\ntype = \"drill\"\ndiameter = 5\nflute_length = 60\n[[setup]]";
+    let (setup, at) = match turned {
+        true => (
+            "[[setup]]\noffset = \"G55\"\nsafe_height = 40\nzero = [0, 0, -20]\norient = { x = [1, 0, 0], z = [0, 0, -1] }\n",
+            "[[10, -5]]",
+        ),
+        false => ("", "[[10, 5]]"),
+    };
+    let text = job(BOX, &format!("{small}points = [[10, 5]]\n{setup}{DRILL}points = {at}\n{more}"));
+    let text = text.replacen("[[setup]]", tool, 1);
+    run("job.toml", &text, &MemoryLoader::default(), &Silent).unwrap_or_else(|e| panic!("{e}"))
+}
+
+#[test]
+fn a_drill_opens_out_a_hole_that_was_drilled_from_either_side() {
+    for turned in [false, true] {
+        let lines = |more: &str| {
+            let outcome = opened(more, turned);
+            // Of the narrower hole nothing is left to be measured; no point meets stock outside of its zones.
+            let zones = outcome.verdict.found.iter().filter(|f| f.code.to_string() == "KC0905").count();
+            assert_eq!(zones, 0, "{:?}", outcome.verdict.found);
+            let text = &outcome.setups[usize::from(turned)].posted.text;
+            let lines: Vec<String> = text.lines().map(str::to_owned).collect();
+            let first = lines.iter().position(|l| l.contains("T2")).expect("the drill");
+            lines[first..].to_vec()
+        };
+        let (found, given) = (lines(""), lines("pre_hole = { diameter = 5 }\n"));
+        assert_eq!(found, given, "{turned}");
+        // Of a hole into the solid the point is what comes in first.
+        let solid = lines("entry = { surface = \"plane\" }\nexit = { surface = \"plane\" }\nlength = 20\n");
+        assert_ne!(found, solid, "{turned}");
+    }
+}

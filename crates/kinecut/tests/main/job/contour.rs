@@ -267,3 +267,124 @@ fn the_example_is_safe_and_leaves_its_tabs() {
     let roots: std::collections::BTreeSet<u32> = triangles.iter().map(|t| root(&mut body, t[0])).collect();
     assert_eq!(roots.len(), 1);
 }
+
+#[test]
+fn open_lines_are_cut_on_every_control() {
+    let bent = "polyline = [[-80, -20], [20, -20, 0.2], [40, 10], [40, 50]]\ndepth = 8\n";
+    for control in ["sinumerik-840d", "heidenhain", "linuxcnc", "fanuc", "grbl"] {
+        for side in ["left", "right"] {
+            let finish = "finish = { allowance = 0.2 }\n";
+            let outcome = cut(control, &format!("side = \"{side}\"\n{bent}{finish}"));
+            assert!(outcome.verdict.is_safe(), "{control}: {:?}", outcome.verdict.found);
+            // On the left the arc and the lines beside it meet in inside corners.
+            let corners = outcome.verdict.found.iter().filter(|f| f.code == Code::CORNERS_STAY).count();
+            assert_eq!(corners, usize::from(side == "left"), "{control}");
+            assert_eq!(outcome.verdict.found.len(), corners, "{control}: {:?}", outcome.verdict.found);
+            // Beside the stock it comes straight down: no move goes down along the line.
+            let program = &outcome.setups[0].posted.text;
+            let mut moves = program.lines().filter(|l| !l.contains("BLK FORM"));
+            assert!(moves.all(|l| !(l.contains('X') && l.contains(" Z-"))), "{control}: {program}");
+            let wall = &outcome.deviation.bores[0];
+            assert!(wall.ends > 1500 && wall.worst() < 1e-3, "{control}: {wall:?}");
+            assert!(
+                wall.floor.is_some_and(|f| f[0].abs() < 1e-3 && f[1].abs() < 1e-3),
+                "{control}: {wall:?}"
+            );
+        }
+    }
+    let worn = "side = \"left\"\nfinish = { allowance = 0.2, wear_offset = \"D2\" }\n";
+    let outcome = cut("sinumerik-840d", &format!("{worn}{bent}"));
+    assert!(outcome.verdict.is_safe(), "{:?}", outcome.verdict.found);
+    let on = cut("fanuc", &format!("side = \"on\"\nentry = {{ ramp = 4 }}\n{bent}"));
+    assert!(on.verdict.is_safe(), "{:?} {:?}", on.verdict.outcome, on.verdict.found);
+    let arc = 2.0_f64;
+    assert!(removed(&on) > arc * 8.0 * 10.0 * 60.0);
+}
+
+#[test]
+fn a_line_within_the_stock_is_entered_by_a_ramp() {
+    let inner = "polyline = [[-40, -20], [20, -20], [20, 10]]\nside = \"left\"\ndepth = 8\nextend = 0\n";
+    let outcome = cut("linuxcnc", inner);
+    assert!(outcome.verdict.is_safe(), "{:?}", outcome.verdict.found);
+    assert!(outcome.deviation.bores[0].worst() < 1e-3);
+    // 3 degrees, and none of it straight down into the stock.
+    let program = &outcome.setups[0].posted.text;
+    assert!(program.contains("Z"), "{program}");
+}
+
+#[test]
+fn lines_of_drawings_keep_their_direction() {
+    // The second line is drawn against the first; a closed circle beside them.
+    let entity = |kind: &str, rest: &str| format!("0\n{kind}\n8\nedge\n{rest}");
+    let dxf = [
+        "0\nSECTION\n2\nENTITIES\n".to_owned(),
+        entity("LINE", "10\n-90\n20\n-20\n11\n20\n21\n-20\n"),
+        entity("LINE", "10\n20\n20\n60\n11\n20\n21\n-20\n"),
+        entity("CIRCLE", "10\n-40\n20\n20\n40\n8\n"),
+        "0\nENDSEC\n0\nEOF\n".to_owned(),
+    ]
+    .concat();
+    let loader = MemoryLoader::default().with("part.dxf", dxf.into_bytes());
+    let of = |side: &str| {
+        job("fanuc", &format!("outline = \"part.dxf\"\nunit = \"mm\"\nside = \"{side}\"\ndepth = 8\n"))
+    };
+    let outcome = done(&of("left"), &loader);
+    assert!(outcome.verdict.is_safe(), "{:?}", outcome.verdict.found);
+    // Left of the first line is above it: the corner there is an inside one.
+    assert!(outcome.verdict.found.iter().any(|f| f.code == Code::CORNERS_STAY));
+    let right = done(&of("right"), &loader);
+    assert!(right.verdict.is_safe() && right.verdict.found.is_empty(), "{:?}", right.verdict.found);
+    let outside = run("job.toml", &of("outside"), &loader, &Silent).unwrap_err();
+    assert!(outside.0.help.contains("side = \"left\""), "{outside}");
+}
+
+#[test]
+fn wrong_lines_are_refused_with_their_key() {
+    for (operation, key) in [
+        ("side = \"left\"\ncircle = { diameter = 40 }\ndepth = 5\n", "side"),
+        ("polyline = [[0, 0], [40, 0]]\ndepth = 5\n", "side"),
+        ("side = \"left\"\npolyline = [[0, 0]]\ndepth = 5\n", "polyline"),
+        ("side = \"left\"\npolyline = [[0, 0], [40, 0], [40]]\ndepth = 5\n", "polyline[2]"),
+        ("side = \"left\"\npolyline = [[0, 0], [40, 0]]\ncircle = { diameter = 4 }\ndepth = 5\n", "polyline"),
+        ("circle = { diameter = 40 }\nextend = 3\ndepth = 5\n", "extend"),
+        ("side = \"left\"\npolyline = [[0, 0], [40, 0], [40, 8], [4, 8], [4, 4]]\ndepth = 5\n", "extend"),
+        (
+            "side = \"left\"\npolyline = [[0, 0], [40, 0]]\ndepth = 5\ntabs = { width = 4, height = 1 }\n",
+            "tabs",
+        ),
+    ] {
+        let e = refused(operation);
+        assert!(e.0.key.as_deref().is_some_and(|k| k.ends_with(key)), "{operation}: {e} {:?}", e.0.key);
+        assert!(!e.0.help.is_empty(), "{e}");
+    }
+}
+
+#[test]
+fn loops_beside_one_another_take_all_of_the_stock() {
+    let plate = "rectangle = { size = [90, 40] }\ndepth = 8\nstepover = 7\n";
+    let outcome = cut("fanuc", plate);
+    assert!(outcome.verdict.is_safe() && outcome.verdict.found.is_empty(), "{:?}", outcome.verdict.found);
+    assert!((removed(&outcome) / (8.0 * (160.0 * 100.0 - 90.0 * 40.0)) - 1.0).abs() < 1e-3);
+    let engaged = cut("fanuc", &format!("{plate}passes = 2\nfinish = {{ allowance = 0.3 }}\n"));
+    assert!(engaged.verdict.is_safe(), "{:?}", engaged.verdict.found);
+    let ring = |d: f64| (90.0 + 40.0) * 2.0 * d + std::f64::consts::PI * d * d;
+    // As wide as the cutter, the step and what finishing takes; and the leads. The walls lie between lines of the stock, which are
+    // half a millimetre apart.
+    let groove = 8.0 * ring(17.3);
+    let more = removed(&engaged) - groove;
+    let between = 0.25 * 8.0 * 2.0 * (124.6 + 74.6);
+    assert!(more > -between && more < between + 8.0 * 30.0, "{more}");
+    let left = cut("fanuc", "polyline = [[-80, -20], [80, -20]]\nside = \"left\"\ndepth = 8\nstepover = 8\n");
+    assert!(left.verdict.is_safe(), "{:?}", left.verdict.found);
+    assert!((removed(&left) / (8.0 * 160.0 * 70.0) - 1.0).abs() < 1e-3, "{}", removed(&left));
+    for (operation, key) in [
+        ("rectangle = { size = [90, 40] }\ndepth = 8\npasses = 3\n", "passes"),
+        ("rectangle = { size = [90, 40] }\ndepth = 8\nside = \"inside\"\nstepover = 3\n", "passes"),
+        ("rectangle = { size = [90, 40] }\ndepth = 8\npasses = 3\nstepover = 11\n", "stepover"),
+        ("rectangle = { size = [90, 40] }\ndepth = 8\npasses = 0\nstepover = 5\n", "passes"),
+        ("rectangle = { size = [90, 40] }\ndepth = 8\nstepover = 0.001\n", "stepover"),
+    ] {
+        let e = refused(operation);
+        assert!(e.0.key.as_deref().is_some_and(|k| k.ends_with(key)), "{operation}: {e}");
+    }
+}

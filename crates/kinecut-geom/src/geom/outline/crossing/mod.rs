@@ -26,18 +26,20 @@ pub struct EdgeCrossing {
 /// First place at which one closed loop of edges crosses, touches or overlaps itself; points within `tolerance` [mm] of
 /// an edge touch it.
 pub fn loop_crossing(edges: &[OutlineEdge], tolerance: f64) -> Option<EdgeCrossing> {
-    first_crossing(edges, &[OutlineLoop { edges: 0..edges.len(), outer: true }], tolerance)
+    first_crossing(edges, &[OutlineLoop { edges: 0..edges.len(), outer: true }], false, tolerance)
 }
 
 /// The crossing with the lowest edge numbers among those that the sweep meets first, if the loops cross, touch or
-/// overlap themselves or one another; points within `tolerance` [mm] of an edge touch it.
+/// overlap themselves or one another; points within `tolerance` [mm] of an edge touch it. `of_lines`: the loops are open lines,
+/// whose last edge does not meet the first.
 pub(super) fn first_crossing(
     edges: &[OutlineEdge],
     loops: &[OutlineLoop],
+    of_lines: bool,
     tolerance: f64,
 ) -> Option<EdgeCrossing> {
     let spans = sweep_spans(edges, tolerance);
-    let next = successors(edges.len(), loops);
+    let next = successors(edges.len(), loops, of_lines);
     let mut order: Vec<usize> = (0..edges.len()).collect();
     order.sort_by(|&a, &b| spans[a].along[0].total_cmp(&spans[b].along[0]).then(a.cmp(&b)));
     let mut open: Vec<usize> = Vec::new();
@@ -89,11 +91,11 @@ fn sweep_spans(edges: &[OutlineEdge], tolerance: f64) -> Vec<EdgeExtent> {
     edges.iter().map(span).collect()
 }
 
-/// The edge that follows each in its loop.
-fn successors(count: usize, loops: &[OutlineLoop]) -> Vec<usize> {
+/// The edge that follows each in its loop, or in its line; none follows the last one of a line.
+fn successors(count: usize, loops: &[OutlineLoop], of_lines: bool) -> Vec<usize> {
     let mut next: Vec<usize> = (1..=count).collect();
     for one in loops.iter().filter(|l| !l.edges.is_empty()) {
-        next[one.edges.end - 1] = one.edges.start;
+        next[one.edges.end - 1] = if of_lines { usize::MAX } else { one.edges.start };
     }
     next
 }

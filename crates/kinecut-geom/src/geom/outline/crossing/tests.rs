@@ -143,7 +143,7 @@ proptest! {
         let edges: Vec<OutlineEdge> = (0..n).map(|i| OutlineEdge::bulge(p(i), p(i + 1), corners[i].2)).collect();
         prop_assume!(edges.iter().all(|e| e.length() > 0.1));
         let loops = [OutlineLoop { edges: 0..n, outer: true }];
-        let found = first_crossing(&edges, &loops, 1e-8);
+        let found = first_crossing(&edges, &loops, false, 1e-8);
         let step = edges.iter().map(|e| e.length()).fold(0.0, f64::max) / 160.0;
         let apart = brute(&edges);
         match found {
