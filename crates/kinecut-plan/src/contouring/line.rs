@@ -6,7 +6,7 @@ use glam::DVec2;
 
 use super::OutlinePiece;
 use super::check::{check, out_of_range};
-use super::corners::{remark, uncut};
+use super::corners::uncut;
 use super::lead::Lead;
 use super::pieces::{CutPiece, Open, Run, runs};
 use super::plan::{ContourPlan, Planner, RAMP_ABOVE, SWITCH};
@@ -39,7 +39,10 @@ pub(super) fn plan_lines(spec: &ContourSpec) -> Result<ContourPlan> {
     for farther in spec.farther() {
         let beside = if farther > 0.0 { Some(planner.sides(wall + allowance + farther)?) } else { None };
         for one in planner.in_order(beside.as_deref().unwrap_or(&rough)) {
-            planner.rough_line(one, (wall + allowance, farther), &heights)?;
+            match one.is_closed() {
+                true => planner.rough_around(one, (wall + allowance, farther), &heights)?,
+                false => planner.rough_line(one, (wall + allowance, farther), &heights)?,
+            }
         }
     }
     let last = match &spec.finish {
@@ -50,7 +53,10 @@ pub(super) fn plan_lines(spec: &ContourSpec) -> Result<ContourPlan> {
                 fits(&edges_of(&fine), farther, wear.largest, (a, wall))?;
             }
             for one in planner.in_order(&fine) {
-                planner.finish_line(one, &rough, wall, finish)?;
+                match one.is_closed() {
+                    true => planner.finish_around(one, &rough, wall, finish)?,
+                    false => planner.finish_line(one, &rough, wall, finish)?,
+                }
             }
             fine
         }
@@ -71,16 +77,11 @@ pub(super) fn plan_lines(spec: &ContourSpec) -> Result<ContourPlan> {
         corners.retain(|c| planner.runs_by(c.at));
     }
     planner.travel.route.retract();
-    let mut findings = planner.findings;
-    findings.extend(remark(&corners, a));
-    Ok(ContourPlan {
-        moves: planner.travel.route.moves,
-        loops: planner.loops,
-        levels: heights[1..].to_vec(),
-        uncut: corners,
-        findings,
-    })
+    Ok(planner.done(&heights, corners))
 }
+
+/// Place along a line that is rounding [mm].
+const ROUNDING: f64 = 1e-6;
 
 /// A side of a line: the path along it, as a part of the closed path around it.
 #[derive(Clone, Debug)]
@@ -93,6 +94,11 @@ impl Side {
     fn edges(&self) -> Vec<OutlineEdge> {
         let [from, to] = self.run.along;
         self.track.part(from, to)
+    }
+
+    /// Whether it is all of its path: the room behind a neck that is narrower than the cutter.
+    fn is_closed(&self) -> bool {
+        self.run.along[1] - self.run.along[0] >= self.track.length() - ROUNDING
     }
 }
 
@@ -121,12 +127,7 @@ impl Planner<'_> {
             });
             return Ok(on.collect());
         }
-        let half = |of_loop: usize| {
-            let length = 0.5 * loop_length(outline, of_loop);
-            let along = if spec.side == ContourSide::Left { [0.0, length] } else { [length, 2.0 * length] };
-            OutlinePiece { of_loop, along }
-        };
-        let wanted: Vec<OutlinePiece> = (0..outline.loops().len()).map(half).collect();
+        let wanted: Vec<OutlinePiece> = (0..outline.loops().len()).map(|l| self.half(l)).collect();
         let mut sides = Vec::new();
         for (track, _) in self.tracks(distance)? {
             let found = runs(&track, outline, self.near, &wanted);
@@ -144,6 +145,32 @@ impl Planner<'_> {
             .help("take a smaller cutter, or leave the line out by its layer")
             .key("tool")
             .into())
+    }
+
+    /// The wanted side of a line as a piece of the way along it and back.
+    fn half(&self, of_loop: usize) -> OutlinePiece {
+        let length = 0.5 * loop_length(&self.spec.outline, of_loop);
+        let along = match self.spec.side {
+            ContourSide::Left => [0.0, length],
+            _ => [length, 2.0 * length],
+        };
+        OutlinePiece { of_loop, along }
+    }
+
+    /// Lengths by which a line goes on before the begin of a side and beyond its end, where these are ends of the line [mm].
+    fn extended(&self, side: &Side) -> [f64; 2] {
+        let (Some(first), Some(last)) = (side.run.beside.first(), side.run.beside.last()) else {
+            return [0.0; 2];
+        };
+        let whole = self.half(first.of_loop).along;
+        let [before, beyond] = self.spec.extended(first.of_loop);
+        // The travel has the material that stays on its right, as the way along a line and back has.
+        let (begin, end) = match self.spec.keeps_right() {
+            true => (first.along[0] - whole[0], whole[1] - last.along[1]),
+            false => (whole[1] - first.along[1], last.along[0] - whole[0]),
+        };
+        let of = |gap: f64, length: f64| if gap.abs() <= ROUNDING { length } else { 0.0 };
+        [of(begin, before), of(end, beyond)]
     }
 
     /// Sides in the order of cutting: each time the one whose beginning is nearest.
@@ -218,6 +245,48 @@ impl Planner<'_> {
         Ok(())
     }
 
+    /// The last loop as the closed path beside a line.
+    fn kept_around(&mut self, side: &Side, first_move: usize, farther: f64) {
+        if let Some(last) = self.loops.last_mut() {
+            last.farther = farther;
+            last.piece = Some(CutPiece { first_move, beside: side.run.beside.clone(), closed: true });
+        }
+    }
+
+    /// Roughs the room behind a neck as a loop.
+    fn rough_around(&mut self, side: &Side, (wall, farther): (f64, f64), heights: &[f64]) -> Result<()> {
+        let (spec, first_move) = (self.spec, self.travel.route.moves.len());
+        let start = self.beginning(&side.track, wall + farther)?;
+        if spec.ramp.is_none() && !spec.cutter.centre_cutting {
+            let (p, _) = side.track.at(start.at);
+            let what = "the cutter does not cut at its centre, and the room behind a neck is closed";
+            let finding = Finding::error(Code::ENTRY_IMPOSSIBLE, what).point([p.x, p.y, 0.0]);
+            return Err(finding
+                .help("let it come down along a ramp: entry = { ramp = 3 }")
+                .key("entry")
+                .into());
+        }
+        self.rough(&side.track, true, (start, Vec::new()), heights)?;
+        self.kept_around(side, first_move, farther);
+        Ok(())
+    }
+
+    /// Finishes the room behind a neck as a loop; `rough`: the sides that roughing has run along.
+    fn finish_around(
+        &mut self,
+        side: &Side,
+        rough: &[Side],
+        wall: f64,
+        finish: &ContourFinish,
+    ) -> Result<()> {
+        let first_move = self.travel.route.moves.len();
+        let rough: Vec<(Track, bool)> =
+            rough.iter().filter(|s| s.is_closed()).map(|s| (s.track.clone(), true)).collect();
+        self.finish(&side.track, true, &rough, wall, finish)?;
+        self.kept_around(side, first_move, 0.0);
+        Ok(())
+    }
+
     /// Down at an angle from the beginning of a stretch, to and fro, as few times as its length allows, and back to the beginning.
     fn zigzag(
         &mut self,
@@ -263,7 +332,7 @@ impl Planner<'_> {
         };
         // Roughing goes farther along than the wall is wanted: the leads begin and end where it has cut, if that is far enough.
         let [from, to] = side.run.along;
-        let [ahead, behind] = spec.extended(side.run.beside.first().map_or(0, |b| b.of_loop));
+        let [ahead, behind] = self.extended(side);
         let length = |lead: &Lead| lead.radius * lead.angle.sin() + lead.line * lead.angle.cos();
         let (first, last) = (lead(from), lead(to));
         let shorter = |length: f64, room: f64| if length < room { length } else { 0.0 };

@@ -155,15 +155,7 @@ pub fn plan_contour(spec: &ContourSpec) -> Result<ContourPlan> {
     if at.is_some() {
         planner.travel.route.retract();
     }
-    let mut findings = planner.findings;
-    findings.extend(remark(&corners, a));
-    Ok(ContourPlan {
-        moves: planner.travel.route.moves,
-        loops: planner.loops,
-        levels: heights[1..].to_vec(),
-        uncut: corners,
-        findings,
-    })
+    Ok(planner.done(&heights, corners))
 }
 
 /// A plan in the making.
@@ -183,6 +175,14 @@ impl<'a> Planner<'a> {
 }
 
 impl Planner<'_> {
+    /// The plan as it has been made; `heights` from the top down, `uncut`: the corners that stay.
+    pub(super) fn done(self, heights: &[f64], uncut: Vec<UncutCorner>) -> ContourPlan {
+        let mut findings = self.findings;
+        findings.extend(remark(&uncut, self.spec.radius()));
+        let levels = heights[1..].to_vec();
+        ContourPlan { moves: self.travel.route.moves, loops: self.loops, levels, uncut, findings }
+    }
+
     /// Whether loops of a kind are cut.
     pub(super) fn is_wanted(&self, outer: bool) -> bool {
         match self.spec.loops {
@@ -513,7 +513,7 @@ impl Planner<'_> {
     }
 
     /// Finishes a loop; `rough`: the tracks that roughing has run.
-    fn finish(
+    pub(super) fn finish(
         &mut self,
         track: &Track,
         outer: bool,

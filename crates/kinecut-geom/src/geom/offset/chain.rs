@@ -2,8 +2,10 @@
 //!
 //! A piece is followed by the one that begins nearest to its end, within the reach of what several candidates that meet in
 //! nearly one point leave; of those as near, by the one that turns most to the right, so that loops which touch stay
-//! apart. Pieces of rounding, which lead nowhere, are left out on the way. Joints that are still apart, because edges that are
+//! apart, also where they touch along a tangent. Pieces of rounding, which lead nowhere, are left out on the way. Joints that are still apart, because edges that are
 //! nearly tangent meet in no sharp point, are closed along the edges, and crumbs between them left out.
+
+use std::f64::consts::PI;
 
 use glam::DVec2;
 
@@ -123,9 +125,22 @@ impl Walk<'_> {
         };
         let apart = |i: usize| self.pieces[i].start.distance(end.end);
         let nearest = ways().map(apart).fold(f64::INFINITY, f64::min);
-        let turn = |i: usize| wrap(self.pieces[i].heading(0.0) - end.heading(1.0));
+        let turn = |i: usize| turn(end, &self.pieces[i]);
         ways().filter(|&i| apart(i) <= nearest + self.same).min_by(|&a, &b| turn(a).total_cmp(&turn(b)))
     }
+}
+
+/// The angle by which an edge turns to the left against the one before it [rad].
+fn turn(end: &OutlineEdge, start: &OutlineEdge) -> f64 {
+    /// Difference from a half turn that is rounding [rad].
+    const BACK: f64 = 1e-6;
+    let angle = wrap(start.heading(0.0) - end.heading(1.0));
+    if angle.abs() < PI - BACK {
+        return angle;
+    }
+    // A way back is on the side to which the two bend away from one another; of lines, on the right.
+    let bend = |edge: &OutlineEdge| edge.turn.map_or(0.0, |t| t.sweep.signum() / t.radius);
+    if bend(end) + bend(start) < 0.0 { PI } else { -PI }
 }
 
 /// A chain in which parts of one candidate are one edge again.

@@ -193,3 +193,45 @@ fn offsets_with_room_for_rounding_only_are_those_of_dense_points() {
         }
     }
 }
+
+/// An edge through three points: from the first by the second to the last.
+fn through(a: DVec2, m: DVec2, b: DVec2) -> OutlineEdge {
+    let aside = (b - a).perp_dot(m - a) / (b - a).length();
+    OutlineEdge::bulge(a, b, -2.0 * aside / (b - a).length())
+}
+
+/// Areas of the loops of an offset, made by the candidates of all edges; the other way has the same area in all.
+fn areas_of(outline: &Outline, distance: f64) -> Vec<f64> {
+    let areas = |made: Offset| -> Vec<f64> { made.loops.iter().map(OffsetLoop::area).collect() };
+    let direct = areas(offset_direct(outline, distance).unwrap());
+    let sums = [areas(offset(outline, distance).unwrap()), direct.clone()].map(|all| all.iter().sum::<f64>());
+    assert!((sums[0] - sums[1]).abs() < 1e-6, "{sums:?}");
+    direct
+}
+
+#[test]
+fn loops_that_touch_stay_apart() {
+    // Two chambers with a neck between arcs: 6 wide, and 3 from its middle on either side.
+    for sense in [1.0, -1.0] {
+        let p = |x: f64, y: f64| dvec2(sense * x, y);
+        let edges = vec![
+            OutlineEdge::line(p(-30.0, -15.0), p(-10.0, -15.0)),
+            through(p(-10.0, -15.0), p(0.0, -3.0), p(10.0, -15.0)),
+            OutlineEdge::line(p(10.0, -15.0), p(30.0, -15.0)),
+            OutlineEdge::line(p(30.0, -15.0), p(30.0, 15.0)),
+            OutlineEdge::line(p(30.0, 15.0), p(10.0, 15.0)),
+            through(p(10.0, 15.0), p(0.0, 3.0), p(-10.0, 15.0)),
+            OutlineEdge::line(p(-10.0, 15.0), p(-30.0, 15.0)),
+            OutlineEdge::line(p(-30.0, 15.0), p(-30.0, -15.0)),
+        ];
+        let outline = Outline::new(vec![edges], vec![]).unwrap();
+        let areas = areas_of(&outline, 3.0);
+        assert_eq!(areas.len(), 2, "{areas:?}");
+        assert!((areas[0] - areas[1]).abs() < 1e-6, "{areas:?}");
+    }
+    // Discs so far apart that the loops around them touch.
+    let disc = |x: f64| vec![OutlineEdge::arc(dvec2(x, 0.0), 5.0, 0.3, TAU)];
+    let areas = areas_of(&Outline::new(vec![disc(-8.0), disc(8.0)], vec![]).unwrap(), -3.0);
+    assert_eq!(areas.len(), 2, "{areas:?}");
+    assert!(areas.iter().all(|area| (area - 0.5 * TAU * 64.0).abs() < 1e-6), "{areas:?}");
+}

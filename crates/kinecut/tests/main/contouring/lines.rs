@@ -2,6 +2,8 @@
 
 use std::f64::consts::PI;
 
+use kinecut::contouring::PlannedLoop;
+
 use super::*;
 
 fn line(points: &[[f64; 3]]) -> Vec<OutlineEdge> {
@@ -102,7 +104,8 @@ fn a_ramp_goes_to_and_fro_and_never_steeper() {
             m.role == ToolpathRole::Entry && (m.curve.start() - m.curve.end()).truncate().length() > 1e-6
         })
         .collect();
-    assert!(!ramps.is_empty());
+    // To and fro at each of three levels, with a corner on the way.
+    assert!(ramps.len() >= 4, "{}", ramps.len());
     for m in &ramps {
         assert!((slope(m) - angle.tan()).abs() < 1e-9, "{m:?}");
     }
@@ -221,11 +224,65 @@ fn lines_and_faces_have_sides_of_their_own() {
     assert_eq!(refused(&held).0.key.as_deref(), Some("tabs"));
     // A channel that is narrower than the cutter has no path inside.
     let channel = lines(&[[0.0, 0.0, 0.0], [40.0, 0.0, 0.0], [40.0, 5.0, 0.0], [0.0, 5.0, 0.0]]);
-    let plan = plan_contour(&along(&channel, ContourSide::Left));
-    assert!(plan.is_err() || plan.is_ok_and(|p| !p.uncut.is_empty()));
+    let narrow = refused(&along(&channel, ContourSide::Left));
+    assert!(narrow.code() == Code::CUTTER_TOO_LARGE && narrow.0.key.as_deref() == Some("tool"), "{narrow}");
+    assert!(plan_contour(&along(&channel, ContourSide::Right)).is_ok());
     // A cutter that does not cut at its centre comes down only where all is clear.
     let blunt = CutterData { centre_cutting: false, ..CUTTER };
     let spec = ContourSpec { cutter: blunt, ..along(&open, ContourSide::Left) };
     assert_eq!(refused(&spec).code(), Code::ENTRY_IMPOSSIBLE);
     assert!(plan_contour(&ContourSpec { clear_ends: true, ..spec }).is_ok());
+}
+
+#[test]
+fn behind_a_neck_all_of_the_wall_is_finished() {
+    // A chamber of 24 by 20 behind a neck of 5, which a cutter of 6 does not pass.
+    let corners = [
+        [-40.0, 0.0],
+        [-2.5, 0.0],
+        [-2.5, -5.0],
+        [-12.0, -5.0],
+        [-12.0, -25.0],
+        [12.0, -25.0],
+        [12.0, -5.0],
+        [2.5, -5.0],
+        [2.5, 0.0],
+        [40.0, 0.0],
+    ];
+    let outline = lines(&corners.map(|[x, y]| [x, y, 0.0]));
+    let finish = ContourFinish { allowance: 0.3, feed: 10.0, stepdown: None, spring_passes: 0, wear: None };
+    // About the corners of the neck, the path turns by this angle on each side.
+    let about = 3.0 * (2.5_f64 / 3.0).asin();
+    for (side, sense) in [
+        (ContourSide::Left, Sense::Climb),
+        (ContourSide::Left, Sense::Conventional),
+        (ContourSide::Right, Sense::Climb),
+    ] {
+        let spec = ContourSpec {
+            sense,
+            finish: Some(finish),
+            ramp: Some(0.1),
+            extended: vec![[8.0, 8.0]],
+            ..along(&outline, side)
+        };
+        let plan = plan_contour(&spec).unwrap();
+        sound(&spec, &plan);
+        reaches(&spec, &plan);
+        let piece = |one: &PlannedLoop| one.piece.as_ref().is_some_and(|p| p.closed);
+        let finishing: Vec<&PlannedLoop> = plan.loops.iter().filter(|l| l.finishing).collect();
+        let closed: Vec<f64> = finishing.iter().filter(|l| piece(l)).map(|l| l.length()).collect();
+        let open: Vec<f64> = finishing.iter().filter(|l| !piece(l)).map(|l| l.length()).collect();
+        assert_eq!((open.len(), closed.len()), (1, usize::from(side == ContourSide::Left)));
+        if side == ContourSide::Left {
+            let around = 18.0 + 2.0 * 14.0 + 2.0 * 6.5 + 2.0 * about;
+            assert!((closed[0] - around).abs() < 1e-6, "{} {around}", closed[0]);
+            // Over the neck; shorter by the leads where the line was made longer.
+            let over = 2.0 * 37.5 + 2.0 * about;
+            assert!(open[0] < over - 1.0 && open[0] > over - 16.0, "{} {over}", open[0]);
+        }
+    }
+    let blunt = CutterData { centre_cutting: false, ..CUTTER };
+    let spec = ContourSpec { cutter: blunt, clear_ends: true, ..along(&outline, ContourSide::Left) };
+    let e = plan_contour(&spec).unwrap_err();
+    assert!(e.code() == Code::ENTRY_IMPOSSIBLE && e.0.key.as_deref() == Some("entry"), "{e}");
 }
