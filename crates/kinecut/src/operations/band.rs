@@ -320,12 +320,12 @@ impl Band {
         self.corners.iter().filter_map(|f| f.inside(p, wider)).min_by(f64::total_cmp)
     }
 
-    /// Whether a face with a normal looks away from the material that stays.
-    pub(crate) fn faces_cut(&self, p: DVec2, normal: DVec2) -> bool {
-        self.near.at(p, self.search()).is_some_and(|nearest| {
+    /// The part of a face's normal that looks away from the material that stays: 1 of a face along the wall, 0 far from it.
+    pub(crate) fn towards_cut(&self, p: DVec2, normal: DVec2) -> f64 {
+        self.near.at(p, self.search()).map_or(0.0, |nearest| {
             let edge = &self.edges[nearest.edge];
             let out = DVec2::from_angle(edge.outward(nearest.share));
-            (normal.dot(out) > 0.0) == self.keeps_face
+            if self.keeps_face { normal.dot(out) } else { -normal.dot(out) }
         })
     }
 
@@ -375,7 +375,7 @@ mod tests {
             }
             assert!(band.compared(dvec2(20.0, -sign * 0.5), 0.0) > 0.0);
             assert!(band.compared(dvec2(20.0, -sign * 6.0), 0.0).is_nan());
-            assert!(band.faces_cut(dvec2(20.0, 0.1), dvec2(0.0, -sign)));
+            assert!((band.towards_cut(dvec2(20.0, 0.1), dvec2(0.0, -sign)) - 1.0).abs() < 1e-12);
         }
     }
 
@@ -395,10 +395,9 @@ mod tests {
         }
         assert!((band.inside(dvec2(10.0, 7.0), 0.0) - 3.0).abs() < 1e-12);
         assert!(band.inside(dvec2(10.0, -7.0), 0.0) < 0.0 && band.inside(dvec2(-3.0, 2.0), 0.0) < 0.0);
-        assert!(
-            band.faces_cut(dvec2(10.0, 0.1), dvec2(0.0, 1.0))
-                && !band.faces_cut(dvec2(10.0, 0.1), dvec2(0.0, -1.0))
-        );
+        for y in [1.0, -1.0] {
+            assert!((band.towards_cut(dvec2(10.0, 0.1), dvec2(0.0, y)) - y).abs() < 1e-12);
+        }
     }
 
     #[test]

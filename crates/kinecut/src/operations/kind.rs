@@ -13,7 +13,7 @@ use super::{
     Around, CalledTool, MadeMouth, MadePlane, Milling, Pen, PlaneTable, PostedPlan, RoundHole, Setting,
 };
 use crate::base::{Finding, Result};
-use crate::cutting::StartCut;
+use crate::cutting::{MillingCut, StartCut};
 use crate::drilling::FeedChoice;
 use crate::page::Section;
 use crate::program::Setup;
@@ -108,6 +108,16 @@ pub(crate) trait Checked {
         None
     }
 
+    /// Passes along the finished wall that take off what the tool's deflection left.
+    fn spring_passes(&self) -> u32 {
+        0
+    }
+
+    /// The cut of a straight stretch of its finishing, on which the wall's place depends.
+    fn finishing(&self) -> Option<MillingCut> {
+        None
+    }
+
     /// The outline that has to lie in the stock.
     fn outline(&self) -> Option<PlannedOutline> {
         None
@@ -192,6 +202,11 @@ pub(crate) trait Plan: Sized {
     /// The walls that it wants.
     fn walls(&self) -> Vec<WantedWall> {
         Vec::new()
+    }
+
+    /// Whether it cuts along a line as it is given, and says nothing of the surfaces that it leaves.
+    fn wants_nothing(&self) -> bool {
+        false
     }
 
     /// The round holes that it leaves.

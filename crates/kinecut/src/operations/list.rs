@@ -15,6 +15,7 @@ macro_rules! kinds {
         use self::measured::{Loose, Proof, TakenOut};
         use self::wanted::{PlannedOutline, WantedPlane, WantedWall};
         use crate::base::{Finding, Result};
+        use crate::cutting::MillingCut;
         use crate::page::Section;
         use crate::program::Setup;
 
@@ -127,6 +128,16 @@ macro_rules! kinds {
                 match self { $(Operation::$kind(o) => o.not_compared(),)* }
             }
 
+            /// Passes along the finished wall that take off what the tool's deflection left.
+            pub(crate) fn spring_passes(&self) -> u32 {
+                match self { $(Operation::$kind(o) => o.spring_passes(),)* }
+            }
+
+            /// The cut of a straight stretch of its finishing, on which the wall's place depends.
+            pub(crate) fn finishing(&self) -> Option<MillingCut> {
+                match self { $(Operation::$kind(o) => o.finishing(),)* }
+            }
+
             /// The outline that has to lie in the stock.
             pub(crate) fn outline(&self) -> Option<PlannedOutline> {
                 match self { $(Operation::$kind(o) => o.outline(),)* }
@@ -200,6 +211,11 @@ macro_rules! kinds {
             /// The walls that it wants.
             pub(crate) fn walls(&self) -> Vec<WantedWall> {
                 match self { $(OperationPlan::$kind(p) => p.walls(),)* }
+            }
+
+            /// Whether it cuts along a line as it is given, and says nothing of the surfaces that it leaves.
+            pub(crate) fn wants_nothing(&self) -> bool {
+                match self { $(OperationPlan::$kind(p) => p.wants_nothing(),)* }
             }
 
             /// The round holes that it leaves.

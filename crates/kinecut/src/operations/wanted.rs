@@ -131,11 +131,16 @@ impl Wall {
         matches!(self, Wall::Band(band) if band.beside_edge(band.middle + off))
     }
 
-    /// Whether a face with a normal looks to where is cut.
-    pub(crate) fn faces_cut(&self, off: DVec2, normal: DVec2) -> bool {
+    /// The part of a face's normal that looks to where is cut: 1 of a face along the wall.
+    pub(crate) fn towards_cut(&self, off: DVec2, normal: DVec2) -> f64 {
         match self {
-            Wall::Band(band) => band.faces_cut(band.middle + off, normal),
-            _ => normal.dot(off) < 0.0,
+            Wall::Band(band) => band.towards_cut(band.middle + off, normal),
+            Wall::Round { .. } => -normal.dot(off.normalize_or_zero()),
+            Wall::Ellipse { half_axes: [a, b], turned, .. } => {
+                let [x, y] = DVec2::from_angle(-turned).rotate(off).to_array();
+                let out = DVec2::new(x / (a * a), y / (b * b)).normalize_or_zero();
+                -normal.dot(DVec2::from_angle(*turned).rotate(out))
+            }
         }
     }
 

@@ -11,6 +11,21 @@ pub(super) const EDGE: f64 = 1e-3;
 /// Cosine above which a face counts as floor or ceiling, not as wall.
 const FACES_UP: f64 = 0.7;
 
+/// Part of its normal that a face has towards a wall's cut, at the least, where it is the bottom of a groove in the wall.
+const SQUARELY: f64 = 0.9;
+
+/// What is known of an end of a line by the cut that made it.
+pub(super) trait Cuts {
+    /// Whether the wall's own operation made a cut.
+    fn own(&mut self, cut: CutId) -> bool;
+
+    /// Whether another operation wanted to cut at a point [part coordinates].
+    fn elsewhere(&self, cut: CutId, p: DVec3) -> bool;
+
+    /// The diameter of the cutter that made a cut [mm], if its operation says nothing of the surfaces that it leaves.
+    fn unwanted(&self, cut: CutId) -> Option<f64>;
+}
+
 /// The part of a wanted surface that an end is compared with.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Side {
@@ -55,14 +70,13 @@ impl Claim {
 }
 
 impl Wanted<'_> {
-    /// The claim of this bore on an end at `p` [part coordinates]. `own` tells whether its operation made a cut, `elsewhere`
-    /// whether another operation wanted to cut there.
+    /// The claim of this bore on an end at `p` [part coordinates], before which `free` of the line is empty, square to the
+    /// face [mm].
     pub(super) fn claim(
         &self,
         of: u32,
-        p: DVec3,
-        end: EndPoint,
-        (own, elsewhere): (&mut impl FnMut(CutId) -> bool, &impl Fn(CutId, DVec3) -> bool),
+        (p, end, free): (DVec3, EndPoint, f64),
+        cuts: &mut impl Cuts,
     ) -> Option<Claim> {
         let q = self.to_work.point(p);
         let off = q.truncate() - self.centre;
@@ -86,10 +100,10 @@ impl Wanted<'_> {
             && normal.z > FACES_UP
             && q.z < self.top - EDGE
             && over > least(floor)
-            && (inside || over > 0.0 || own(end.cut))
+            && (inside || over > 0.0 || cuts.own(end.cut))
         {
             let above = q.z - floor;
-            let others = above < -EDGE && elsewhere(end.cut, p);
+            let others = above < -EDGE && cuts.elsewhere(end.cut, p);
             return if others { None } else { claim(Side::Floor, above) };
         }
         if let Some(slope) = self.wall.slope()
@@ -99,7 +113,7 @@ impl Wanted<'_> {
         {
             // A face that is higher or lower makes the chamfer wider or narrower; what another operation cuts there is its own.
             let error = (q.z - self.top) * slope.lean;
-            return if elsewhere(end.cut, p) { None } else { claim(Side::Beside, error) };
+            return if cuts.elsewhere(end.cut, p) { None } else { claim(Side::Beside, error) };
         }
         let level = self.level();
         let between = q.z < self.top - EDGE && q.z > self.bottom + EDGE;
@@ -107,8 +121,27 @@ impl Wanted<'_> {
             // Material above the floor inside the bore is stock left, whatever its face looks like.
             return if between && inside { claim(Side::Within, depth) } else { None };
         }
-        let wall = inside || own(end.cut) && self.wall.faces_cut(off, normal.truncate());
+        let towards = || self.wall.towards_cut(off, normal.truncate());
+        let wall = inside
+            || cuts.own(end.cut) && towards() > 0.0
+            || self.is_groove((depth, free), end.cut, cuts, towards);
         if wall { claim(Side::Wall, depth) } else { None }
+    }
+
+    /// Whether an end beyond the wall is the bottom of a groove in it that nobody wants: what looks to the wall over an empty way,
+    /// cut by an operation that says nothing of its surfaces. What lies more than the cutter's diameter behind the wall is a
+    /// shape of its own beside it, or one that runs out of it.
+    fn is_groove(
+        &self,
+        (depth, free): (f64, f64),
+        cut: CutId,
+        cuts: &impl Cuts,
+        towards: impl Fn() -> f64,
+    ) -> bool {
+        depth < -EDGE
+            && free >= -depth
+            && cuts.unwanted(cut).is_some_and(|diameter| -depth < diameter)
+            && towards() > SQUARELY
     }
 
     /// Cosine above which a face counts as floor or ceiling: between that of the wall and that of a level face.

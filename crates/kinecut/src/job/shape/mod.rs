@@ -20,13 +20,14 @@ use super::setup_outcome::{SetupOutcome, block_of_cut};
 use super::simulate::Simulation;
 use crate::base::{Finding, Result};
 use crate::geom::{Aabb, Mesh, Rigid};
+use crate::holes::CutterData;
 use crate::operations::measured::{BoreMeasure, FaceMeasure};
-use crate::stock::{Axis, CutId, DexelGrid, EndMap, Lattice, TriDexel, unfixed};
+use crate::stock::{Axis, CutId, DexelGrid, EndMap, Interval, Lattice, TriDexel, unfixed};
 
 pub use self::design::RegionMeasure;
 pub use self::rest::{RestReach, SizeReach, ToolReach};
 
-use self::claim::Claim;
+use self::claim::{Claim, Cuts};
 use self::flat::measure_face;
 use self::wanted::{Wanted, wanted};
 use super::bins::Bins;
@@ -121,8 +122,11 @@ pub fn deviation(
         setups[setup].planned.program.origin(planned as usize).operation
     };
     let mut claims = EndMap::new(stock, Claim::NONE)?;
+    let aimless = aimless(job, setups);
     for (of, bore) in wanted.iter().enumerate() {
-        claim_ends(bore, of as u32, &wanted, stock, &operation_of, &mut claims);
+        let made =
+            Made { bore, wanted: &wanted, aimless: &aimless, operation_of: &operation_of, last: (0, false) };
+        claim_ends(bore, of as u32, stock, made, &mut claims);
     }
     let measures = measures(&wanted, stock, &claims);
     let mut tolerances: Vec<f64> = wanted.iter().map(|w| w.operation.milling().tolerance).collect();
@@ -182,28 +186,51 @@ impl Deviation {
     }
 }
 
-/// Gives the ends in the region of a bore their claim.
-fn claim_ends(
-    bore: &Wanted<'_>,
-    of: u32,
-    wanted: &[Wanted<'_>],
-    stock: &TriDexel,
-    operation_of: &(impl Fn(CutId) -> Option<u32> + Sync),
-    claims: &mut EndMap<Claim>,
-) {
-    // A place that another operation is to cut is no gouge of this one.
-    let elsewhere = |cut: CutId, p: DVec3| {
-        let other = operation_of(cut).filter(|&number| number != bore.number);
-        other.is_some_and(|number| wanted.iter().any(|w| w.number == number && w.holds(p)))
+/// The operations that cut along lines as they are given, by their numbers, with the diameters of their cutters [mm].
+fn aimless(job: &Job, setups: &[SetupOutcome]) -> Vec<(u32, f64)> {
+    let planned = setups.iter().flat_map(|s| &s.planned.operations);
+    let diameter = |number: u32| {
+        let milling = job.operation(number)?.milling();
+        Some((number, CutterData::of(&milling.tool).diameter))
     };
-    // Cuts come in runs: the operation of the last one is remembered.
-    let mut last: (CutId, bool) = (0, false);
-    let mut own = |cut: CutId| {
-        if cut != last.0 {
-            last = (cut, operation_of(cut) == Some(bore.number));
+    planned.filter(|p| p.plan.wants_nothing()).filter_map(|p| diameter(p.number)).collect()
+}
+
+/// The cuts of the simulation as one wanted wall sees them.
+struct Made<'a, F: Fn(CutId) -> Option<u32>> {
+    bore: &'a Wanted<'a>,
+    wanted: &'a [Wanted<'a>],
+    aimless: &'a [(u32, f64)],
+    operation_of: &'a F,
+    /// Cuts come in runs: the operation of the last one is remembered.
+    last: (CutId, bool),
+}
+
+impl<F: Fn(CutId) -> Option<u32>> Cuts for Made<'_, F> {
+    fn own(&mut self, cut: CutId) -> bool {
+        if cut != self.last.0 {
+            self.last = (cut, (self.operation_of)(cut) == Some(self.bore.number));
         }
-        cut != 0 && last.1
-    };
+        cut != 0 && self.last.1
+    }
+
+    fn elsewhere(&self, cut: CutId, p: DVec3) -> bool {
+        // A place that another operation is to cut is no gouge of this one.
+        let other = (self.operation_of)(cut).filter(|&number| number != self.bore.number);
+        other.is_some_and(|number| self.wanted.iter().any(|w| w.number == number && w.holds(p)))
+    }
+
+    fn unwanted(&self, cut: CutId) -> Option<f64> {
+        if self.aimless.is_empty() {
+            return None;
+        }
+        let number = (self.operation_of)(cut)?;
+        self.aimless.iter().find(|(aimless, _)| *aimless == number).map(|(_, diameter)| *diameter)
+    }
+}
+
+/// Gives the ends in the region of a bore their claim.
+fn claim_ends(bore: &Wanted<'_>, of: u32, stock: &TriDexel, mut cuts: impl Cuts, claims: &mut EndMap<Claim>) {
     let lattice = stock.lattice();
     let region = bore.region();
     let up = bore.to_work.inverse().vector(DVec3::Z);
@@ -223,16 +250,28 @@ fn claim_ends(
                 let line = stock.line(axis, a, b);
                 let first = line.partition_point(|i| unfixed(i.hi.at) < from);
                 let count = line[first..].partition_point(|i| unfixed(i.lo.at) <= to);
-                let ends = line[first..first + count].iter().flat_map(|i| [i.lo, i.hi]);
-                for (end, kept) in ends.zip(&mut claims.line_mut(axis, a, b)[2 * first..]) {
+                let ends = (first..first + count)
+                    .flat_map(|i| [(line[i].lo, before(line, i)), (line[i].hi, after(line, i))]);
+                for ((end, free), kept) in ends.zip(&mut claims.line_mut(axis, a, b)[2 * first..]) {
                     p[axis.index()] = unfixed(end.at);
-                    if let Some(claim) = bore.claim(of, p, end, (&mut own, &elsewhere)) {
+                    let square = free * end.normal.normal()[axis.index()].abs();
+                    if let Some(claim) = bore.claim(of, (p, end, square), &mut cuts) {
                         *kept = kept.or(claim);
                     }
                 }
             }
         }
     }
+}
+
+/// Length of a line that is empty before an interval [mm].
+fn before(line: &[Interval], i: usize) -> f64 {
+    if i == 0 { f64::INFINITY } else { unfixed(line[i].lo.at) - unfixed(line[i - 1].hi.at) }
+}
+
+/// The same after it.
+fn after(line: &[Interval], i: usize) -> f64 {
+    line.get(i + 1).map_or(f64::INFINITY, |next| unfixed(next.lo.at) - unfixed(line[i].hi.at))
 }
 
 /// Measures of each bore.

@@ -172,6 +172,10 @@ impl kind::Plan for PlannedContour {
         self.of.table.breakthrough
     }
 
+    fn wants_nothing(&self) -> bool {
+        self.spec.side == ContourSide::On
+    }
+
     fn walls(&self) -> Vec<WantedWall> {
         let (spec, t) = (&self.spec, &self.of.table);
         if spec.side == ContourSide::On {

@@ -46,4 +46,8 @@ impl kind::Plan for PlannedPath {
     fn leaves_axes_turned(&self) -> bool {
         self.turned.is_some()
     }
+
+    fn wants_nothing(&self) -> bool {
+        true
+    }
 }

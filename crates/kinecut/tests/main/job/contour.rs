@@ -307,9 +307,10 @@ fn a_line_within_the_stock_is_entered_by_a_ramp() {
     let outcome = cut("linuxcnc", inner);
     assert!(outcome.verdict.is_safe(), "{:?}", outcome.verdict.found);
     assert!(outcome.deviation.bores[0].worst() < 1e-3);
-    // 3 degrees, and none of it straight down into the stock.
+    // 3 degrees, and none of it straight down into the stock: each level is reached along the line, to and fro.
     let program = &outcome.setups[0].posted.text;
-    assert!(program.contains("Z"), "{program}");
+    let is_slope = |l: &&str| l.contains(" Z-") && (l.contains('X') || l.contains('Y'));
+    assert!(program.lines().filter(is_slope).count() >= 4, "{program}");
 }
 
 #[test]
@@ -360,6 +361,41 @@ fn wrong_lines_are_refused_with_their_key() {
 }
 
 #[test]
+fn a_groove_that_nobody_wants_in_a_wall_is_a_gouge_of_it() {
+    let groove = |line: &str, depth: f64| {
+        format!(
+            "[[setup.operation]]\ntype = \"contour\"\ntool = 1\nspeed = 6000\nfeed = 600\nside = \"on\"\n\
+             polyline = {line}\ndepth = {depth}\nstepdown = 5\n"
+        )
+    };
+    let bounds = |outcome: &Outcome| outcome.deviation.bores[0].wall;
+    let is_gouged = |outcome: &Outcome| outcome.verdict.found.iter().any(|f| f.code == Code::WALL_GOUGED);
+    let plate = "rectangle = { size = [90, 40] }\ndepth = 10\n";
+    let line = "side = \"left\"\npolyline = [[-90, -20], [90, -20]]\ndepth = 10\n";
+    // 0.6 mm beyond the wall, along it: the middle of the groove lies 4.4 mm before it.
+    for (wall, along) in [(plate, "[[-20, 24.4], [20, 24.4]]"), (line, "[[-20, -15.6], [20, -15.6]]")] {
+        let deep = cut("fanuc", &format!("{wall}{}", groove(along, 8.0)));
+        assert!(!deep.verdict.is_safe() && is_gouged(&deep), "{wall}: {:?}", deep.verdict.found);
+        assert!((bounds(&deep)[0] + 0.6).abs() < 1e-3, "{wall}: {:?}", bounds(&deep));
+        // The same groove before the wall is made.
+        let first = groove(along, 8.0).split_once("tool = 1\n").unwrap().1.to_owned();
+        let rest = format!(
+            "\n[[setup.operation]]\ntype = \"contour\"\ntool = 1\nspeed = 6000\nfeed = 1200\nstepdown = 5\n{wall}"
+        );
+        let before = first.replace("speed = 6000\nfeed = 600\n", "").replace("stepdown = 5\n", "");
+        let before = cut("fanuc", &format!("{before}{rest}"));
+        assert!(is_gouged(&before), "{wall}: {:?}", before.verdict.found);
+        // Short of the wall it is within what is wanted, or beside it.
+        let short = along.replace("24.4", "25.2").replace("15.6", "14.8");
+        let short = cut("fanuc", &format!("{wall}{}", groove(&short, 8.0)));
+        assert!(short.verdict.is_safe() && !is_gouged(&short), "{wall}: {:?}", short.verdict.found);
+    }
+    // One that runs out of the wall, square to it, has sides of its own; no face of it looks to the wall but its end, far behind.
+    let out = cut("fanuc", &format!("{plate}{}", groove("[[0, 0], [0, 40]]", 8.0)));
+    assert!(out.verdict.is_safe() && !is_gouged(&out), "{:?}", out.verdict.found);
+}
+
+#[test]
 fn loops_beside_one_another_take_all_of_the_stock() {
     let plate = "rectangle = { size = [90, 40] }\ndepth = 8\nstepover = 7\n";
     let outcome = cut("fanuc", plate);
@@ -386,5 +422,71 @@ fn loops_beside_one_another_take_all_of_the_stock() {
     ] {
         let e = refused(operation);
         assert!(e.0.key.as_deref().is_some_and(|k| k.ends_with(key)), "{operation}: {e}");
+    }
+}
+
+/// A plate of 60 by 40 by 20 with a square hole of 20 in its middle, as an STL in text; the hole ends 12 mm below the top.
+fn plate_with_hole() -> Vec<u8> {
+    let ring = |half: [f64; 2], z: f64| {
+        [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]]
+            .map(|s: [f64; 2]| [s[0] * half[0], s[1] * half[1], z])
+    };
+    let (outer, inner) = ([30.0, 20.0], [10.0, 10.0]);
+    let mut quads: Vec<[[f64; 3]; 4]> = Vec::new();
+    let (top, bottom, hole, floor) =
+        (ring(outer, 0.0), ring(outer, -20.0), ring(inner, 0.0), ring(inner, -12.0));
+    for i in 0..4 {
+        let j = (i + 1) % 4;
+        quads.push([bottom[i], bottom[j], top[j], top[i]]);
+        quads.push([hole[i], hole[j], floor[j], floor[i]]);
+        quads.push([top[i], top[j], hole[j], hole[i]]);
+    }
+    quads.push(floor);
+    quads.push([bottom[3], bottom[2], bottom[1], bottom[0]]);
+    let mut text = "solid plate\n".to_owned();
+    for [a, b, c, d] in quads {
+        for triangle in [[a, b, c], [a, c, d]] {
+            text += "facet normal 0 0 0\nouter loop\n";
+            for [x, y, z] in triangle {
+                text += &format!("vertex {x} {y} {z}\n");
+            }
+            text += "endloop\nendfacet\n";
+        }
+    }
+    (text + "endsolid plate\n").into_bytes()
+}
+
+#[test]
+fn a_mesh_is_cut_at_a_height_for_its_outline_and_for_what_it_encloses() {
+    let loader = MemoryLoader::default().with("plate.stl", plate_with_hole());
+    let of = |operation: &str| run("job.toml", &job("fanuc", operation), &loader, &Silent);
+    let contour = |z: f64, rest: &str| format!("outline = \"plate.stl\"\nsection = {z}\ndepth = 6\n{rest}");
+    // Above the floor of the hole the section has two loops, below it one.
+    for (z, rest, loops) in [(-5.0, "", 2), (-5.0, "loops = \"outer\"\n", 1), (-15.0, "", 1)] {
+        let outcome = of(&contour(z, rest)).unwrap_or_else(|e| panic!("{e}"));
+        assert!(outcome.verdict.is_safe(), "{z}: {:?}", outcome.verdict.found);
+        let json: serde_json::Value = serde_json::from_str(&kinecut::job::plan_json(&outcome)).unwrap();
+        assert_eq!(json["setups"][0]["contours"][0]["loops"].as_array().unwrap().len(), loops, "{z} {rest}");
+    }
+    let pocket = job("fanuc", &contour(-5.0, "")).replace("type = \"contour\"", "type = \"pocket\"");
+    let outcome = run("job.toml", &pocket, &loader, &Silent).unwrap_or_else(|e| panic!("{e}"));
+    assert!(outcome.verdict.is_safe(), "{:?}", outcome.verdict.found);
+    // 20 by 20, but for what the cutter leaves in its corners.
+    let area = 400.0 - (4.0 - std::f64::consts::PI) * 25.0;
+    assert!((removed(&outcome) / (6.0 * area) - 1.0).abs() < 0.02, "{}", removed(&outcome));
+    for (text, code) in [
+        (job("fanuc", &contour(0.5, "")), Code::OUTLINE_FILE),
+        (job("fanuc", &contour(-20.0, "")), Code::OUTLINE_FILE),
+        (pocket.replace("section = -5", "section = -15"), Code::OUTLINE_FILE),
+        (
+            job(
+                "fanuc",
+                "outline = { loops = [ { centre = [0, 0], radius = 40 } ] }\nsection = -5\ndepth = 6\n",
+            ),
+            Code::JOB_SHAPE,
+        ),
+    ] {
+        let e = run("job.toml", &text, &loader, &Silent).unwrap_err();
+        assert!(e.code() == code && !e.0.help.is_empty(), "{e}");
     }
 }
