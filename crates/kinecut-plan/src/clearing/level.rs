@@ -5,6 +5,7 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use glam::DVec2;
 
+use super::entry::{Entering, NoWayIn, WayIn};
 use super::link::{Pose, ways};
 use super::region::CentreRegion;
 use super::rest::Rest;
@@ -32,6 +33,8 @@ const WALL: f64 = 0.02;
 const SLIVER_LOOKS: usize = 4;
 /// Distance between the middle of the cutter and a sliver at the end of the way over it, in radii of the cutter.
 const OVER: f64 = 0.4;
+/// Distance between looks for a free place in a part, in radii of the cutter.
+const FREE_STEP: f64 = 0.25;
 /// Area that may be left at one place [mm2].
 const LEFT: f64 = 0.25;
 /// Share of the area that may be left in all.
@@ -50,6 +53,10 @@ pub(super) enum Element {
     Back(Vec<OutlineEdge>),
     /// Down along a way, to and fro, with all of the cutter in the stock, and once along it on the floor.
     Ramp(Vec<OutlineEdge>),
+    /// The same as an entry: the last way along the floor runs from the first edge to the last.
+    RampIn(Vec<OutlineEdge>),
+    /// Straight down into the stock, and once along a way on the floor, which may have no edges.
+    PlungeIn(DVec2, Vec<OutlineEdge>),
     /// A pass.
     Pass(Pass),
 }
@@ -72,6 +79,8 @@ pub(super) struct Cleared {
     pub(super) largest_left: Option<(f64, DVec2)>,
     /// A point of stock between passes, beyond the reach of the lap along the wall, over which no way goes.
     pub(super) standing: Option<DVec2>,
+    /// A part that cannot be entered: nothing after it is cleared.
+    pub(super) no_way_in: Option<NoWayIn>,
 }
 
 impl Cleared {
@@ -96,11 +105,19 @@ impl Cleared {
         };
         self.largest_left = self.largest_left.map(|(area, p)| (area, flip(p)));
         self.standing = self.standing.map(flip);
+        self.no_way_in = self.no_way_in.map(|part| NoWayIn { at: flip(part.at), ..part });
         for element in &mut self.elements {
             match element {
                 Element::Helix { middle, from, .. } => (*middle, *from) = (flip(*middle), -*from),
                 Element::Down(at) => *at = flip(*at),
-                Element::Link(edges) | Element::Back(edges) | Element::Ramp(edges) => flipped(edges),
+                Element::Link(edges)
+                | Element::Back(edges)
+                | Element::Ramp(edges)
+                | Element::RampIn(edges) => flipped(edges),
+                Element::PlungeIn(at, edges) => {
+                    *at = flip(*at);
+                    flipped(edges);
+                }
                 Element::Pass(pass) => flipped(&mut pass.edges),
             }
         }
@@ -117,8 +134,10 @@ pub(super) struct Clearer<'a> {
     pub(super) wanted: f64,
     /// Round holes that are open already, swept before: centre and radius [mm].
     pub(super) holes: &'a [(DVec2, f64)],
-    /// Radius of the helix that enters [mm].
-    pub(super) helix: f64,
+    /// The ways by which the cutter may enter.
+    pub(super) entering: Entering,
+    /// Whether most of the region may be free already, off its wall too.
+    pub(super) is_rest: bool,
     /// Distance of the lines and arcs from the way that was walked [mm].
     pub(super) tolerance: f64,
 }
@@ -157,24 +176,26 @@ impl Clearer<'_> {
             region.loops.iter().enumerate().filter_map(|(i, l)| Some((i, l.around.as_ref()?)))
         {
             // An open side, or a place that is free already, needs no entry.
-            if starts.of(one).iter().any(|p| !self.touches(p.at, p.heading, &mut work)) {
+            if starts.of(one).iter().any(|p| !self.touches(p.at, p.heading, &mut work))
+                || self.is_rest && self.has_free_place(around, &mut work)
+            {
                 continue;
             }
-            if let Some((start, way)) = self.drilled(around) {
+            if let Some((start, begin)) = self.drilled(around) {
                 cleared.elements.push(Element::Down(start));
-                cleared.elements.push(Element::Link(vec![OutlineEdge::line(start, way.at)]));
-                let way = self.walk(way, &mut most, &mut work);
-                here = self.keep(&way, &mut cleared).or(here);
+                cleared.elements.push(Element::Link(vec![OutlineEdge::line(start, begin.at)]));
+                let way = self.walk(begin, &mut most, &mut work);
+                here = self.keep(&way, &mut cleared).or(Some(begin));
                 continue;
             }
-            let (middle, room) = CentreRegion::widest(around);
-            let radius = self.helix.min(room);
-            let from = 0.0;
-            self.clearing.sweep(middle, middle, radius + self.radius);
-            cleared.elements.push(Element::Helix { middle, radius, from });
-            let start = Pose { at: middle + radius * DVec2::from_angle(from), heading: from + FRAC_PI_2 };
-            let way = self.walk(start, &mut most, &mut work);
-            here = self.keep(&way, &mut cleared).or(here);
+            let way = match self.entering.way_in(around, |p| region.holds(p), self.tolerance) {
+                Ok(way) => way,
+                Err(part) => {
+                    cleared.no_way_in = Some(part);
+                    return cleared;
+                }
+            };
+            self.enter(way, &mut cleared, &mut here, &mut most, &mut work);
         }
         starts.update(None, |p| self.touches(p.at, p.heading, &mut work));
         let mut rest = None;
@@ -231,6 +252,55 @@ impl Clearer<'_> {
         let up_to_wall = self.clearing.remains(|p| self.region.room_within(p, self.radius) > border);
         cleared.left = up_to_wall.len() as f64 * self.clearing.cell_width().powi(2);
         cleared
+    }
+
+    /// Whether the cutter finds a place in a part at which it does not cut.
+    fn has_free_place(&self, of: &Outline, work: &mut Scratch) -> bool {
+        let [low, high] = of.bounds();
+        let step = FREE_STEP * self.radius;
+        let count = |length: f64| (length / step).ceil() as usize;
+        let at = |i: usize, j: usize| low + step * DVec2::new(i as f64, j as f64);
+        let mut places =
+            (0..=count(high.x - low.x)).flat_map(|i| (0..=count(high.y - low.y)).map(move |j| at(i, j)));
+        places.any(|p| self.region.holds(p) && of.contains(p) && !self.touches(p, 0.0, work))
+    }
+
+    /// Goes down into a part, and along the first pass there.
+    fn enter(
+        &mut self,
+        way: WayIn,
+        cleared: &mut Cleared,
+        here: &mut Option<Pose>,
+        most: &mut usize,
+        work: &mut Scratch,
+    ) {
+        for edge in way.edges() {
+            let count =
+                edge.turn.map_or(1.0, |_| (edge.length() / (LINK_STEP * self.radius)).ceil().max(1.0));
+            let at = |k: usize| edge.at(k as f64 / count);
+            for k in 0..count as usize {
+                self.clearing.sweep(at(k), at(k + 1), self.radius);
+            }
+        }
+        let mut start = way.pass_begins();
+        match way {
+            WayIn::Helix { middle, radius } => {
+                let from = 0.0;
+                self.clearing.sweep(middle, middle, radius + self.radius);
+                let at = middle + radius * DVec2::from_angle(from);
+                start = Some(Pose { at, heading: from + FRAC_PI_2 });
+                cleared.elements.push(Element::Helix { middle, radius, from });
+            }
+            WayIn::Ramp(edges) => cleared.elements.push(Element::RampIn(edges)),
+            WayIn::Plunge(at, edges) => {
+                self.clearing.sweep(at, at, self.radius);
+                cleared.elements.push(Element::PlungeIn(at, edges));
+                start = start.or(Some(Pose { at, heading: 0.0 }));
+            }
+        }
+        let Some(start) = start else { return };
+        let way = self.walk(start, most, work);
+        *here = self.keep(&way, cleared).or(Some(start));
     }
 
     /// Sweeps what stands between passes, too little for a pass of its own: straight over it. What lies so near to the wall that

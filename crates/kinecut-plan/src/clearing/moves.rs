@@ -15,7 +15,9 @@ use crate::holes::{ToolpathPace, ToolpathRole};
 /// Least length of an arc on which a link rises or falls, in heights.
 const SLOPE: f64 = 3.0;
 /// Height over the material at which feeds down begin [mm].
-const ABOVE: f64 = 0.5;
+pub(super) const ABOVE: f64 = 0.5;
+/// Feed straight down into the stock, in that of passes.
+const PLUNGE: f64 = 0.3;
 
 /// The moves of one level.
 pub(super) fn run(
@@ -45,7 +47,33 @@ pub(super) fn run(
             }
             Element::Link(edges) => link(spec, route, edges, floor)?,
             Element::Back(edges) => route.edges(ToolpathRole::Link, spec.link_feed, edges)?,
-            Element::Ramp(edges) => ramp(spec, route, edges, [above, floor])?,
+            Element::Ramp(edges) => {
+                let back: Vec<OutlineEdge> = edges.iter().rev().map(OutlineEdge::reversed).collect();
+                let here = route.place().map(DVec3::truncate);
+                let far = |way: &[OutlineEdge]| {
+                    here.zip(way.first()).map_or(0.0, |(here, edge)| here.distance(edge.start))
+                };
+                let is_back = far(&back) < far(edges);
+                let ways = if is_back { [&back[..], edges] } else { [edges, &back[..]] };
+                ramp(spec, route, ways, [above, floor], (ToolpathRole::Rough, spec.feed))?;
+            }
+            Element::RampIn(edges) => {
+                let back: Vec<OutlineEdge> = edges.iter().rev().map(OutlineEdge::reversed).collect();
+                // The last way, along the floor, is the one from its first edge to its last.
+                let is_even = legs(spec, edges, begin - floor)? % 2 == 0;
+                let ways = if is_even { [edges, &back[..]] } else { [&back[..], edges] };
+                // From above in any case: the number of ways hangs on the height.
+                come_down(spec, route, ways[0], above);
+                ramp(spec, route, ways, [above, floor], (ToolpathRole::Entry, spec.plunge_feed))?;
+            }
+            Element::PlungeIn(at, edges) => {
+                let into = ToolpathPace::Feed(spec.plunge_feed.min(PLUNGE * spec.feed));
+                route.over(*at);
+                let open = if above < spec.top { ToolpathPace::Rapid } else { into };
+                route.vertically(ToolpathRole::Entry, open, begin);
+                route.vertically(ToolpathRole::Entry, into, floor);
+                route.edges(ToolpathRole::Entry, spec.plunge_feed, edges)?;
+            }
             Element::Pass(pass) => route.edges(ToolpathRole::Rough, spec.feed, &pass.edges)?,
         }
     }
@@ -100,32 +128,47 @@ fn helix(
     route.edges(ToolpathRole::Entry, spec.plunge_feed, &[half(0.0), half(1.0)])
 }
 
-/// Down along a way, to and fro from the end that is nearer, and once along it on the floor.
-fn ramp(spec: &PocketSpec, route: &mut Route, edges: &[OutlineEdge], [above, floor]: [f64; 2]) -> Result<()> {
-    let back: Vec<OutlineEdge> = edges.iter().rev().map(OutlineEdge::reversed).collect();
-    let ends = [edges, &back].map(|way| way.first().map_or(DVec2::ZERO, |e| e.start));
+/// From above to where a way begins, a little over the material.
+fn come_down(spec: &PocketSpec, route: &mut Route, way: &[OutlineEdge], above: f64) {
+    route.over(way.first().map_or(DVec2::ZERO, |e| e.start));
+    // The cut of a level above is open.
+    let open = if above < spec.top { ToolpathPace::Rapid } else { ToolpathPace::Feed(spec.plunge_feed) };
+    route.vertically(ToolpathRole::Entry, open, (above + ABOVE).min(spec.approach_z));
+}
+
+/// Number of times that a ramp goes along a way to fall by a height [mm].
+fn legs(spec: &PocketSpec, edges: &[OutlineEdge], height: f64) -> Result<usize> {
+    let length: f64 = edges.iter().map(OutlineEdge::length).sum();
+    let legs = (height / (length * spec.ramp.tan()) - 1e-9).ceil().max(1.0);
+    CountBound { what: "legs of the ramp", most: 1e4, bytes: 1000, ..CELLS }.check(legs)?;
+    Ok(legs as usize)
+}
+
+/// Down along a way and back in turn, the first of two ways first, and once along it on the floor with a role and a feed.
+fn ramp(
+    spec: &PocketSpec,
+    route: &mut Route,
+    ways: [&[OutlineEdge]; 2],
+    [above, floor]: [f64; 2],
+    (role, feed): (ToolpathRole, f64),
+) -> Result<()> {
     let here = route.place().map(DVec3::truncate);
-    let from_end = here.is_some_and(|at| at.distance(ends[1]) < at.distance(ends[0]));
-    let ways = if from_end { [&back[..], edges] } else { [edges, &back[..]] };
-    let start = if from_end { ends[1] } else { ends[0] };
+    let start = ways[0].first().map_or(DVec2::ZERO, |e| e.start);
     let plunge = ToolpathPace::Feed(spec.plunge_feed);
     if here.is_none_or(|at| at.distance(start) > 1e-9) || route.height() > spec.approach_z + 1e-9 {
-        route.over(start);
-        let open = if above < spec.top { ToolpathPace::Rapid } else { plunge };
-        route.vertically(ToolpathRole::Entry, open, (above + ABOVE).min(spec.approach_z));
+        come_down(spec, route, ways[0], above);
     }
-    let length: f64 = edges.iter().map(OutlineEdge::length).sum();
+    let length: f64 = ways[0].iter().map(OutlineEdge::length).sum();
     let from = route.height();
-    let legs = ((from - floor) / (length * spec.ramp.tan()) - 1e-9).ceil().max(1.0);
-    CountBound { what: "legs of the ramp", most: 1e4, bytes: 1000, ..CELLS }.check(legs)?;
-    let fall = (from - floor) / (legs * length);
+    let legs = legs(spec, ways[0], from - floor)?;
+    let fall = (from - floor) / (legs as f64 * length);
     let mut z = from;
-    for leg in 0..legs as usize {
+    for leg in 0..legs {
         for (i, edge) in ways[leg % 2].iter().enumerate() {
-            let ends_leg = i + 1 == edges.len();
+            let ends_leg = i + 1 == ways[0].len();
             // The last one ends on the floor itself.
             let to = if ends_leg {
-                floor + (legs - 1.0 - leg as f64) * fall * length
+                floor + (legs - 1 - leg) as f64 * fall * length
             } else {
                 z - fall * edge.length()
             };
@@ -133,5 +176,5 @@ fn ramp(spec: &PocketSpec, route: &mut Route, edges: &[OutlineEdge], [above, flo
             z = to;
         }
     }
-    route.edges(ToolpathRole::Rough, spec.feed, ways[legs as usize % 2])
+    route.edges(role, feed, ways[legs % 2])
 }

@@ -4,6 +4,8 @@ use std::f64::consts::PI;
 
 use glam::DVec2;
 
+use super::earlier::LeftStock;
+use super::entry::Entering;
 use super::level::{Cleared, Clearer, Element};
 use super::moves::run;
 use super::region::CentreRegion;
@@ -21,7 +23,7 @@ pub const WALL_STOCK: f64 = 0.02;
 /// Radius of the helix where none is given, in radii of the cutter.
 pub(super) const HELIX: f64 = 0.8;
 /// Least radius of the helix, in radii of the cutter.
-const LEAST_HELIX: f64 = 0.3;
+pub(super) const LEAST_HELIX: f64 = 0.3;
 /// Distance of arcs from the way that was walked: at most, and in radii of the cutter [mm].
 const TOLERANCE: (f64, f64) = (0.01, 0.001);
 /// Engagement that is kept for the difference between the arcs and the way that was walked [rad].
@@ -66,8 +68,14 @@ pub struct PocketPlan {
 pub struct PocketFigures {
     /// Number of passes.
     pub passes: usize,
-    /// Number of helices.
+    /// Number of ways down into the stock: helices, ramps and plunges.
     pub entries: usize,
+    /// Number of ramps among them.
+    pub ramps: usize,
+    /// Number of plunges among them.
+    pub plunges: usize,
+    /// Engagement of these ways seen from above: half of the cutter's circle; 0 without any [rad].
+    pub entry: f64,
     /// Number of ways over the part, beside the first.
     pub retracts: usize,
     /// Length of the passes [mm].
@@ -82,6 +90,17 @@ pub struct PocketFigures {
     pub largest: f64,
     /// Area that the passes leave at corners and between walls, for the lap along the wall [mm2].
     pub left: f64,
+    /// Places that an earlier cutter has left, where only those are cleared.
+    pub rest: Option<RestFigures>,
+}
+
+/// Places that an earlier cutter has left.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct RestFigures {
+    /// Number of places that passes clear.
+    pub places: usize,
+    /// Number of places with so little that the lap along the wall takes it: less than 10 degrees of the cutter's circle everywhere.
+    pub to_lap: usize,
 }
 
 /// Plans the clearing of a pocket, without its wall.
@@ -122,9 +141,21 @@ pub fn plan_pocket(spec: &PocketSpec) -> Result<PocketPlan> {
     }
     let flip = |p: DVec2| if mirrored { DVec2::new(p.x, -p.y) } else { p };
     let holes: Vec<(DVec2, f64)> = spec.holes.iter().map(|(p, r)| (flip(*p), *r)).collect();
+    let rest = match &spec.rest {
+        None => None,
+        Some(cutter) => {
+            let left = LeftStock::new(&face, cutter, (&region, a), &clearing)?;
+            for stock in &left.stock {
+                clearing = clearing.with_stock(stock);
+            }
+            Some(left)
+        }
+    };
     for (p, radius) in holes.iter().filter(|(_, radius)| *radius >= a) {
         clearing.sweep(*p, *p, *radius);
     }
+    let depth = spec.depth + spec.breakthrough;
+    let floors = levels(spec.top, depth, spec.stepdown.unwrap_or(spec.cutter.flute_length), |_| Ok(a))?;
     let (most, share) = TOLERANCE;
     let mut clearer = Clearer {
         region: &region,
@@ -132,18 +163,24 @@ pub fn plan_pocket(spec: &PocketSpec) -> Result<PocketPlan> {
         radius: a,
         holes: &holes,
         wanted: spec.engagement - FIT,
-        helix: spec.helix_radius.unwrap_or(HELIX * a),
+        entering: Entering::of(spec, &floors),
+        is_rest: spec.rest.is_some(),
         tolerance: most.min(share * a),
     };
-    let is_whole = stock.is_none() && holes.is_empty();
-    let stock_area = if is_whole { f64::INFINITY } else { clearer.stock_area() };
-    let mut cleared = clearer.run();
+    let is_whole = stock.is_none() && holes.is_empty() && rest.is_none();
+    let nothing_left = rest.as_ref().is_some_and(|left| left.places == 0);
+    let stock_area = match is_whole {
+        true => f64::INFINITY,
+        false if nothing_left => 0.0,
+        false => clearer.stock_area(),
+    };
+    let mut cleared = if nothing_left { Cleared::default() } else { clearer.run() };
     if mirrored {
         cleared.mirror();
     }
-    entries(spec, &cleared)?;
-    let depth = spec.depth + spec.breakthrough;
-    let floors = levels(spec.top, depth, spec.stepdown.unwrap_or(spec.cutter.flute_length), |_| Ok(a))?;
+    if let Some(part) = cleared.no_way_in {
+        return Err(part.error(spec, inset));
+    }
     let mut route = Route::new(spec.retract_z, spec.approach_z);
     for level in &floors {
         route.level = level.index;
@@ -152,8 +189,13 @@ pub fn plan_pocket(spec: &PocketSpec) -> Result<PocketPlan> {
     route.retract();
     let area = region.reached(a);
     let uncut = stock_area.min(area);
-    let figures = figures(spec, [area, uncut], &cleared);
+    let rest = rest.map(|left| RestFigures { places: left.places, to_lap: left.to_lap });
+    let figures = PocketFigures { rest, ..figures(spec, [area, uncut], &cleared) };
     let mut findings: Vec<Finding> = parts(&region).into_iter().collect();
+    findings.extend(rest.filter(|rest| rest.places == 0).map(nothing_to_clear));
+    findings.extend(
+        rest.filter(|rest| rest.places > 0 && figures.passes == 0).map(|_| only_by_lap(figures.left)),
+    );
     findings.extend(cleared.standing.map(standing));
     if let Some((area, at)) = cleared.largest_left
         && area > LEFT * a * a
@@ -182,11 +224,11 @@ pub(super) fn check(spec: &PocketSpec, engagement: [f64; 2]) -> Result<()> {
     let steepest = spec.cutter.max_ramp_angle.map_or(STEEPEST, |most| most.to_degrees().min(STEEPEST));
     let ramp = spec.ramp.to_degrees();
     if !(ramp > 0.0 && ramp <= steepest + 1e-9) {
-        let what = "the helix is steeper than the cutter can follow, or level";
+        let what = "the helix or ramp is steeper than the cutter can follow, or level";
         return Err(Finding::error(Code::PLAN_VALUE, what)
             .value(ramp, "deg")
             .bound(steepest, "deg")
-            .help("write a flatter helix, above 0")
+            .help("write a smaller angle, above 0")
             .key("entry.helix")
             .into());
     }
@@ -266,7 +308,7 @@ fn wide_enough(spec: &PocketSpec, face: &Outline, region: &CentreRegion, inset: 
     Ok(())
 }
 
-/// Whether every helix finds room.
+/// Whether every helix of a slot finds room.
 pub(super) fn entries(spec: &PocketSpec, cleared: &Cleared) -> Result<()> {
     let least = LEAST_HELIX * spec.radius();
     for element in &cleared.elements {
@@ -295,7 +337,16 @@ pub(super) fn figures(spec: &PocketSpec, [area, uncut]: [f64; 2], cleared: &Clea
         match element {
             Element::Helix { radius, .. } => {
                 f.entries += 1;
+                f.entry = PI;
                 entered += PI * (radius + a) * (radius + a);
+            }
+            Element::RampIn(edges) | Element::PlungeIn(_, edges) => {
+                let plunges = usize::from(matches!(element, Element::PlungeIn(..)));
+                f.entries += 1;
+                f.plunges += plunges;
+                f.ramps += 1 - plunges;
+                f.entry = PI;
+                entered += PI * a * a + 2.0 * a * edges.iter().map(OutlineEdge::length).sum::<f64>();
             }
             Element::Down(_) => f.retracts += 1,
             Element::Link(edges) | Element::Back(edges) => {
@@ -303,6 +354,8 @@ pub(super) fn figures(spec: &PocketSpec, [area, uncut]: [f64; 2], cleared: &Clea
             }
             Element::Ramp(edges) => {
                 f.entries += 1;
+                f.ramps += 1;
+                f.entry = PI;
                 f.passes += 1;
                 f.cutting += edges.iter().map(OutlineEdge::length).sum::<f64>();
                 f.largest = PI;
@@ -324,6 +377,29 @@ fn parts(region: &CentreRegion) -> Option<Finding> {
     let what = format!("the pocket has {count} parts for this cutter: each is entered by itself");
     let help = "a smaller cutter may pass between them";
     (count > 1).then(|| Finding::note(Code::POCKET_PARTS, what).help(help).key("tool"))
+}
+
+/// A note where an earlier cutter has left nothing to passes.
+fn nothing_to_clear(rest: RestFigures) -> Finding {
+    let what = match rest.to_lap {
+        0 => "the cutter before has left nothing to this one".to_owned(),
+        n => format!(
+            "the cutter before has left nothing to passes of this one: the lap along the wall takes what is at {n} places"
+        ),
+    };
+    Finding::note(Code::POCKET_REST, what)
+        .help("leave the operation out, or take a smaller cutter")
+        .key("rest")
+}
+
+/// A warning where no pass begins at what an earlier cutter has left: it lies along all of the wall, thinner than passes are begun at.
+fn only_by_lap(area: f64) -> Finding {
+    let what = format!(
+        "{area:.1} mm2 along the wall that the cutter before has left are left to the lap: no pass begins there, and the lap cuts them at the engagement that comes"
+    );
+    Finding::warning(Code::POCKET_LEFT, what)
+        .help("give `finish`, or leave less stock on the wall before")
+        .key("rest")
 }
 
 /// A warning about stock that stands between passes and is not swept.

@@ -86,6 +86,14 @@ impl CentreRegion {
         (0..count(high.x - low.x)).map(inside).sum::<usize>() as f64 * step * step
     }
 
+    /// The loops of the region, larger all around by a distance [mm].
+    ///
+    /// # Errors
+    /// Those of offsets.
+    pub(super) fn grown(&self, distance: f64) -> Result<Vec<OffsetLoop>> {
+        Ok(offset(&self.face, -distance)?.loops)
+    }
+
     /// The corners of the box around it.
     pub(super) fn bounds(&self) -> [DVec2; 2] {
         self.bounds

@@ -1,9 +1,37 @@
 //! A pocket in the planner's words.
 
 use glam::DVec2;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
 
 use crate::geom::Outline;
 use crate::holes::{CutterData, Sense};
+
+/// The way down into a pocket where no side is open and no hole is there.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum PocketEntry {
+    /// The first of the others that has room.
+    #[default]
+    Fitting,
+    /// On a helix.
+    Helix,
+    /// To and fro along the line in the middle of the walls.
+    Ramp,
+    /// Straight down, with a cutter that cuts at its centre.
+    Plunge,
+}
+
+/// A larger cutter that has cleared the same face, at least as deep [mm].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct EarlierCutter {
+    /// Its radius.
+    pub radius: f64,
+    /// Radius of its corner: at the floor it has cut that much less.
+    pub corner: f64,
+    /// Stock that it has left on the wall.
+    pub allowance: f64,
+}
 
 /// A pocket to be cleared [mm, mm/s, rad].
 #[derive(Clone, Debug, PartialEq)]
@@ -14,6 +42,8 @@ pub struct PocketSpec {
     pub stock: Option<Outline>,
     /// Round holes that are open down to the lowest level already: centre and radius.
     pub holes: Vec<(DVec2, f64)>,
+    /// The cutter that has cleared it before: only what that one has left is cleared. `None`: all of it.
+    pub rest: Option<EarlierCutter>,
     /// The cutter.
     pub cutter: CutterData,
     /// Whether the spindle turns counter-clockwise: climb and conventional change sides.
@@ -34,11 +64,13 @@ pub struct PocketSpec {
     pub allowance: f64,
     /// Feed of the cutter's centre.
     pub feed: f64,
-    /// Feed straight down and along helices.
+    /// Feed down along helices and ramps, and straight down to cleared places.
     pub plunge_feed: f64,
     /// Feed through what is cleared.
     pub link_feed: f64,
-    /// Angle of the helix by which the cutter enters.
+    /// The way down.
+    pub entry: PocketEntry,
+    /// Angle of the helix or ramp by which the cutter enters.
     pub ramp: f64,
     /// Radius of the way of the cutter's centre on that helix; `None`: 0.8 of the cutter's radius.
     pub helix_radius: Option<f64>,
@@ -57,6 +89,7 @@ impl PocketSpec {
             outline,
             stock: None,
             holes: Vec::new(),
+            rest: None,
             cutter,
             left_hand: false,
             sense: Sense::Climb,
@@ -69,6 +102,7 @@ impl PocketSpec {
             feed,
             plunge_feed: 0.5 * feed,
             link_feed: 2.0 * feed,
+            entry: PocketEntry::default(),
             ramp: 3.0_f64.to_radians(),
             helix_radius: None,
             lift: 0.2,

@@ -52,8 +52,8 @@ pub struct Clearing {
     /// For each cell the pieces that reach into it and do not cover it.
     cells: Vec<Vec<u32>>,
     pieces: Vec<Piece>,
-    /// Outline of the stock at first; `None`: stock everywhere.
-    stock: Option<Stock>,
+    /// Outlines of the stock at first: it is what all of them hold; none: stock everywhere.
+    stocks: Vec<Stock>,
     /// Middle of each slot of the circle, from its centre.
     around: [DVec2; SLOTS],
 }
@@ -119,7 +119,7 @@ impl Clearing {
             states: vec![State::Stock; columns * rows],
             cells: vec![Vec::new(); columns * rows],
             pieces: Vec::new(),
-            stock: None,
+            stocks: Vec::new(),
             around,
         }
     }
@@ -130,7 +130,7 @@ impl Clearing {
         size.x * size.y
     }
 
-    /// With stock inside an outline only.
+    /// With stock inside an outline only; within those given before, too.
     #[must_use]
     pub fn with_stock(mut self, outline: &Outline) -> Clearing {
         let near = NearestEdge::new(outline.edges());
@@ -143,11 +143,21 @@ impl Clearing {
                     None if outline.contains(middle) => State::Stock,
                     None => State::Clear,
                 };
-                self.states[row * self.columns + column] = state;
+                let known = &mut self.states[row * self.columns + column];
+                *known = match (*known, state) {
+                    (State::Clear, _) | (_, State::Clear) => State::Clear,
+                    (State::Stock, State::Stock) => State::Stock,
+                    _ => State::Edge,
+                };
             }
         }
-        self.stock = Some(Stock { outline: outline.clone(), near });
+        self.stocks.push(Stock { outline: outline.clone(), near });
         self
+    }
+
+    /// Whether a point was stock at first.
+    fn was_stock(&self, p: DVec2) -> bool {
+        self.stocks.iter().all(|s| s.outline.contains(p))
     }
 
     /// Radius of the circle around a cell with its margin [mm].
@@ -219,7 +229,7 @@ impl Clearing {
         let cell = self.cell(p);
         self.states[cell] == State::Clear
             || self.cells[cell].iter().any(|&i| self.pieces[i as usize].holds(p))
-            || self.states[cell] == State::Edge && self.stock.as_ref().is_some_and(|s| !s.outline.contains(p))
+            || self.states[cell] == State::Edge && !self.was_stock(p)
     }
 
     /// Points of the middle of cells that are not wholly cleared, where `keep` has them, and are stock.
@@ -263,10 +273,7 @@ impl Clearing {
             return None;
         }
         if times == 0 {
-            let is_stock = || match &self.stock {
-                Some(stock) if self.states[cell] == State::Edge => stock.outline.contains(middle),
-                _ => true,
-            };
+            let is_stock = || self.states[cell] != State::Edge || self.was_stock(middle);
             return (!pieces().any(|piece| piece.holds(middle)) && is_stock()).then_some(middle);
         }
         let quarter = 0.5 * half;
@@ -377,13 +384,13 @@ impl Clearing {
             cut.largest = cut.largest.max(to - from);
         };
         let mut reached = 0.0;
-        let stock = self.stock.as_ref().filter(|_| has_edge);
+        let stocks = if has_edge { &self.stocks[..] } else { &[] };
         for [from, to] in work.covers.iter().copied().chain([[PI, PI]]) {
             let from = if from < PI { from } else { PI };
             if from > reached {
-                match stock {
-                    None => gap(reached, from),
-                    Some(stock) => stock.between(centre, radius, right, [reached, from], &mut gap),
+                match stocks {
+                    [] => gap(reached, from),
+                    _ => Stock::between(stocks, (centre, radius), right, [reached, from], &mut gap),
                 }
             }
             if to > reached {
@@ -432,17 +439,16 @@ impl Scratch {
 }
 
 impl Stock {
-    /// Calls `gap` for the parts of a stretch of the cutter's circle that lie in the stock.
+    /// Calls `gap` for the parts of a stretch of the cutter's circle that lie in all of some stocks.
     fn between(
-        &self,
-        centre: DVec2,
-        radius: f64,
+        all: &[Stock],
+        (centre, radius): (DVec2, f64),
         right: f64,
         [from, to]: [f64; 2],
         gap: &mut impl FnMut(f64, f64),
     ) {
         let mut cuts = vec![from, to];
-        for edge in self.outline.edges() {
+        for edge in all.iter().flat_map(|stock| stock.outline.edges()) {
             for at in edge.on_circle(centre, radius) {
                 let angle = wrap_turn((at - centre).to_angle() - right);
                 if from < angle && angle < to {
@@ -453,8 +459,8 @@ impl Stock {
         cuts.sort_unstable_by(f64::total_cmp);
         for pair in cuts.windows(2) {
             let middle = centre + radius * DVec2::from_angle(right + 0.5 * (pair[0] + pair[1]));
-            let nearest = self.near.at(middle, f64::INFINITY);
-            if nearest.is_some_and(|n| n.distance < 0.0) {
+            let is_in = |s: &Stock| s.near.at(middle, f64::INFINITY).is_some_and(|n| n.distance < 0.0);
+            if all.iter().all(is_in) {
                 gap(pair[0], pair[1]);
             }
         }

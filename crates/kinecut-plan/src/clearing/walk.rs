@@ -60,7 +60,8 @@ fn on_grid(value: f64) -> f64 {
     (value / GRID).round() * GRID
 }
 
-fn point_on_grid(p: DVec2) -> DVec2 {
+/// A point on the grid of the points of ways.
+pub(super) fn point_on_grid(p: DVec2) -> DVec2 {
     DVec2::new(on_grid(p.x), on_grid(p.y))
 }
 

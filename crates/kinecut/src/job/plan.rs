@@ -114,7 +114,10 @@ fn plan_setup(
             ..setting(job, setup, &clamping, number, progress)
         };
         let mut plan = match operation.plan(&setting).map_err(at)? {
-            Attempt::SetupPlan(plan, found) => {
+            Attempt::SetupPlan(plan, mut found) => {
+                if is_cleared_later(operation, &setup.operations[i + 1..]) {
+                    found.retain(|f| f.code != Code::CORNERS_STAY);
+                }
                 findings.extend(found.into_iter().map(|f| f.under(&key)));
                 plan
             }
@@ -134,6 +137,16 @@ fn plan_setup(
     }
     let (program, lowered, radii) = writer.end();
     Ok(SetupPlan { program, operations, findings, lowered, radii, retract_height: setup.retract_height() })
+}
+
+/// Whether a pocket after another clears what that one leaves in its corners.
+fn is_cleared_later(operation: &Operation, later: &[Operation]) -> bool {
+    let pocket = |o: &Operation| match o {
+        Operation::Pocket(of) => Some((of.table.name.clone(), of.table.rest.clone())),
+        _ => None,
+    };
+    let Some((Some(name), _)) = pocket(operation) else { return false };
+    later.iter().filter_map(pocket).any(|(_, rest)| rest.is_some_and(|rest| rest == name))
 }
 
 /// The setting of an operation of a setup; `clamping` is as the operation sees it, `number` its own over all setups.

@@ -4,11 +4,12 @@ use std::sync::Arc;
 
 use super::PocketTable;
 use super::plan::{PlannedPocket, planned};
+use super::rest::EarlierPocket;
 use crate::base::bounded::{MAX_LENGTH, length, positive};
 use crate::base::{Code, Finding, Result};
-use crate::clearing::{CentreLine, PocketSpec, SlotSpec};
+use crate::clearing::{CentreLine, EarlierCutter, PocketSpec, SlotSpec};
 use crate::contouring::{ContourLoops, ContourSide};
-use crate::cutting::StartCut;
+use crate::cutting::{MillingCut, StartCut};
 use crate::geom::{Outline, OutlineRead};
 use crate::holes::CutterData;
 use crate::operations::kind::{self, Attempt};
@@ -47,6 +48,8 @@ pub struct PocketOperation {
     pub feeds: PocketFeeds,
     /// Angle of the helix or ramp [rad].
     pub helix: f64,
+    /// The cutter of the pocket before, where only what that one has left is cleared.
+    pub rest: Option<EarlierCutter>,
     /// The centre line, where it is a slot.
     pub slot: Option<CentredSlot>,
 }
@@ -116,11 +119,22 @@ impl kind::Checked for PocketOperation {
         &mut self.milling
     }
 
+    fn finishing(&self) -> Option<MillingCut> {
+        let finish = self.table.finish.as_ref()?;
+        let depth = self.table.depth + self.table.breakthrough;
+        Some(self.milling.beside_wall(finish.allowance, self.feeds.finish, [finish.stepdown, Some(depth)]))
+    }
+
+    fn spring_passes(&self) -> u32 {
+        self.table.finish.as_ref().map_or(0, |f| f.spring_passes)
+    }
+
     fn name(&self) -> String {
         let [min, max] = self.outline.bounds();
         let size = max - min;
         let shown = |mm: f64| crate::page::trimmed(mm, 2);
-        format!("pocket {} x {} x {}", shown(size.x), shown(size.y), shown(self.table.depth))
+        let noun = if self.rest.is_some() { "rest of pocket" } else { "pocket" };
+        format!("{noun} {} x {} x {}", shown(size.x), shown(size.y), shown(self.table.depth))
     }
 
     fn is_left_hand(&self) -> bool {
@@ -136,7 +150,14 @@ impl kind::Table for PocketTable {
     type Of = PocketOperation;
 
     fn check(&self, around: &Around<'_>) -> Result<PocketOperation> {
-        checked(self, "pocket", around, || outline_keys!(self).read(around.loader))
+        let Some(name) = &self.rest else {
+            return checked(self, "pocket", around, || outline_keys!(self).of_pocket().read(around.loader));
+        };
+        let earlier = EarlierPocket::find(name, around.before)?;
+        let read = || outline_keys!(earlier.outline).of_pocket().read(around.loader);
+        let of = checked(self, "pocket", around, read)?;
+        let cutter = earlier.cutter(self, &of.milling.tool, around)?;
+        Ok(PocketOperation { rest: Some(cutter), ..of })
     }
 
     fn called(&mut self) -> &mut CalledTool {
@@ -161,9 +182,10 @@ impl kind::Table for PocketTable {
 
     fn named_outline(&self) -> Option<NamedOutline<'_>> {
         let (top, stock_to_leave, plane) = (self.top, self.stock_to_leave, self.plane());
-        self.name.as_deref().map(|name| NamedOutline {
+        // One of a rest has no outline of its own: others refer to that of the pocket before.
+        self.name.as_deref().filter(|_| self.rest.is_none()).map(|name| NamedOutline {
             name,
-            keys: outline_keys!(self),
+            keys: outline_keys!(self).of_pocket(),
             side: ContourSide::Inside,
             loops: ContourLoops::All,
             top,
@@ -240,6 +262,7 @@ pub(crate) fn checked(
         engagement,
         feeds,
         helix,
+        rest: None,
         slot: None,
         milling: milling_of(tool, speed, t.coolant, t.tolerance)?,
         table: t.clone(),

@@ -19,7 +19,14 @@ pub(crate) struct PocketJson {
     plunge_feed: f64,
     link_feed: f64,
     passes: usize,
+    /// Ways down into the stock: helices, and the two after it.
     entries: usize,
+    ramps: usize,
+    plunges: usize,
+    /// Engagement of these seen from above, degrees; none without any.
+    entry_engagement: Option<f64>,
+    /// The places that are cleared, if only those that an earlier cutter has left are.
+    rest: Option<PocketRestJson>,
     retracts: usize,
     cutting_length: f64,
     link_length: f64,
@@ -30,6 +37,16 @@ pub(crate) struct PocketJson {
     left_to_lap: f64,
     /// Inside corners that the cutter does not reach.
     uncut_corners: Vec<PocketCornerJson>,
+}
+
+#[derive(Debug, Serialize)]
+struct PocketRestJson {
+    /// Diameter of the earlier cutter.
+    earlier_diameter: f64,
+    /// Places that passes clear.
+    places: usize,
+    /// Places that are left to the lap along the wall.
+    places_to_lap: usize,
 }
 
 #[derive(Debug, Serialize)]
@@ -54,6 +71,14 @@ impl PocketJson {
             link_feed: spec.link_feed * 60.0,
             passes: f.passes,
             entries: f.entries,
+            ramps: f.ramps,
+            plunges: f.plunges,
+            entry_engagement: (f.entries > 0).then_some(f.entry.to_degrees()),
+            rest: spec.rest.zip(f.rest).map(|(earlier, rest)| PocketRestJson {
+                earlier_diameter: 2.0 * earlier.radius,
+                places: rest.places,
+                places_to_lap: rest.to_lap,
+            }),
             retracts: f.retracts,
             cutting_length: f.cutting,
             link_length: f.links,

@@ -4,6 +4,7 @@
 mod check;
 mod json;
 mod plan;
+mod rest;
 mod section;
 mod table;
 

@@ -69,6 +69,7 @@ fn specs(setting: &Setting<'_>, of: &PocketOperation) -> Result<(PocketSpec, Con
     let spec = PocketSpec {
         stock: over_stock(setting, of)?,
         holes: open_holes(setting, t.top, bottom),
+        rest: of.rest,
         left_hand: of.left_hand(),
         sense: t.direction,
         engagement: of.engagement,
@@ -79,6 +80,7 @@ fn specs(setting: &Setting<'_>, of: &PocketOperation) -> Result<(PocketSpec, Con
         plunge_feed: of.feeds.down,
         link_feed: of.feeds.link,
         ramp: of.helix,
+        entry: t.entry.and_then(|e| e.way).unwrap_or_default(),
         helix_radius: t.entry.and_then(|e| e.radius),
         lift: t.lift.unwrap_or(0.2),
         retract_z,
@@ -129,7 +131,7 @@ fn over_stock(setting: &Setting<'_>, of: &PocketOperation) -> Result<Option<Outl
 /// A warning where islands come loose with the tool beside them.
 fn loose(of: &PocketOperation, setting: &Setting<'_>, spec: &PocketSpec) -> Option<Finding> {
     let islands = of.outline.loops().iter().filter(|l| !l.outer).count();
-    (islands > 0 && setting.is_through(&of.milling, spec.bottom())).then(|| {
+    (islands > 0 && of.rest.is_none() && setting.is_through(&of.milling, spec.bottom())).then(|| {
         let what = format!("{}: {} comes loose", of.name(), uncut::count(islands, "island", "islands"));
         let what = if islands > 1 { what.replace("comes", "come") } else { what };
         let help = "hold it from below, leave a floor, or cut it out by a contour with tabs";

@@ -9,12 +9,8 @@ use crate::geom::OutlineEdge;
 use crate::holes::{PlannedMove, ToolpathRole};
 use crate::operations::measured::BoreMeasure;
 use crate::operations::{Shown, uncut};
-use crate::page::{
-    Block, Colour, Dash, Fact, Ink, Plan, PlanLine, Section, Width, fixed, micrometres, trimmed,
-};
+use crate::page::{Block, Colour, Dash, Fact, Ink, Plan, PlanLine, Section, Width, fixed, trimmed};
 
-/// A deviation that is shown as none [mm].
-const SMALL: f64 = 1e-4;
 /// Arcs are drawn as chords of this angle [rad].
 const CHORD: f64 = 0.1;
 
@@ -58,16 +54,8 @@ fn facts(plan: &PlannedPocket, wall: Option<&BoreMeasure>) -> Vec<Fact> {
         per_minute(spec.link_feed),
         f.retracts
     )));
-    let entry = match f.entries {
-        0 => "by an open side or a hole".to_owned(),
-        n => {
-            let angle = trimmed(spec.ramp.to_degrees(), 2);
-            // With all of the cutter in the stock, it goes down along the slot.
-            let [one, more] = if f.largest < PI { ["helix", "helices"] } else { ["ramp", "ramps"] };
-            format!("{} of {angle}\u{b0}", uncut::count(n, one, more))
-        }
-    };
-    facts.push(Fact::new("Way down", entry).note(per_minute(spec.plunge_feed)));
+    facts.push(way_down(plan));
+    facts.extend(rest(plan));
     facts.push(Fact::new("Feed", per_minute(spec.feed)).note("of the cutter\u{2019}s centre in passes"));
     if f.left > 0.0 {
         facts.push(
@@ -82,15 +70,44 @@ fn facts(plan: &PlannedPocket, wall: Option<&BoreMeasure>) -> Vec<Fact> {
     facts
 }
 
-fn measured(plan: &PlannedPocket, wall: Option<&BoreMeasure>) -> Fact {
-    let Some(m) = wall.filter(|m| m.wall[0] <= m.wall[1]) else {
-        return Fact::new("Wall", "not measured").note("no line of the stock ends there");
+/// The way down, with its engagement, which is no matter of the passes.
+fn way_down(plan: &PlannedPocket) -> Fact {
+    let (spec, f) = (&plan.spec, &plan.clearing.figures);
+    let feed = format!("{} mm/min", trimmed(spec.plunge_feed * 60.0, 1));
+    if f.entries == 0 {
+        let free = if spec.rest.is_some() { "through what is cleared" } else { "by an open side or a hole" };
+        return Fact::new("Way down", free).note(feed);
+    }
+    let angle = trimmed(spec.ramp.to_degrees(), 2);
+    let helices = f.entries - f.ramps - f.plunges;
+    let mut ways = Vec::new();
+    for (n, one, more) in [(helices, "helix", "helices"), (f.ramps, "ramp", "ramps")] {
+        if n > 0 {
+            ways.push(format!("{} of {angle}\u{b0}", uncut::count(n, one, more)));
+        }
+    }
+    if f.plunges > 0 {
+        ways.push(format!("{} straight down", uncut::count(f.plunges, "way", "ways")));
+    }
+    let engaged = trimmed(f.entry.to_degrees(), 1);
+    Fact::new("Way down", ways.join(", ")).note(format!("{feed}; engagement {engaged}\u{b0} seen from above"))
+}
+
+/// The places that an earlier cutter has left, if only those are cleared.
+fn rest(plan: &PlannedPocket) -> Option<Fact> {
+    let (earlier, rest) = plan.spec.rest.zip(plan.clearing.figures.rest)?;
+    let places = uncut::count(rest.places, "place", "places");
+    let note = match rest.to_lap {
+        0 => String::new(),
+        n => format!("; {} with less than 10\u{b0} left to the lap", uncut::count(n, "place", "places")),
     };
-    let worst = m.wall[0].abs().max(m.wall[1].abs());
-    let one = |d: f64| format!("{}{}", if d < 0.0 { "\u{2212}" } else { "" }, micrometres(d.abs()));
-    let value = match worst < SMALL {
-        true => "under 0.1 \u{b5}m off".to_owned(),
-        false => format!("stock of {} to {}", one(m.wall[0]), one(m.wall[1])),
+    let cutter = format!("that a cutter of {} mm has left{note}", trimmed(2.0 * earlier.radius, 3));
+    Some(Fact::new("Rest", places).note(cutter))
+}
+
+fn measured(plan: &PlannedPocket, wall: Option<&BoreMeasure>) -> Fact {
+    let Some((m, value)) = wall.and_then(|m| Some((m, m.stock_on_wall()?))) else {
+        return Fact::new("Wall", "not measured").note("no line of the stock ends there");
     };
     let ends = format!("at {} line ends of the simulated part", m.ends);
     let note = plan.not_looked_at().map_or(ends.clone(), |what| format!("{ends}; not compared: {what}"));

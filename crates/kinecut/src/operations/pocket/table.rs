@@ -3,6 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use crate::clearing::PocketEntry;
 use crate::geom::LengthUnit;
 use crate::holes::{FeedAt, Sense};
 use crate::operations::contour::ContourFinishTable;
@@ -16,7 +17,7 @@ use crate::program::Coolant;
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct PocketTable {
-    /// Name by which a chamfer refers to it: `of`.
+    /// Name by which a chamfer refers to it: `of`, or a pocket with a smaller cutter: `rest`.
     #[serde(default)]
     pub name: Option<String>,
     /// A tilted plane of the work: the tool is along its Z; default: along the Z of the work offset. Needs a machine
@@ -26,6 +27,10 @@ pub struct PocketTable {
     /// The tool, one with a cylindrical edge: its number, or its name.
     #[schemars(example = 1)]
     pub tool: CalledTool,
+    /// Name of a pocket before it in the setup with a larger cutter: only what that one has left is cleared, corners and places into
+    /// which it does not go. The outline is that of the pocket before.
+    #[serde(default)]
+    pub rest: Option<String>,
     /// The pocket as a rectangle; or give `circle`, `polygon`, `slot` or `outline`.
     #[serde(default)]
     pub rectangle: Option<OutlineRectangle>,
@@ -50,6 +55,9 @@ pub struct PocketTable {
     /// Widest gap in a drawing that is closed; default 0.01.
     #[serde(default)]
     pub snap: Option<f64>,
+    /// Height at which a mesh (.stl) is cut, in its own coordinates: the pocket is what the material just below it encloses; default: its highest horizontal face.
+    #[serde(default)]
+    pub section: Option<f64>,
     /// Zero of the drawing, in coordinates of the work offset; default [0, 0].
     #[serde(default)]
     pub at: [f64; 2],
@@ -107,7 +115,7 @@ pub struct PocketTable {
     #[serde(default)]
     #[schemars(example = 0.05)]
     pub feed_per_tooth: Option<f64>,
-    /// Feed straight down and along the helix, mm/min; default: half the feed.
+    /// Feed along the helix and the ramp, and down to what is cleared, mm/min; default: half the feed.
     #[serde(default)]
     pub plunge_feed: Option<f64>,
     /// Feed through what is cleared, mm/min; default: twice the feed.
@@ -128,7 +136,11 @@ pub struct PocketTable {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct PocketEntryTable {
-    /// Angle of the helix, degrees; default 3, or what the tool can.
+    /// "fitting": a helix where it has room, else a ramp to and fro along the line in the middle of the walls, else straight down with
+    /// a cutter that cuts at its centre; "helix", "ramp" or "plunge": only that; default "fitting".
+    #[serde(default)]
+    pub way: Option<PocketEntry>,
+    /// Angle of the helix or the ramp, degrees; default 3, or what the tool can.
     #[serde(default)]
     pub helix: Option<f64>,
     /// Radius of the helix of the cutter's centre; default 0.8 of the cutter's radius, less where there is no room.

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use super::SlotTable;
 use super::plan::PlannedSlot;
-use crate::base::Result;
+use crate::base::{Code, Finding, Result};
 use crate::contouring::{ContourLoops, ContourSide};
 use crate::cutting::StartCut;
 use crate::geom::OutlineRead;
@@ -57,6 +57,11 @@ impl kind::Table for SlotTable {
     type Of = SlotOperation;
 
     fn check(&self, around: &Around<'_>) -> Result<SlotOperation> {
+        if self.entry.is_some_and(|entry| entry.way.is_some()) {
+            let what = "the way down into a slot follows from its width: a helix, or a ramp along it";
+            let finding = Finding::error(Code::JOB_SHAPE, what).help("leave `way` out");
+            return Err(finding.key("entry.way").into());
+        }
         let line = self.slot().centre_line()?;
         let outline = line.outline(self.width)?;
         let weights = vec![1.0; outline.edges().len()];

@@ -108,6 +108,7 @@ impl SlotTable {
         let t = self.clone();
         PocketTable {
             name: t.name,
+            rest: None,
             plane: t.plane,
             tool: t.tool,
             top: t.top,
@@ -137,6 +138,7 @@ impl SlotTable {
             unit: None,
             layers: None,
             snap: None,
+            section: None,
             at: [0.0; 2],
             angle: 0.0,
             lift: None,

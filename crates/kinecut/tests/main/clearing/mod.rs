@@ -1,6 +1,8 @@
 //! Pockets: engagement, completeness and lengths, judged by distances to all that was cut before.
 
+mod entry;
 mod narrowing;
+mod rest;
 mod slot;
 
 use std::collections::HashMap;
@@ -96,11 +98,17 @@ struct Judged {
 
 /// Looks at every `every`-th place of a plan's first level.
 fn judge(spec: &PocketSpec, plan: &PocketPlan, every: usize) -> Judged {
+    judge_in(spec, plan, every, |_| true)
+}
+
+/// The same with stock only where `is_left` is true.
+fn judge_in(spec: &PocketSpec, plan: &PocketPlan, every: usize, is_left: impl Fn(DVec2) -> bool) -> Judged {
     let a = spec.radius();
     let near = NearestEdge::new(spec.outline.edges());
     let stock = |p: DVec2| {
         spec.stock.as_ref().is_none_or(|s| s.contains(p))
             && spec.holes.iter().all(|(at, radius)| at.distance(p) > *radius)
+            && is_left(p)
     };
     let mut swept = Swept { radius: a, cells: HashMap::new() };
     let mut found = Judged::default();
