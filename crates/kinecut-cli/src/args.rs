@@ -101,7 +101,7 @@ pub(crate) enum Verb {
     Verify(Verify),
     /// Print the JSON Schema of an input
     Schema {
-        /// Which input
+        /// The input
         #[arg(value_enum)]
         name: SchemaName,
     },

@@ -129,6 +129,8 @@ codes! {
 
     FULL_WIDTH = "KC0416", "levels of a slot are deep for a cutter that is wholly in the stock",
         "A slot as wide as the cutter is cut with half of its circle. Usual depths of a level there are half the diameter in steel and the diameter in aluminium; deeper, chips stay in the slot and the cutter breaks. Give a smaller stepdown, or take a smaller cutter, which goes in loops.";
+    POCKET_REST = "KC0417", "an earlier cutter has left nothing to passes of this one",
+        "A pocket with `rest` clears what a larger cutter before it has left: corners, and places into which that one does not go. Nothing is left, or so little that the lap along the wall takes it with less than 10 degrees of the cutter's circle. The lap is run all the same. Leave the operation out, or take a smaller cutter.";
 
     RAPID_IN_STOCK = "KC0501", "a rapid move goes through stock",
         "The cutter meets material in a rapid move. On most machines this breaks the cutter, and at times the spindle.";
@@ -189,7 +191,7 @@ codes! {
     UNKNOWN_START = "KC0529", "a move starts from a position that is not known",
         "The program does not say where the tool is before this move, and the move comes near the stock: what it meets on its way is not known. Position all axes first, above the part.";
     NOT_UNDERSTOOD = "KC0530", "a block was not understood",
-        "What the control does with this block is not known, so what follows may be something else than what was simulated.";
+        "The effect of this block on the control is not known, so what follows may be something else than what was simulated.";
 
     INCLINED_ENTRY = "KC0531", "a drill enters a face that leans",
         "A drill whose point touches a face on one side first is pushed aside: it starts off its place, or breaks. Mill the face flat first, or turn the plane of the drilling square to it. Asked for in programs of others; a planned drilling knows the surface that it enters.";
@@ -219,6 +221,8 @@ codes! {
 
     CUTTING_LOAD = "KC0542", "a cut needs nearly all of the spindle, or more than it has",
         "Power and torque are those of what the tool takes from the simulated stock, after Kienzle with the constants of the material and sharp edges; they are right within a quarter, a worn edge needs 30 to 50 % more, and a fifth of the motor's power is taken as lost on its way. The machine's spindle_power and spindle_torque are what lasts. Take a smaller step, engagement or feed, or another speed where only one of the two is short.";
+    TOOL_DEFLECTION = "KC0545", "the tool gives way more than the wall allows",
+        "While it finishes the wall, the tip of the tool is pressed away by half of the cutting force, after Kienzle with sharp edges, by more than a third of the tolerance that the operation asks for, or more than 0.02 mm where it asks for none; that is right within a quarter, and holder and spindle give way too. The simulated wall does not have this error. Take a spring pass, a smaller allowance, a smaller stepdown or feed, or a tool that sticks out less.";
     EDGE_RUBS = "KC0543", "the edges of a cutter rub",
         "No chip of the work is thicker than three tenths of the rounding of a usual edge: 0.010 mm of solid cutters, 0.020 mm of inserts. The edge presses and rubs instead of cutting, gets hot and wears. Take a higher feed per tooth.";
     START_DEPTH = "KC0544", "values to start with in a cut that is too deep for them",
@@ -331,7 +335,7 @@ codes! {
     MACHINE_PRESET = "KC1117", "a machine is not known by this name",
         "Some machines are built in and known by name. Write the name of one of those, or a machine file of your own.";
     TURNS_AT_ONCE = "KC1118", "rotary axes would turn within no length of a move",
-        "Where the tool passes along the first rotary axis (the pole), that axis turns by up to half a turn within no length, and no division of the move helps. The same happens between two poses that are solved differently. Hold the axis, turn it beforehand with the tool retracted, or incline the tool so that it stays away from the pole.";
+        "The tool passes along the first rotary axis (the pole), where that axis turns by up to half a turn within no length, and no division of the move helps. The same happens between two poses that are solved differently. Hold the axis, turn it beforehand with the tool retracted, or incline the tool so that it stays away from the pole.";
     TOO_MANY_PARTS = "KC1119", "a straight move would need too many parts",
         "On a control that interpolates the axes, a straight move of the tool is divided until the axes keep to it. The number of parts grows with the inverse root of the tolerance, which must be positive.";
 

@@ -77,6 +77,8 @@ pub struct Tool {
     pub gauge_length: Option<f64>,
     /// Limits of its rotation, speed and feed.
     pub limits: ToolLimits,
+    /// Modulus of elasticity of flutes and shank (N/mm2), if their material is known.
+    pub elasticity: Option<f64>,
 }
 
 impl Tool {

@@ -21,6 +21,7 @@ mod own_code;
 mod presets;
 mod rapids;
 pub mod surface;
+mod torque;
 mod word;
 
 pub use body::{Body, Link};
@@ -34,4 +35,5 @@ pub use model::Machine;
 pub use own_code::{CodeEffect, OwnCode};
 pub use presets::{Preset, presets};
 pub use rapids::Rapids;
+pub use torque::TorqueCurve;
 pub use word::Word;

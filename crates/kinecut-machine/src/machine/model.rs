@@ -8,7 +8,7 @@ use super::control::positive;
 use super::kinematics::Travels;
 use super::{
     Body, CoordinateCode, Dynamics, Elementary, Joint, Kinematics, Link, MOST_JOINTS, MotionControl, OwnCode,
-    Rapids,
+    Rapids, TorqueCurve,
 };
 use crate::base::{Code, Finding, Result};
 use crate::geom::Rigid;
@@ -33,6 +33,8 @@ pub struct Machine {
     pub dynamics: Dynamics,
     /// Values of its control, of its spindle and of its tool change.
     pub control: MotionControl,
+    /// Torque of its spindle by the speed, where it is given.
+    pub spindle_curve: Option<TorqueCurve>,
     /// Course of its rapid moves, a parameter of the control; `None` where it is not known.
     pub rapids: Option<Rapids>,
     /// Codes of its control that the language does not have.
@@ -81,10 +83,18 @@ impl Machine {
             spindle: Rigid::IDENTITY,
             dynamics: Dynamics::default(),
             control: MotionControl::default(),
+            spindle_curve: None,
             rapids: None,
             codes: Arc::default(),
             bodies: Arc::default(),
         }
+    }
+
+    /// Whether something of what its spindle has is known: power, torque, or its curve.
+    pub fn knows_spindle(&self) -> bool {
+        self.control.spindle_power.is_some()
+            || self.control.spindle_torque.is_some()
+            || self.spindle_curve.is_some()
     }
 
     /// Checks directions, senses, travel and dynamics.

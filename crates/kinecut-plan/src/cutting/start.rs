@@ -19,6 +19,14 @@ impl EdgeMaterial {
             EdgeMaterial::Hss => "HSS",
         }
     }
+
+    /// Modulus of elasticity of a tool that is made of it (N/mm2).
+    pub fn elasticity(self) -> f64 {
+        match self {
+            EdgeMaterial::Carbide => 600_000.0,
+            EdgeMaterial::Hss => 210_000.0,
+        }
+    }
 }
 
 /// The cut for which values are wanted.

@@ -124,6 +124,7 @@ fn in_program() -> Tool {
         max_ramp_angle: None,
         gauge_length: Some(LENGTH),
         limits: Default::default(),
+        elasticity: None,
     }
 }
 

@@ -5,6 +5,7 @@ use glam::DVec3;
 use serde::{Deserialize, Serialize};
 
 use crate::geom::EdgeProfile;
+use crate::page::micrometres;
 use crate::stock::CutId;
 
 /// Measures of one wanted wall.
@@ -46,6 +47,17 @@ impl BoreMeasure {
     pub fn radius(&self) -> Option<[f64; 2]> {
         let wanted = self.wanted_radius.filter(|_| self.wall[0].is_finite())?;
         Some([wanted - self.wall[1], wanted - self.wall[0]])
+    }
+
+    /// The stock found on the wall, in words; `None` where it was not measured.
+    pub(crate) fn stock_on_wall(&self) -> Option<String> {
+        /// A deviation that is shown as none [mm].
+        const SMALL: f64 = 1e-4;
+        let [least, most] = self.wall;
+        (least <= most).then(|| match least.abs() < SMALL && most.abs() < SMALL {
+            true => "under 0.1 \u{b5}m off".to_owned(),
+            false => format!("stock of {} to {}", micrometres(least), micrometres(most)),
+        })
     }
 
     /// The larger of stock left and gouge [mm].
@@ -141,4 +153,31 @@ pub struct Proof {
     pub claim: String,
     /// The bound below which something can have been missed, in words with numbers ("below 0.2 mm across the lines, exact along them").
     pub bound: String,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn stock_on_a_wall_has_one_sign_a_number() {
+        let of = |wall| {
+            let m = BoreMeasure {
+                operation: 0,
+                wanted_radius: None,
+                wall,
+                floor: None,
+                ends: 1,
+                left: Worst::default(),
+                gouge: Worst::default(),
+                replaced: false,
+                of_edge: false,
+            };
+            m.stock_on_wall()
+        };
+        assert_eq!(of([f64::INFINITY, f64::NEG_INFINITY]), None);
+        assert_eq!(of([-9e-5, 9e-5]).as_deref(), Some("under 0.1 \u{b5}m off"));
+        assert_eq!(of([-2e-4, 0.0]).as_deref(), Some("stock of -0.2 \u{b5}m to 0.0 \u{b5}m"));
+        assert_eq!(of([0.0, 0.4]).as_deref(), Some("stock of 0.0 \u{b5}m to +400 \u{b5}m"));
+    }
 }

@@ -5,6 +5,7 @@ use std::f64::consts::TAU;
 use super::CalledTool;
 use crate::base::bounded::{MAX_LENGTH, length, positive};
 use crate::base::{Code, Finding, Result};
+use crate::cutting::MillingCut;
 use crate::geom::Rigid;
 use crate::program::{Coolant, RotarySolution};
 use crate::tool::Tool;
@@ -20,8 +21,27 @@ pub struct Milling {
     pub coolant: Coolant,
     /// Largest allowed deviation of wall and floor [mm].
     pub tolerance: f64,
+    /// The same where the operation says it.
+    pub wanted_tolerance: Option<f64>,
     /// The tilted plane, if it works in one.
     pub plane: Option<JobPlane>,
+}
+
+impl Milling {
+    /// A cut beside a wall, as wide as what is left on it [mm], at a feed [mm/s]; as deep as a level, or all of a depth, at most as the flutes
+    /// are long [mm].
+    pub(crate) fn beside_wall(&self, width: f64, feed: f64, [level, depth]: [Option<f64>; 2]) -> MillingCut {
+        let deepest = self.tool.flute_length;
+        let depth = [level, depth].into_iter().flatten().fold(deepest, f64::min);
+        MillingCut {
+            diameter: self.tool.cutter.diameter(self.tool.flute_length),
+            teeth: self.tool.teeth,
+            speed: self.spindle,
+            feed,
+            depth,
+            width,
+        }
+    }
 }
 
 /// A tilted plane of an operation.
@@ -107,6 +127,7 @@ pub(crate) fn milling_of(
         spindle,
         coolant,
         tolerance: length("tolerance", tolerance.unwrap_or(0.02), 1e-6, 100.0)?,
+        wanted_tolerance: tolerance,
         plane: None,
         tool,
     })
@@ -162,6 +183,7 @@ mod tests {
             max_ramp_angle: None,
             gauge_length: None,
             limits: ToolLimits::default(),
+            elasticity: None,
         }
     }
 

@@ -61,6 +61,15 @@ pub(crate) struct OutlineKeys<'a> {
     pub(crate) drawing: Option<Drawn<'a>>,
 }
 
+/// The section of a mesh at a height of its own [mm].
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum MeshSection {
+    /// The material just below it.
+    Material(f64),
+    /// What that material encloses.
+    Holes(f64),
+}
+
 /// A drawing, with the keys that say how it is read and where it lies.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Drawn<'a> {
@@ -68,6 +77,7 @@ pub(crate) struct Drawn<'a> {
     pub(crate) unit: Option<LengthUnit>,
     pub(crate) layers: Option<&'a [String]>,
     pub(crate) snap: Option<f64>,
+    pub(crate) section: Option<MeshSection>,
     pub(crate) at: [f64; 2],
     /// Degrees.
     pub(crate) angle: f64,
@@ -86,6 +96,7 @@ macro_rules! outline_keys {
                 unit: $table.unit,
                 layers: $table.layers.as_deref(),
                 snap: $table.snap,
+                section: $table.section.map($crate::operations::outlines::MeshSection::Material),
                 at: $table.at,
                 angle: $table.angle,
             }),
@@ -98,6 +109,16 @@ impl OutlineKeys<'_> {
     /// Whether none of them is given.
     pub(crate) fn is_empty(&self) -> bool {
         self.forms().iter().all(|(_, given)| !given)
+    }
+
+    /// With the section of a mesh as a pocket has it: what the material encloses.
+    pub(crate) fn of_pocket(mut self) -> Self {
+        if let Some(Drawn { section: Some(section @ MeshSection::Material(_)), .. }) = &mut self.drawing
+            && let MeshSection::Material(z) = *section
+        {
+            *section = MeshSection::Holes(z);
+        }
+        self
     }
 
     /// The ways to say an outline, and whether each is given.
@@ -171,6 +192,21 @@ impl Drawn<'_> {
         self.read_as(false, loader)
     }
 
+    /// The height of the section, where the outline is a mesh.
+    fn height(&self) -> Result<Option<f64>> {
+        let Some(MeshSection::Material(z) | MeshSection::Holes(z)) = self.section else { return Ok(None) };
+        let is_mesh =
+            matches!(self.outline, OutlineEntry::Name(name) if FileKind::of_outline(name) == FileKind::Mesh);
+        if !is_mesh {
+            let finding = Finding::error(Code::JOB_SHAPE, "only a mesh has a section at a height");
+            return Err(finding
+                .help("write outline = \"part.stl\", or leave `section` out")
+                .key("section")
+                .into());
+        }
+        length("section", z, -MAX_LENGTH, MAX_LENGTH).map(Some)
+    }
+
     /// As [`Drawn::read`], its open lines if `lines`.
     fn read_as(self, lines: bool, loader: &dyn Loader) -> Result<OutlineRead> {
         let under = |e: Error| e.under("outline");
@@ -179,10 +215,11 @@ impl Drawn<'_> {
             layers: self.layers.unwrap_or_default().to_vec(),
             snap: length("snap", self.snap.unwrap_or(OutlineOptions::default().snap), 0.0, 10.0)?,
             curve_tolerance: CURVE_TOLERANCE,
+            section: self.height()?,
             lines,
             ..OutlineOptions::default()
         };
-        let read = match self.outline {
+        let mut read = match self.outline {
             OutlineEntry::Name(name) => {
                 let bytes = loader.read_as(name, FileKind::of_outline(name)).map_err(under)?;
                 read_outline(name, &bytes, &options).map_err(under)?
@@ -194,6 +231,9 @@ impl Drawn<'_> {
             }
             OutlineEntry::Loops(loops) => loops.outline(self.unit).map_err(under)?,
         };
+        if let Some(MeshSection::Holes(z)) = self.section {
+            read = enclosed(read, z)?;
+        }
         for (i, v) in self.at.into_iter().enumerate() {
             length(&format!("at[{i}]"), v, -MAX_LENGTH, MAX_LENGTH)?;
         }
@@ -203,6 +243,27 @@ impl Drawn<'_> {
         length("outline", far, 0.0, MAX_LENGTH)?;
         Ok(OutlineRead { outline: read.outline.moved(angle, DVec2::from_array(self.at)), ..read })
     }
+}
+
+/// What the loops of a section enclose without the outermost ones: its holes, with the material in them as islands.
+fn enclosed(read: OutlineRead, z: f64) -> Result<OutlineRead> {
+    let outline = &read.outline;
+    let all = outline.loops();
+    let start = |i: usize| outline.edges()[all[i].edges.start].start;
+    let edges = |i: usize| outline.edges()[all[i].edges.clone()].to_vec();
+    // A loop within none of the others is outermost.
+    let alone: Vec<Outline> =
+        (0..all.len()).map(|i| Outline::new(vec![edges(i)], Vec::new())).collect::<Result<_>>()?;
+    let is_within = |i: usize| (0..all.len()).any(|j| j != i && alone[j].contains(start(i)));
+    let inner: Vec<Vec<OutlineEdge>> = (0..all.len()).filter(|i| is_within(*i)).map(edges).collect();
+    if inner.is_empty() {
+        let finding = Finding::error(Code::OUTLINE_FILE, "the material encloses nothing at this height");
+        let help =
+            "choose another height; a pocket that is open to a side is drawn: rectangle, polygon, outline";
+        return Err(finding.value_mm(z).help(help).key("section").into());
+    }
+    let outline = Outline::new(inner, Vec::new())?;
+    Ok(OutlineRead { weights: vec![1.0; outline.edges().len()], outline, notes: read.notes })
 }
 
 impl OutlineRectangle {

@@ -237,7 +237,7 @@ fn parts_stand_in_the_order_in_which_they_are_read() {
         "KC0505",
         "KC0503",
         "KC0506",
-        "<h2>What was checked</h2>",
+        "<h2>Checks</h2>",
         "does not replace the dry run",
         "SHA-256",
         "Program text",

@@ -46,6 +46,7 @@ fn tools() -> Vec<Tool> {
         max_ramp_angle: None,
         gauge_length: Some(100.0 + f64::from(number)),
         limits: ToolLimits::default(),
+        elasticity: None,
     };
     (0..10).map(tool).collect()
 }

@@ -1,6 +1,8 @@
 //! From the machine table to a checked machine: names of axes resolved against the code, directions made unit vectors,
 //! degrees and minutes turned into radians and seconds.
 
+use std::f64::consts::TAU;
+
 use glam::{DMat3, DVec3};
 
 use super::axes::{axis_finding, axis_names, axis_of, direction, point};
@@ -11,7 +13,7 @@ use crate::base::bounded::text;
 use crate::base::{Code, Error, Finding, Loader, MeshesIn, Result};
 use crate::geom::Rigid;
 use crate::job::file::{AxisTable, FrameTable, MachineTable, SpindleTable};
-use crate::machine::{CoordinateCode, Elementary, Machine, OwnCode};
+use crate::machine::{CoordinateCode, Elementary, Machine, OwnCode, TorqueCurve};
 
 /// Least volume that the directions of three translations span: below it one of them follows from the others.
 const LEAST_VOLUME: f64 = 1e-3;
@@ -65,6 +67,12 @@ pub(crate) fn machine(t: &MachineTable, loader: &dyn Loader) -> Result<Machine> 
     }
     machine.dynamics = linear_axes(&t.dynamics)?.over(machine.dynamics);
     machine.control = control(&t.dynamics)?.over(machine.control);
+    if let Some(points) = &t.dynamics.spindle_curve {
+        let points: Vec<[f64; 2]> =
+            points.iter().map(|[turns, torque]| [turns * TAU / 60.0, *torque]).collect();
+        machine.spindle_curve =
+            Some(TorqueCurve::new(&points).map_err(|e| e.under("dynamics.spindle_curve"))?);
+    }
     machine.rapids = t.rapids.or(machine.rapids);
     if !t.codes.is_empty() {
         let codes = t.codes.iter().map(|(name, effect)| {

@@ -8,7 +8,7 @@ use crate::job::places::{Places, parse};
 use crate::job::read::decode;
 use crate::operations::plain_name;
 
-use super::start::{cut_of, edge_of, largest};
+use super::start::{cut_of, largest};
 
 /// Most rows of a file: more than a shop has.
 const MOST_ROWS: usize = 100_000;
@@ -94,8 +94,8 @@ fn fits(row: &CuttingRow, of: Cut<'_>) -> bool {
     };
     let edge = match row.tool_material {
         None => true,
-        Some(EdgeName::Carbide) => edge_of(of.tool) == EdgeMaterial::Carbide,
-        Some(EdgeName::Hss) => edge_of(of.tool) == EdgeMaterial::Hss,
+        Some(EdgeName::Carbide) => of.tool.edge_material() == EdgeMaterial::Carbide,
+        Some(EdgeName::Hss) => of.tool.edge_material() == EdgeMaterial::Hss,
     };
     let diameter = largest(of.tool);
     let wide = row.diameter.is_none_or(|[least, most]| diameter >= least - SAME && diameter <= most + SAME);

@@ -1,8 +1,8 @@
 //! Values to start with for a tool of a job.
 
 use crate::base::{Code, Finding};
-use crate::cutting::{EdgeMaterial, Material, StartCut, StartData};
-use crate::job::file::{EdgeName, ToolTable, ToolType};
+use crate::cutting::{Material, StartCut, StartData};
+use crate::job::file::{ToolTable, ToolType};
 
 /// Least likeness of a name that is proposed.
 const ALIKE: f64 = 0.7;
@@ -17,7 +17,7 @@ pub(super) fn start_of(
     cut: StartCut,
     tool: &ToolTable,
 ) -> Option<(StartData, Option<&'static str>)> {
-    let edge = edge_of(tool);
+    let edge = tool.edge_material();
     let cut = cut_of(tool.kind, cut);
     let data = material.start(cut, edge, largest(tool), tool.stickout)?;
     Some((data, tool.material.is_none().then_some(edge.name())))
@@ -28,17 +28,6 @@ pub(super) fn largest(tool: &ToolTable) -> f64 {
     match (tool.kind, tool.half_angle) {
         (ToolType::Tapered, Some(half)) => tool.diameter + 2.0 * tool.flute_length * half.to_radians().tan(),
         _ => tool.diameter,
-    }
-}
-
-/// The material of a tool's edges: what it says, else the lower speed of the two, but for what is mostly of carbide.
-pub(super) fn edge_of(tool: &ToolTable) -> EdgeMaterial {
-    let is_mill = !matches!(tool.kind, ToolType::Drill | ToolType::Tap);
-    match tool.material {
-        Some(EdgeName::Carbide) => EdgeMaterial::Carbide,
-        Some(EdgeName::Hss) => EdgeMaterial::Hss,
-        None if is_mill => EdgeMaterial::Carbide,
-        None => EdgeMaterial::Hss,
     }
 }
 

@@ -46,6 +46,10 @@ pub(crate) struct Block {
     /// Greatest torque (N m), as the power.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) torque: Option<f64>,
+    /// Greatest deflection of the tip away from the wall [mm], by half of the cutting force; nothing where the power or the give of
+    /// the tool is not known.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) deflection: Option<f64>,
 }
 
 impl Block {
@@ -60,7 +64,8 @@ impl Block {
         let time = segment.duration.filter(|t| *t > 0.0);
         let greatest = |of: fn(&EngagedStretch) -> f64| moved.stretches.iter().map(of).fold(0.0, f64::max);
         let chips = Chips::of(done, segment, &outcome.job.tools);
-        let load = Loads::of(outcome, done, segment).map(|loads| loads.greatest(moved));
+        let loads = Loads::of(outcome, done, segment);
+        let load = loads.as_ref().map(|loads| loads.greatest(moved));
         let length = segment.curve.length();
         Block {
             line,
@@ -76,6 +81,7 @@ impl Block {
             chip: chips.map(|chips| chips.thickest(greatest(|s| s.advance))),
             power: load.map(|load| load.power / 1000.0),
             torque: load.map(|load| load.torque),
+            deflection: loads.and_then(|loads| loads.deflection(moved)),
         }
     }
 
@@ -93,6 +99,7 @@ impl Block {
         self.chip = greater(self.chip, other.chip);
         self.power = greater(self.power, other.power);
         self.torque = greater(self.torque, other.torque);
+        self.deflection = greater(self.deflection, other.deflection);
     }
 }
 

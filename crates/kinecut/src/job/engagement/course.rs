@@ -65,6 +65,16 @@ pub(super) fn rates(moved: &MoveEngagement) -> Vec<f64> {
     (0..all.len()).map(one).collect()
 }
 
+/// The greatest arcs of contact about the stretches of a move [rad]: how much of one its lines show is left to chance, too.
+pub(super) fn arcs(moved: &MoveEngagement) -> Vec<f64> {
+    let all = &moved.stretches;
+    let one = |i: usize| {
+        let around = &all[i.saturating_sub(AROUND)..all.len().min(i + AROUND + 1)];
+        around.iter().map(|s| s.arc).fold(0.0, f64::max)
+    };
+    (0..all.len()).map(one).collect()
+}
+
 /// The course along the program of a setup, in order of time; `begins`: for each line of all programs the time at which it begins [s];
 /// `first_line`: where those of the setup begin.
 pub(crate) fn course(outcome: &Outcome, setup: usize, begins: &[f64], first_line: u32) -> Vec<Course> {

@@ -3,13 +3,16 @@
 use std::f64::consts::{PI, TAU};
 
 use super::super::setup_outcome::SetupOutcome;
-use super::course::rates;
+use super::course::{arcs, rates};
+use super::give::{RADIAL, give};
 use crate::cutting::{CuttingForce, CuttingLoad, Material};
 use crate::job::Outcome;
 use crate::stock::cut::{EngagedStretch, MoveEngagement};
 use crate::tool::{Cutter, Tool};
 use crate::trace::Segment;
 
+/// Arc of contact up to which it cuts beside a wall [rad]: the teeth of a wider cut press it to several sides.
+const BESIDE: f64 = 0.25 * TAU + 1e-6;
 /// Stretches of an edge along which its contact is summed up.
 const PARTS: u32 = 32;
 
@@ -60,7 +63,38 @@ impl Loads<'_> {
         }
         let rate = rate.min(self.most(stretch));
         let power = self.force.at(self.chip(stretch, rate)) * rate / self.time / 1000.0;
-        CuttingLoad { power, torque: power / self.speed, force: 0.0 }
+        let torque = power / self.speed;
+        let arc = stretch.arc.max(self.arc(stretch, rate));
+        CuttingLoad { power, torque, force: self.across(stretch.depth, arc, torque) }
+    }
+
+    /// The arc of contact beside a wall [rad] by what is taken, where the lines are too far apart to show it.
+    fn arc(&self, stretch: &EngagedStretch, rate: f64) -> f64 {
+        let width = rate / (stretch.depth * self.way[0]);
+        let cosine = 1.0 - width / radius(&self.tool.cutter, stretch.depth);
+        if cosine.is_finite() { cosine.clamp(-1.0, 1.0).acos() } else { 0.0 }
+    }
+
+    /// The force across the axis of a mill while teeth cut (N), by the mean torque (N m); nothing of a drill.
+    fn across(&self, depth: f64, arc: f64, torque: f64) -> f64 {
+        let radius = radius(&self.tool.cutter, depth);
+        if matches!(self.tool.cutter, Cutter::Drill { .. }) || !(radius > 0.0 && arc > 0.0) {
+            return 0.0;
+        }
+        // Where one tooth leaves before the next one enters, all of the work is done in a part of the time.
+        let cutting = f64::from(self.tool.teeth.max(1)) * arc / TAU;
+        torque * 1000.0 / radius / cutting.min(1.0)
+    }
+
+    /// Greatest deflection of the tool's tip in a segment [mm], away from the wall beside which it cuts with a quarter of its circle at
+    /// the most; `None` where it has no such cut, and where the give of the tool is not known.
+    pub(crate) fn deflection(&self, moved: &MoveEngagement) -> Option<f64> {
+        let give = give(self.tool)?;
+        let all = moved.stretches.iter().zip(rates(moved)).zip(arcs(moved));
+        let beside = all.filter(|(_, arc)| *arc <= BESIDE);
+        let forces =
+            beside.map(|((stretch, rate), arc)| self.on(&EngagedStretch { arc, ..*stretch }, rate).force);
+        Some(RADIAL * give * forces.reduce(f64::max)?)
     }
 
     /// The most that can be taken where the contact is as deep and as wide as it is [mm3 by fraction of the segment]: how many lines
@@ -171,6 +205,10 @@ mod tests {
             let (found, wanted) = (loads.on(&stretch, stretch.removed), cut.load(&force));
             assert!((found.power / wanted.power - 1.0).abs() < 1e-9, "{width}: {found:?} {wanted:?}");
             assert!((found.torque / wanted.torque - 1.0).abs() < 1e-9);
+            // One tooth of four cuts at a time within a quarter of a turn.
+            let share = 4.0 * chip.engagement / TAU;
+            let force = wanted.force / if share < 1.0 { share } else { 1.0 };
+            assert!((found.force / force - 1.0).abs() < 1e-9, "{width}: {found:?} {wanted:?}");
             // Three times as many lines as there should be take no more.
             assert_eq!(loads.on(&stretch, 3.0 * stretch.removed), found);
         }

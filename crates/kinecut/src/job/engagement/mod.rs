@@ -2,6 +2,7 @@
 
 mod blocks;
 mod course;
+mod give;
 mod load;
 
 use super::check::Job;
@@ -15,6 +16,7 @@ use crate::stock::cut::{MoveEngagement, adjust_volumes, engagements};
 pub use blocks::engagement_json;
 pub(crate) use blocks::{Block, blocks};
 pub(crate) use course::{Chips, Course, course};
+pub(crate) use give::deflection_beside;
 pub(crate) use load::{Loads, force_of};
 
 /// Moves below which engagement is measured unasked.

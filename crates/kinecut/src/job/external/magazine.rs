@@ -85,5 +85,6 @@ fn stand_in(number: ToolNumber) -> Tool {
         max_ramp_angle: None,
         gauge_length: None,
         limits: ToolLimits::default(),
+        elasticity: None,
     }
 }

@@ -156,6 +156,10 @@ pub struct DynamicsTable {
     /// Torque of the spindle that lasts (S1), N m.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub spindle_torque: Option<f64>,
+    /// Torque of the spindle that lasts (S1) by its speed, rev/min and N m: pairs, the slowest first; between them the
+    /// power is linear in the speed.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub spindle_curve: Option<Vec<[f64; 2]>>,
     /// How the control runs along a path: "jerk-limited", "trapezoid", "exact-stop", "junction-deviation" (Grbl) or "linuxcnc"
     /// (its planner as it comes, without S-curves).
     #[serde(default, skip_serializing_if = "Option::is_none")]

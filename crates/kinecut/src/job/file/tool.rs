@@ -9,6 +9,7 @@ use serde::{Deserialize, Serialize};
 use crate::base::bounded::{length, positive, text};
 use crate::base::unit::Deg;
 use crate::base::{Code, Error, Finding, Result};
+use crate::cutting::EdgeMaterial;
 use crate::tool::{
     ChamferForm, Cutter, DrillPoint, Hand, Holder, Neck, Tap, ThreadMill, Tool, ToolLimits, ToolNumber,
     ToothSpacing,
@@ -244,6 +245,19 @@ impl ToolTable {
     }
 }
 
+impl ToolTable {
+    /// The material of its edges: what it says, else the lower speed of the two, but for what is mostly of carbide.
+    pub(in crate::job) fn edge_material(&self) -> EdgeMaterial {
+        let is_mill = !matches!(self.kind, ToolType::Drill | ToolType::Tap);
+        match self.material {
+            Some(EdgeName::Carbide) => EdgeMaterial::Carbide,
+            Some(EdgeName::Hss) => EdgeMaterial::Hss,
+            None if is_mill => EdgeMaterial::Carbide,
+            None => EdgeMaterial::Hss,
+        }
+    }
+}
+
 /// The holders by name, checked.
 ///
 /// # Errors
@@ -379,9 +393,19 @@ pub(in crate::job) fn tool(t: &ToolTable, holders: &BTreeMap<&str, &Holder>) -> 
         max_ramp_angle: t.max_ramp_angle.map(f64::to_radians),
         gauge_length: t.gauge_length,
         limits: limits(t)?,
+        elasticity: elasticity(t),
     };
     tool.check()?;
     Ok(tool)
+}
+
+/// Modulus of elasticity of a tool (N/mm2): mills that do not say it are of carbide, but for those that mostly carry inserts in a body
+/// of their maker's choice.
+fn elasticity(t: &ToolTable) -> Option<f64> {
+    /// Diameter up to which a mill is mostly of one piece [mm].
+    const SOLID: f64 = 20.0;
+    let has_inserts = t.kind == ToolType::FaceMill || t.material.is_none() && t.diameter > SOLID;
+    (!has_inserts).then(|| t.edge_material().elasticity())
 }
 
 /// An example of a key that a kind of tool needs.

@@ -13,6 +13,7 @@ const NAMED: &[&str] = &[
     "mm or rad",
     "degrees and mm",
     "mm and degrees",
+    "rev/min and N m",
     "rev/min",
     "mm/min",
     "mm/rev",

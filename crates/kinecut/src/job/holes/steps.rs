@@ -245,9 +245,12 @@ impl<'a> Maker<'a> {
     }
 
     fn drill(&self, tool: &ToolTable, depth: Option<f64>) -> Step {
-        let deep = depth.is_some_and(|depth| depth > PECKED * tool.diameter);
-        let peck = deep.then_some(PeckTable { step: PECK * tool.diameter, after: PeckName::BreakChip });
-        let table = DrillTable { depth, peck, ..self.drilling(tool) };
+        let deep = PECKED * tool.diameter;
+        let steps = PeckTable { step: PECK * tool.diameter, after: PeckName::BreakChip };
+        let peck = depth.is_some_and(|depth| depth > deep).then_some(steps);
+        // How deep a hole goes that goes through is known when it is planned.
+        let peck_deep = depth.is_none().then_some((deep, steps));
+        let table = DrillTable { depth, peck, peck_deep, ..self.drilling(tool) };
         Step { stage: Stage::Drill, tool: tool.number, table: OperationTable::Drill(Box::new(table)) }
     }
 

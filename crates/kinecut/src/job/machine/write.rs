@@ -41,6 +41,12 @@ pub fn machine_toml(machine: &Machine) -> String {
         limits.extend(value.map(|v| format!("{name} = {}", number(v * factor))));
     }
     limits.extend(control.interpolator.map(|i| format!("interpolator = \"{}\"", variant_key(&i))));
+    if let Some(curve) = &machine.spindle_curve {
+        let turns = 60.0 / std::f64::consts::TAU;
+        let point = |[speed, torque]: &[f64; 2]| format!("[{}, {}]", number(speed * turns), number(*torque));
+        let points: Vec<String> = curve.points().iter().map(point).collect();
+        limits.push(format!("spindle_curve = [{}]", points.join(", ")));
+    }
     if !limits.is_empty() {
         let _ = writeln!(out, "dynamics = {{ {} }}", limits.join(", "));
     }

@@ -24,10 +24,10 @@ fn one(simulated: &Simulated<'_>, work: &Work<'_>) -> Vec<Finding> {
     else {
         return Vec::new();
     };
-    let control = &machine.control;
-    if control.spindle_power.is_none() && control.spindle_torque.is_none() {
+    if !machine.knows_spindle() {
         return Vec::new();
     }
+    let control = &machine.control;
     let done = &simulated.setups[work.setup];
     let loads: Vec<(u32, CuttingLoad)> = work
         .feeds()
@@ -37,21 +37,26 @@ fn one(simulated: &Simulated<'_>, work: &Work<'_>) -> Vec<Finding> {
             Some((d.segment.item, loads.greatest(moved)))
         })
         .collect();
-    let worst = |of: fn(&CuttingLoad) -> f64| {
-        loads.iter().map(|(item, load)| (*item, of(load))).max_by(|a, b| a.1.total_cmp(&b.1))
+    let speed = |item: u32| done.program.state(item as usize).spindle.rate();
+    // The item, what it needs, and what there is: where most of it is needed.
+    let worst = |needed: fn(&CuttingLoad) -> f64, limit: &dyn Fn(u32) -> Option<f64>| {
+        let all = loads.iter().filter_map(|(item, load)| Some((*item, needed(load), limit(*item)?)));
+        all.max_by(|a, b| (a.1 / a.2).total_cmp(&(b.1 / b.2)))
     };
+    let curve = |item: u32| Some(machine.spindle_curve.as_ref()?.torque(speed(item)));
     let limits = [
-        ("power", "kW", 1e-3, control.spindle_power, worst(|load| load.power / EFFICIENCY)),
-        ("torque", "N m", 1.0, control.spindle_torque, worst(|load| load.torque)),
+        ("power", "kW", 1e-3, "power", worst(|load| load.power / EFFICIENCY, &|_| control.spindle_power)),
+        ("torque", "N m", 1.0, "torque", worst(|load| load.torque, &|_| control.spindle_torque)),
+        ("torque", "N m", 1.0, "curve", worst(|load| load.torque, &curve)),
     ];
     let mut found = Vec::new();
-    for (what, unit, factor, limit, worst) in limits {
-        let (Some(limit), Some((item, needed))) = (limit, worst) else { continue };
+    for (what, unit, factor, key, worst) in limits {
+        let Some((item, needed, limit)) = worst else { continue };
         if needed <= NEAR * limit {
             continue;
         }
         let word = if needed > limit { "more than the" } else { "nearly all of the" };
-        let turns = done.program.state(item as usize).spindle.rate() * 60.0 / std::f64::consts::TAU;
+        let turns = speed(item) * 60.0 / std::f64::consts::TAU;
         let message = format!(
             "a cut of {} needs {word} {what} of the spindle, within {:.0} %, at {turns:.0} rev/min",
             work.tool.number,
@@ -59,7 +64,7 @@ fn one(simulated: &Simulated<'_>, work: &Work<'_>) -> Vec<Finding> {
         );
         let finding = Finding::warning(Code::CUTTING_LOAD, message)
             .value(rounded(needed * factor), unit)
-            .bound(rounded(limit * factor), &format!("{unit}, `spindle_{what}` of the machine"))
+            .bound(rounded(limit * factor), &format!("{unit}, `spindle_{key}` of the machine"))
             .help(format!(
                 "take a smaller depth, engagement or feed: {:.2} of the depth leaves a fifth in hand",
                 (NEAR * limit / needed * 100.0).floor() / 100.0

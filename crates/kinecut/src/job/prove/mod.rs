@@ -10,6 +10,7 @@ mod change;
 mod coolant;
 mod cutting_data;
 mod cutting_data_bounds;
+mod deflection;
 mod descent;
 mod duration;
 mod dwell;
@@ -139,6 +140,7 @@ const RULES: &[Rule] = &[
     feed::feed,
     cutting_data::cutting_data,
     load::load,
+    deflection::deflection,
     rubs::rubs,
     start_depth::start_depth,
     carried::carried,

@@ -42,6 +42,7 @@ pub(super) fn section(outcome: &Outcome, begins: &[f64], first_lines: &[u32]) ->
     if course.iter().any(|c| c.power.is_some_and(|power| power > 0.0)) {
         section = section.with(chart("Power of the cut", ("power", "kW"), |c| c.power.unwrap_or(f64::NAN)));
         conditions.extend(load_note(outcome));
+        conditions.push(DEFLECTION.to_owned());
     }
     Some(section.with(conditions.into_iter().fold(table(outcome, &blocks), Table::note)))
 }
@@ -63,6 +64,9 @@ fn notes(all: &Engagement) -> [String; 3] {
         ),
     ]
 }
+
+/// Conditions of the deflection.
+const DEFLECTION: &str = "Deflection at the tip of cuts with a quarter of the circle at most, under half of the cutting force, of a bar from the holder to the tip that is 0.8 of the cutter thick along its flutes: carbide where the tool does not say its material, mills above 20 mm and face mills not; the give of holder and spindle comes on top.";
 
 /// Conditions of power and torque.
 fn load_note(outcome: &Outcome) -> Option<String> {
@@ -200,6 +204,7 @@ fn table(outcome: &Outcome, blocks: &[(u32, &Block)]) -> Table {
         if has_load {
             cells.push(words(known(|b| b.power).map(|power| least(power, 2))));
             cells.push(words(known(|b| b.torque).map(|torque| least(torque, 1))));
+            cells.push(words(known(|b| b.deflection).map(|mm| least(1000.0 * mm, 0))));
         }
         let row = Row::new(cells.into_iter().map(Cell::new).collect());
         let greatest = own().max_by(|(_, a), (_, b)| a.arc.total_cmp(&b.arc));
@@ -209,7 +214,11 @@ fn table(outcome: &Outcome, blocks: &[(u32, &Block)]) -> Table {
         }
     });
     let columns = "Tool; Arc [\u{b0}]; Depth [mm]; Width [mm]; Chip [mm] (teeth); Rate [cm\u{b3}/min]; Removed [cm\u{b3}]; In air [%]";
-    let columns = if has_load { format!("{columns}; Power [kW]; Torque [N m]") } else { columns.to_owned() };
+    let columns = if has_load {
+        format!("{columns}; Power [kW]; Torque [N m]; Deflection [\u{b5}m]")
+    } else {
+        columns.to_owned()
+    };
     Table::new("Greatest engagement of each tool", &columns).rows(rows)
 }
 

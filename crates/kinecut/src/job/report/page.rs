@@ -183,7 +183,7 @@ fn checked(verdict: &ReportVerdict) -> Markup {
     ];
     markup! {
         section #checked {
-            h2 { "What was checked" }
+            h2 { "Checks" }
             div.lists {
                 @for (title, class, list, empty) in lists {
                     div class=(class) {

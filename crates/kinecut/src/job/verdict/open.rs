@@ -57,7 +57,7 @@ fn load(job: &Job, simulation: &Simulation, list: &mut UncheckedList) {
         list.add(Heading::Tools, what);
     }
     let Some(machine) = &job.machine else { return };
-    if machine.control.spindle_power.is_none() && machine.control.spindle_torque.is_none() {
+    if !machine.knows_spindle() {
         return;
     }
     if force_of(job.material.as_deref()).is_none() {

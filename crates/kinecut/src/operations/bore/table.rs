@@ -97,6 +97,10 @@ impl kind::Checked for BoreOperation {
         &mut self.milling
     }
 
+    fn spring_passes(&self) -> u32 {
+        self.table.finish.as_ref().map_or(0, |f| f.spring_passes)
+    }
+
     fn name(&self) -> String {
         let t = &self.table;
         format!("bore {} at X{} Y{}", t.diameter, t.at[0], t.at[1])

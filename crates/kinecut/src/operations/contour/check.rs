@@ -7,7 +7,7 @@ use super::{ContourEntry, ContourTable, TabsTable};
 use crate::base::bounded::{MAX_LENGTH, length, positive};
 use crate::base::{Code, Finding, Result};
 use crate::contouring::{ContourSide, Tabs};
-use crate::cutting::StartCut;
+use crate::cutting::{MillingCut, StartCut};
 use crate::geom::Outline;
 use crate::holes::CutterData;
 use crate::operations::kind::{self, Attempt};
@@ -82,6 +82,16 @@ impl kind::Checked for ContourOperation {
 
     fn milling_mut(&mut self) -> &mut Milling {
         &mut self.milling
+    }
+
+    fn finishing(&self) -> Option<MillingCut> {
+        let finish = self.table.finish.as_ref().filter(|_| self.table.side != ContourSide::On)?;
+        let depth = self.table.depth + self.table.breakthrough;
+        Some(self.milling.beside_wall(finish.allowance, self.finish_feed, [finish.stepdown, Some(depth)]))
+    }
+
+    fn spring_passes(&self) -> u32 {
+        self.table.finish.as_ref().map_or(0, |f| f.spring_passes)
     }
 
     fn name(&self) -> String {

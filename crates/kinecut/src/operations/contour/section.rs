@@ -6,12 +6,9 @@ use crate::geom::OutlineEdge;
 use crate::operations::measured::BoreMeasure;
 use crate::operations::{Shown, uncut};
 use crate::page::{
-    Cell, Circle, Colour, Column, Dash, Fact, Ink, Plan, PlanLine, Row, Section, Table, Width, fixed,
-    micrometres, trimmed,
+    Cell, Circle, Colour, Column, Dash, Fact, Ink, Plan, PlanLine, Row, Section, Table, Width, fixed, trimmed,
 };
 
-/// A deviation that is shown as none [mm].
-const SMALL: f64 = 1e-4;
 /// Most loops that the table lists.
 const LISTED: usize = 100;
 /// Arcs are drawn as chords of this angle [rad].
@@ -27,9 +24,7 @@ pub(super) fn section(plan: &PlannedContour, of: &Shown<'_>) -> Section {
 fn facts(plan: &PlannedContour, wall: Option<&BoreMeasure>) -> Vec<Fact> {
     let (spec, of) = (&plan.spec, &plan.of);
     let mut facts = Vec::new();
-    if let Some(m) = wall.filter(|m| m.wall[0] <= m.wall[1]) {
-        let worst = m.wall[0].abs().max(m.wall[1].abs());
-        let value = if worst < SMALL { "under 0.1 \u{b5}m off".to_owned() } else { stock(m.wall) };
+    if let Some((m, value)) = wall.and_then(|m| Some((m, m.stock_on_wall()?))) {
         let ends = format!("at {} line ends of the simulated part", m.ends);
         let note = plan.not_looked_at().map_or(ends.clone(), |what| format!("{ends}; not compared: {what}"));
         facts.push(Fact::new("Wall", value).note(note));
@@ -48,6 +43,9 @@ fn facts(plan: &PlannedContour, wall: Option<&BoreMeasure>) -> Vec<Fact> {
     );
     let down = match spec.ramp {
         Some(angle) => format!("ramp of {}\u{b0} along the contour", trimmed(angle.to_degrees(), 2)),
+        None if plan.of.outline.is_of_lines() && spec.clear_ends => {
+            "straight down beside the stock".to_owned()
+        }
         None => "straight down beside the contour".to_owned(),
     };
     let per_minute = |feed: f64| format!("{} mm/min", trimmed(feed * 60.0, 1));
@@ -61,12 +59,6 @@ fn facts(plan: &PlannedContour, wall: Option<&BoreMeasure>) -> Vec<Fact> {
         facts.push(Fact::new("Drawing", note.clone()));
     }
     facts
-}
-
-/// The range of stock on a wall.
-fn stock([least, most]: [f64; 2]) -> String {
-    let one = |d: f64| format!("{}{}", if d < 0.0 { "\u{2212}" } else { "" }, micrometres(d.abs()));
-    format!("stock of {} to {}", one(least), one(most))
 }
 
 /// Points along edges.
@@ -109,10 +101,11 @@ fn view(plan: &PlannedContour) -> Plan {
 }
 
 fn table(plan: &PlannedContour) -> Table {
+    let is_lines = plan.of.outline.is_of_lines();
     let mut table = Table {
-        caption: "Loops in the order of cutting".to_owned(),
+        caption: format!("{}s in the order of cutting", if is_lines { "Path" } else { "Loop" }),
         columns: vec![
-            Column::text("Loop"),
+            Column::text(if is_lines { "Path" } else { "Loop" }),
             Column::text("Start"),
             Column::number("Length", "mm"),
             Column::number("Tabs", ""),
@@ -120,11 +113,15 @@ fn table(plan: &PlannedContour) -> Table {
         ..Table::default()
     };
     for one in plan.plan.loops.iter().take(LISTED) {
-        let which = if one.outer { "outer" } else { "inner" };
+        let which = match one.outer {
+            _ if is_lines => "",
+            true => ", outer",
+            false => ", inner",
+        };
         let what = if one.finishing { "finishing" } else { "roughing" };
         let start = one.edges.first().map(|e| uncut::place(e.start)).unwrap_or_default();
         table.rows.push(Row::new(vec![
-            Cell::new(format!("{what}, {which}")),
+            Cell::new(format!("{what}{which}")),
             Cell::new(start),
             Cell::new(fixed(one.length(), 2)),
             Cell::new(format!("{}", one.tabs.len())),
@@ -132,7 +129,7 @@ fn table(plan: &PlannedContour) -> Table {
     }
     let more = plan.plan.loops.len().saturating_sub(LISTED);
     if more > 0 {
-        table.notes.push(format!("{more} further loops are in plan.json."));
+        table.notes.push(format!("{more} more are in plan.json."));
     }
     table
 }

@@ -66,6 +66,9 @@ pub struct DeburrTable {
     /// Widest gap in a drawing that is closed; default 0.01.
     #[serde(default)]
     pub snap: Option<f64>,
+    /// Height at which a mesh (.stl) is cut, in its own coordinates: the outline is that of the material just below it; default: its highest horizontal face.
+    #[serde(default)]
+    pub section: Option<f64>,
     /// Zero of the drawing, in coordinates of the work offset; default [0, 0].
     #[serde(default)]
     pub at: [f64; 2],

@@ -95,18 +95,20 @@ impl HolePen<'_, '_> {
         // A reamer that leaves in a rapid move scores the wall: it comes out at its feed, which the cycles of drilling do not.
         let reams = drill.method == DrillMethod::Reaming;
         let one_feed = zones.iter().all(|z| z.feed == first.feed);
-        if !reams && one_feed && t.peck.is_none() && t.cycles {
+        let drilled = start - t.approach - bottom;
+        let peck = t.peck.or_else(|| t.peck_deep.filter(|(least, _)| drilled > *least).map(|(_, peck)| peck));
+        if !reams && one_feed && peck.is_none() && t.cycles {
             let cycle = Cycle::Drill { reference: start, bottom, retract: self.clearance, dwell: t.dwell };
             return self.cycle(cycle, first.feed);
         }
-        if let (Control::Sinumerik840d, true, Some(peck)) = (self.control, t.cycles, t.peck)
+        if let (Control::Sinumerik840d, true, Some(peck)) = (self.control, t.cycles, peck)
             && let Some(cycle) = self.entry_and_steps(zones, peck, t.dwell)
         {
             return self.cycle(cycle, last.feed);
         }
         self.rapid(start);
         for zone in zones {
-            match (t.peck, zone.stage) {
+            match (peck, zone.stage) {
                 (Some(peck), ZoneStage::Steady) if zone.length() > peck.step => {
                     let cycle = match peck.after {
                         PeckName::BreakChip => Cycle::ChipBreak {

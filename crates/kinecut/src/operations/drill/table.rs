@@ -88,6 +88,9 @@ pub struct DrillTable {
     /// Steps of the steady stretch.
     #[serde(default)]
     pub peck: Option<PeckTable>,
+    /// Steps that it takes where it turns out deeper than a length [mm], for a hole of a size that goes through.
+    #[serde(skip)]
+    pub peck_deep: Option<(f64, PeckTable)>,
     /// Wait at the bottom, seconds; default 0.
     #[serde(default)]
     pub dwell: f64,

@@ -12,7 +12,7 @@ use crate::cutting::StartCut;
 use crate::facing::{BadSet, FaceCase, Thresholds};
 use crate::geom::{Outline, OutlineRead};
 use crate::operations::kind::{self, Attempt};
-use crate::operations::outlines::{Drawn, OutlineEntry};
+use crate::operations::outlines::{Drawn, MeshSection, OutlineEntry};
 use crate::operations::{
     Around, CalledTool, CuttingKeys, FeedKeys, Milling, Setting, StockOutline, milling_of, tool_of,
 };
@@ -273,7 +273,8 @@ fn outline(t: &FacingTable, stock: &StockOutline<'_>, loader: &dyn Loader) -> Re
         }
         outline => {
             let (unit, layers) = (t.unit, t.layers.as_deref());
-            Drawn { outline, unit, layers, snap: t.snap, at: t.at, angle: t.angle }.read(loader)
+            let section = t.section.map(MeshSection::Material);
+            Drawn { outline, unit, layers, snap: t.snap, section, at: t.at, angle: t.angle }.read(loader)
         }
     }
 }

@@ -118,6 +118,10 @@ impl kind::Checked for EllipseOperation {
         &mut self.milling
     }
 
+    fn spring_passes(&self) -> u32 {
+        self.table.finish.as_ref().map_or(0, |f| f.spring_passes)
+    }
+
     fn name(&self) -> String {
         let t = &self.table;
         let [a, b] = t.half_axes;

@@ -68,6 +68,10 @@ impl kind::Checked for ThreadMillOperation {
         &mut self.milling
     }
 
+    fn spring_passes(&self) -> u32 {
+        self.table.spring_passes
+    }
+
     fn name(&self) -> String {
         match &self.places[..] {
             [one] => format!("mill thread {}", self.at(one.at)),

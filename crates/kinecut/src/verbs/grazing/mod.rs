@@ -30,7 +30,7 @@ use crate::page::Section;
 /// The JSON Schema of the input of `kinecut grazing`.
 pub fn grazing_schema() -> serde_json::Value {
     let what =
-        "What `kinecut grazing` reads: one tool with its motion, a list, or a table with a list `grazing`.";
+        "The input of `kinecut grazing`: one tool with its motion, a list, or a table with a list `grazing`.";
     crate::job::items::schema::<GrazingTable>("GrazingInput", what, &[GRAZING_LIST])
 }
 

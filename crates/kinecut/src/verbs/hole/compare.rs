@@ -377,7 +377,7 @@ fn leads(c: &Comparison) -> Option<Section> {
 }
 
 fn claims(claims: &[Claim]) -> Section {
-    let mut section = Section::new("What the paper claims, on this hole");
+    let mut section = Section::new("The paper's claims, on this hole");
     let mut table = Table::new("Sorokin, But, Kombarov 2013", "Claim; Holds; Found");
     for claim in claims {
         let holds = match claim.holds {

@@ -70,7 +70,7 @@ const LISTS: [&str; 3] = ["hole", "drill", "face"];
 
 /// The JSON Schema of the input of `kinecut hole`.
 pub fn hole_schema() -> serde_json::Value {
-    let what = "What `kinecut hole`, `drill` and `face` read: one operation, a list, or a table with a list `hole`, \
+    let what = "The input of `kinecut hole`, `drill` and `face`: one operation, a list, or a table with a list `hole`, \
                 `drill` or `face`.";
     items::schema::<HoleTable>("HoleInput", what, &LISTS)
 }

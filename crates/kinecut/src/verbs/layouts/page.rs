@@ -52,7 +52,7 @@ fn asked(sheet: &LayoutSheet) -> Section {
     let mut section = Section::new(format!("Layouts of {}", sheet.of)).with(Block::Facts(facts));
     if !sheet.left_out.is_empty() {
         let mut table =
-            Table::new("What each condition leaves out by itself", "Condition; Leaves out [layouts]");
+            Table::new("Layouts that each condition leaves out by itself", "Condition; Leaves out [layouts]");
         for (condition, count) in &sheet.left_out {
             table.rows.push(Row::new(vec![(*condition).into(), count.to_string().into()]));
         }

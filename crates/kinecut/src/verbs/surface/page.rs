@@ -45,7 +45,7 @@ pub fn surface_html(sheet: &SurfaceSheet, made: Option<&OnMachine>) -> Result<St
         maker: "kinecut surface",
         title: &title,
         style: &style,
-        caution: "What a model generates does not replace the trial cut.",
+        caution: "A model does not replace the trial cut.",
         sections: &sections,
         figures: &figures,
         ..VerbPage::default()
@@ -251,7 +251,7 @@ fn answers(made: &OnMachine) -> Vec<Answer<'_>> {
 
 fn on_machine(made: &OnMachine) -> Section {
     let mut table = Table::new(
-        format!("What machine {} {} can make, and how well", made.code, made.machine),
+        format!("Surfaces that machine {} {} can make, and how well", made.code, made.machine),
         "Machine | tool; Process; Can it; Laws of the axes; Off by [um]; Covered [%]; Remarks",
     );
     for a in answers(made) {
@@ -297,7 +297,7 @@ fn budgets(made: &OnMachine) -> Section {
         let of = |kind: &str| axes.iter().map(|axis| format!("{axis} {kind} [um]; ")).collect::<String>();
         let columns =
             format!("Machine | tool; {}{}All independent [um]; All worst [um]", of("position"), of("guide"));
-        let caption = format!("How far errors of {} move the surface along its normal", made.errors);
+        let caption = format!("Way along its normal by which errors of {} move the surface", made.errors);
         let mut table = Table::new(caption, &columns);
         for a in &answers {
             let Some(b) = &a.made.budget else { continue };
@@ -315,7 +315,7 @@ fn budgets(made: &OnMachine) -> Section {
         );
         section.blocks.push(table.into());
     }
-    section.blocks.push(Block::Heading("What these figures do not hold".to_owned()));
+    section.blocks.push(Block::Heading("Not in these figures".to_owned()));
     section.blocks.push(Block::List(NOT_VERIFIED.map(str::to_owned).to_vec()));
     section
 }

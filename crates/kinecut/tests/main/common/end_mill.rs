@@ -19,5 +19,6 @@ pub(crate) fn end_mill(number: u32, gauge_length: f64) -> Tool {
         max_ramp_angle: None,
         gauge_length: Some(gauge_length),
         limits: Default::default(),
+        elasticity: None,
     }
 }

@@ -93,6 +93,7 @@ fn in_its_holder() -> Tool {
         max_ramp_angle: None,
         gauge_length: None,
         limits: Default::default(),
+        elasticity: None,
     }
 }
 

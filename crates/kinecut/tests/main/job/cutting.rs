@@ -327,6 +327,24 @@ fn a_cut_that_needs_more_than_the_spindle_has_is_a_warning() {
     assert!(of(1.45 * wanted, 100.0)[0].message.contains("nearly all of the power"));
     let found = of(10.0, 0.9 * 1000.0 * wanted / (50.0 * TAU));
     assert!(found.len() == 1 && found[0].message.contains("more than the torque"), "{found:?}");
+    // The curve: at 3000 rev/min half of the torque at 1500, whose power it keeps.
+    let curve = |torque: f64| {
+        let machine = format!(
+            "[machine]\ncode = \"2103\"\ndynamics = {{ spindle_curve = [[1500, {}], [6000, {}]] }}\n",
+            2.0 * torque,
+            0.5 * torque
+        );
+        let outcome = slotted(C45, &machine, 600.0);
+        let found: Vec<Finding> =
+            outcome.verdict.found.iter().filter(|f| f.code == Code::CUTTING_LOAD).cloned().collect();
+        found
+    };
+    let torque = 1000.0 * wanted / (50.0 * TAU);
+    assert!(curve(1.5 * torque).is_empty());
+    let found = curve(0.9 * torque);
+    assert!(found.len() == 1 && found[0].message.contains("more than the torque"), "{found:?}");
+    let bound = found[0].bound.as_ref().unwrap();
+    assert!((bound.value - 0.9 * torque).abs() < 0.06 && bound.unit.contains("spindle_curve"), "{bound:?}");
     // A speed at which nothing is known of the force: POM.
     let outcome = slotted("material = \"POM\"", &machine(0.01, 0.1), 600.0);
     assert!(outcome.verdict.found.iter().all(|f| f.code != Code::CUTTING_LOAD));
@@ -336,6 +354,51 @@ fn a_cut_that_needs_more_than_the_spindle_has_is_a_warning() {
         "{:?}",
         outcome.verdict.not_checked
     );
+}
+
+#[test]
+fn a_wall_from_which_the_cutter_is_pressed_away_is_a_warning() {
+    let wall = |rest: &str, finish: &str| {
+        format!(
+            "[[setup.operation]]\ntype = \"contour\"\nside = \"left\"\ntool = 1\npolyline = [[-60, 0], [60, 0]]\ndepth = 10\n\
+             speed = 6000\nfeed = 2400\n{rest}\nfinish = {{ allowance = 1{finish} }}\n"
+        )
+    };
+    let of = |material: &str, operation: &str| -> Vec<Finding> {
+        let outcome = done(material, "", operation);
+        outcome.verdict.found.iter().filter(|f| f.code == Code::TOOL_DEFLECTION).cloned().collect()
+    };
+    // One tooth at a time in an arc of acos 0.8: the mean of kc1.1 h^(1 - mc) ap over the arc.
+    let (arc, steps) = (0.8_f64.acos(), 10_000);
+    let one =
+        |i: i32| 2110.0 * (0.1 * (arc * (f64::from(i) + 0.5) / f64::from(steps)).sin()).powf(0.83) * 10.0;
+    let force = (0..steps).map(one).sum::<f64>() / f64::from(steps);
+    // 18 mm of shank and 22 mm of flutes as thick as 8 mm.
+    let stiff = |diameter: f64| 3.0 * 600_000.0 * PI * diameter.powi(4) / 64.0;
+    let wanted =
+        0.5 * force * ((40_f64.powi(3) - 22_f64.powi(3)) / stiff(10.0) + 22_f64.powi(3) / stiff(8.0));
+    let found = of(C45, &wall("", ""));
+    assert_eq!(found.len(), 1, "{found:?}");
+    let value = found[0].value.as_ref().unwrap().value;
+    // At the mean chip up to 4.5 % high.
+    assert!((1.0..1.06).contains(&(value / wanted)), "{value} {wanted}");
+    assert!(found[0].bound.as_ref().unwrap().value == 0.02 && found[0].place.is_some(), "{}", found[0]);
+    let json: Value = serde_json::from_str(&engagement_json(&done(C45, "", &wall("", ""))).unwrap()).unwrap();
+    let blocks = json["setups"][0]["blocks"].as_array().unwrap();
+    let most = blocks.iter().filter_map(|b| b["deflection"].as_f64()).fold(0.0, f64::max);
+    // As simulated, on lines that are 0.5 mm apart.
+    assert!((0.8..1.3).contains(&(most / value)), "{most} {value}");
+    // A tolerance of its own; a spring pass; a material of which no force is known.
+    let strict = of(C45, &wall("tolerance = 0.03", ""));
+    assert!(
+        strict[0].bound.as_ref().unwrap().value == 0.01
+            && strict[0].message.contains("a third of the tolerance")
+    );
+    for (material, rest, finish) in
+        [(C45, "tolerance = 0.3", ""), (C45, "", ", spring_passes = 1"), ("material = \"POM\"", "", "")]
+    {
+        assert!(of(material, &wall(rest, finish)).is_empty(), "{material} {rest} {finish}");
+    }
 }
 
 #[test]

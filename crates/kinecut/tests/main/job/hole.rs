@@ -194,6 +194,34 @@ fn a_reamer_leaves_at_feed_and_no_rapid_move_ends_in_a_spot() {
 }
 
 #[test]
+fn a_hole_that_goes_through_deeper_than_four_diameters_is_drilled_in_steps() {
+    let fine = "[[tool]]\nnumber = 10\nname = \"drill 4\"\ntype = \"drill\"\ndiameter = 4\nflute_length = 40\nstickout = 50\n\
+        gauge_length = 160\npreset = [{ material = \"C45\", cutting_speed = 20, feed_per_rev = 0.08 }]\n";
+    let hole =
+        |size: &str| format!("[[setup.operation]]\ntype = \"hole\"\nsize = {size}\npoints = [[0, 0]]\n");
+    // Short lifts in the hole, which break the chip: half a millimetre, or what the control's cycle has.
+    let lifts = |outcome: &Outcome| {
+        let is_lift = |s: &&kinecut::trace::Segment| {
+            let (a, b) = (s.curve.start(), s.curve.end());
+            a.z < -2.0 && b.z - a.z > 1e-6 && b.z - a.z < 1.5 && (b - a).truncate().length() < 1e-9
+        };
+        outcome.setups[0].trace.segments.iter().filter(is_lift).count()
+    };
+    for control in ["fanuc", "linuxcnc", "heidenhain", "sinumerik-840d"] {
+        // 20 mm thick: five diameters, of which the steady stretch takes 17.8 mm, and three.
+        let deep = done(control, fine, &hole("4"));
+        assert!(
+            (4..=5).contains(&lifts(&deep)),
+            "{control}: {} {}",
+            lifts(&deep),
+            deep.setups[0].posted.text
+        );
+        assert!(deep.verdict.is_safe() && findings(&deep).is_empty(), "{control}: {:?}", findings(&deep));
+        assert_eq!(lifts(&done(control, fine, &hole("6.6"))), 0, "{control}");
+    }
+}
+
+#[test]
 fn tools_can_be_named_and_spots_left_out() {
     let hole = "[[setup.operation]]\ntype = \"hole\"\nsize = \"M8\"\npoints = [[0, 0]]\n";
     let outcome = done(

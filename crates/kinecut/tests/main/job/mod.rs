@@ -22,6 +22,7 @@ mod machine_bodies;
 mod picture;
 mod playback;
 mod pocket;
+mod pocket_entry;
 mod prove_motion;
 mod prove_rules;
 mod rest;

@@ -104,6 +104,20 @@ fn every_key_of_control_and_spindle_arrives_in_its_unit() {
 }
 
 #[test]
+fn a_curve_of_torque_is_read_and_written() {
+    let machine = read("c.toml", &with_dynamics("spindle_curve = [[1500, 40], [6000, 10]]")).unwrap();
+    let turns = std::f64::consts::TAU / 60.0;
+    assert!((machine.spindle_curve.as_ref().unwrap().torque(3000.0 * turns) - 20.0).abs() < 1e-9);
+    let again = read("c.toml", &machine_toml(&machine)).unwrap();
+    let points = |m: &Machine| m.spindle_curve.as_ref().unwrap().points().to_vec();
+    for (a, b) in points(&machine).iter().zip(points(&again)) {
+        assert!((a[0] - b[0]).abs() < 1e-9 && a[1] == b[1]);
+    }
+    let e = read("c.toml", &with_dynamics("spindle_curve = [[1500, 40], [1200, 10]]")).unwrap_err();
+    assert_eq!(e.0.key.as_deref(), Some("dynamics.spindle_curve[1]"));
+}
+
+#[test]
 fn values_of_control_and_spindle_are_held_to_their_bounds() {
     let junction = "interpolator = \"junction-deviation\"";
     let speed = "max_speed = 8000";

@@ -54,6 +54,7 @@ fn tool() -> Tool {
         max_ramp_angle: None,
         gauge_length: None,
         limits: Default::default(),
+        elasticity: None,
     }
 }
 

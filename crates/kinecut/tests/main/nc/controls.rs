@@ -346,6 +346,7 @@ fn tool() -> Tool {
         max_ramp_angle: None,
         gauge_length: Some(120.0),
         limits: Default::default(),
+        elasticity: None,
     }
 }
 

@@ -42,6 +42,7 @@ fn drill() -> Tool {
         max_ramp_angle: None,
         gauge_length: Some(170.0),
         limits: Default::default(),
+        elasticity: None,
     }
 }
 

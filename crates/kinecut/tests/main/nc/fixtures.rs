@@ -80,6 +80,7 @@ fn mill(number: u32, name: &str, diameter: f64) -> Tool {
         max_ramp_angle: None,
         gauge_length: Some(170.0),
         limits: Default::default(),
+        elasticity: None,
     }
 }
 

@@ -59,6 +59,7 @@ fn tool(number: u32) -> Tool {
         max_ramp_angle: None,
         gauge_length: Some(120.0),
         limits: Default::default(),
+        elasticity: None,
     }
 }
 

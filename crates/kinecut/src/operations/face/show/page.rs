@@ -60,7 +60,7 @@ fn section(face: &MilledFace<'_>, more: Vec<Fact>, plans: Vec<Picture>) -> Secti
     put(Block::Text(sentence(&rule_words(face))));
     let mut list =
         vec![format!("Outline: {}.", outline_words(face)), format!("Cutter: {}.", cutter_words(face))];
-    list.extend(weight_words(face).map(|w| format!("What edges count: {w}.")));
+    list.extend(weight_words(face).map(|w| format!("Weights of edges: {w}.")));
     list.extend(face.notes.iter().map(|n| sentence(n)));
     let set_up = placement_words(face);
     list.push(format!("Set-up: {}.", set_up.join("; ")));

@@ -426,8 +426,10 @@ pub(super) fn irreducible_table(face: &MilledFace<'_>) -> Option<Table> {
         .iter()
         .filter(|(_, l, _)| *l > 0.0)
         .map(|(n, l, s)| Row::new(vec![n.clone().into(), fixed(*l, 3).into(), area_share(*s).into()]));
-    let table =
-        Table::new("What no allowed straight pass avoids", "Loop; Bad at least [mm]; Of its length []");
+    let table = Table::new(
+        "Bad length that no allowed straight pass avoids",
+        "Loop; Bad at least [mm]; Of its length []",
+    );
     Some(
         table.rows(rows).note(
             "Certified for each loop alone. A chamfer before milling, or passes along the edge, avoid it.",

@@ -32,7 +32,7 @@ pub(crate) fn figure(sheet: &EnvelopeSheet, id: &str) -> Result<Picture> {
     let scene = Scene::new(sheet, [ROOM, ROOM, SIZE[0] - 2.0 * ROOM, SIZE[1] - 2.0 * ROOM])?;
     let mut picture = Picture {
         id: id.to_owned(),
-        title: "What is swept".to_owned(),
+        title: "The swept volume".to_owned(),
         about: "seen from the side of the move; hidden curves dashed".to_owned(),
         summary: "The body that the tool sweeps, with grazing curves and the tool at both ends.".to_owned(),
         size: SIZE,

@@ -178,7 +178,7 @@ pub(crate) fn rate_unit(sheet: &EnvelopeSheet) -> (f64, &'static str) {
 pub(crate) fn entering(sheet: &EnvelopeSheet) -> Table {
     let (by, unit) = rate_unit(sheet);
     let mut table = Table::new(
-        "What enters",
+        "Entering faces",
         &format!("moment; curves []; area that enters [mm\u{b2}]; volume entered [{unit}]"),
     );
     for (name, e) in ["start", "middle", "end"].into_iter().zip(sheet.main_moments()) {

@@ -286,7 +286,7 @@ fn parallel_normal() -> Result<GalleryGroup> {
     ];
     let seen: Vec<usize> = cases.iter().map(|c| points(&c.sheet)).collect();
     let claims = vec![PaperClaim {
-        says: "Where the normal is parallel to the axis the point Q is at infinity: boundary points only if the velocity in Q is perpendicular to the axis.",
+        says: "A normal parallel to the axis puts the point Q at infinity: boundary points only if the velocity in Q is perpendicular to the axis.",
         verdict: PaperVerdict::of(seen == [0, 0, 0]),
         found: format!(
             "{} points for |vz| of 0.5, 1 and 1.5 times x |w_xy|, none of them with velocities perpendicular to the axis in Q",

@@ -93,7 +93,7 @@ fn cell(verdict: PaperVerdict) -> Cell {
 
 fn statements(groups: &[GalleryGroup]) -> Table {
     let mut table =
-        Table::new("What the paper says, and what is so", "about; the paper says; verdict; computed");
+        Table::new("The paper's statements, and what is so", "about; the paper says; verdict; computed");
     for group in groups {
         for claim in &group.claims {
             table.rows.push(Row::new(vec![

@@ -127,7 +127,7 @@ pub(crate) fn spans(sheet: &GrazingSheet) -> Table {
 /// Table of the areas that enter, for each piece.
 pub(crate) fn entering(sheet: &GrazingSheet) -> Table {
     let mut table = Table::new(
-        "What enters and what leaves",
+        "Entering and leaving",
         "piece; role; area [mm\u{b2}]; enters [mm\u{b2}]; leaves [mm\u{b2}]; \
              share that enters []; volume entered [mm\u{b3}/min]; volume left [mm\u{b3}/min]",
     );
