@@ -9,6 +9,8 @@ use kinecut::page::Fact;
 use serde::Serialize;
 use serde_json::value::RawValue;
 
+use crate::operations::{Run, TextPlaces, ToolShown, runs, tools};
+
 /// A program as the page shows it.
 #[derive(Serialize)]
 pub(crate) struct ProgramShown<'a> {
@@ -27,6 +29,8 @@ pub(crate) struct ProgramShown<'a> {
 pub(crate) struct Shown<'a> {
     findings: &'a [Finding],
     programs: Vec<ProgramShown<'a>>,
+    operations: Vec<Run>,
+    tools: Vec<ToolShown<'a>>,
     /// `plan.json`, letter by letter.
     plan: Box<RawValue>,
     facts: Vec<Fact>,
@@ -45,7 +49,7 @@ struct SceneShown {
 impl<'a> Shown<'a> {
     pub(crate) fn of(
         report: &Report,
-        (job, setups): (&'a Job, &'a [SetupOutcome]),
+        (job, setups, places): (&'a Job, &'a [SetupOutcome], Option<&TextPlaces>),
         findings: &'a [Finding],
         plan: String,
     ) -> Shown<'a> {
@@ -53,6 +57,8 @@ impl<'a> Shown<'a> {
         Shown {
             findings,
             programs: programs(job, setups),
+            operations: runs(job, setups, places),
+            tools: tools(job),
             plan: raw(plan),
             facts: facts(report),
             sections: shown_sections(report),

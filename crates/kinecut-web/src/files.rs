@@ -6,6 +6,8 @@ use std::sync::Arc;
 use axum::body::Body;
 use axum::extract::{Path as InPath, State};
 use axum::http::{Response, StatusCode};
+use base64::Engine as _;
+use base64::engine::general_purpose::STANDARD;
 use kinecut::base::{Error, FileKind, Finding, Result as Found};
 use kinecut::job::{Outputs, sha256};
 use serde::{Deserialize, Serialize};
@@ -91,6 +93,12 @@ pub(crate) struct SaveAsked {
     sha256: Option<String>,
 }
 
+/// What a file shall hold, and the hash of what it holds before.
+struct Content {
+    bytes: Vec<u8>,
+    before: Option<String>,
+}
+
 #[derive(Serialize)]
 struct Saved {
     id: String,
@@ -103,7 +111,7 @@ struct Conflict<E> {
     error: E,
     exit: u8,
     disk: OnDisk,
-    yours: String,
+    yours: Option<String>,
 }
 
 #[derive(Serialize)]
@@ -115,7 +123,7 @@ struct OnDisk {
 /// The outcome of saving.
 enum Outcome {
     Saved,
-    Changed(OnDisk, String),
+    Changed(OnDisk, Option<String>),
     Failed(Error),
 }
 
@@ -126,16 +134,18 @@ pub(crate) async fn save(
     Json(asked): Json<SaveAsked>,
 ) -> Result<Response<Body>, Refusal> {
     let name = app.file(&id)?.name;
-    save_as(app, name, asked, "changed", "the file was changed by another program").await
+    let content = Content { bytes: asked.text.into_bytes(), before: asked.sha256 };
+    save_as(app, name, content, "changed", "the file was changed by another program").await
 }
 
-/// A text for a new file.
+/// A new file: its text, or its bytes in base64.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct NewAsked {
     new: String,
     beside: Option<String>,
-    text: String,
+    text: Option<String>,
+    base64: Option<String>,
 }
 
 /// `POST /api/file`: makes a file that is not there.
@@ -144,22 +154,29 @@ pub(crate) async fn make(
     Json(asked): Json<NewAsked>,
 ) -> Result<Response<Body>, Refusal> {
     let name = new_name(&app, &asked.new, asked.beside.as_deref())?;
-    let asked = SaveAsked { text: asked.text, sha256: None };
-    save_as(app, name, asked, "exists", "there is a file of this name").await
+    let bytes = match (asked.text, asked.base64) {
+        (Some(text), None) => text.into_bytes(),
+        (None, Some(packed)) => STANDARD.decode(packed).map_err(|_| {
+            Refusal::request("`base64` is no base64").help("write the bytes in base64, with padding")
+        })?,
+        _ => return Err(Refusal::request("give what the file holds: `text` or `base64`")),
+    };
+    let content = Content { bytes, before: None };
+    save_as(app, name, content, "exists", "there is a file of this name").await
 }
 
 async fn save_as(
     app: Arc<App>,
     name: String,
-    asked: SaveAsked,
+    content: Content,
     reason: &'static str,
     message: &'static str,
 ) -> Result<Response<Body>, Refusal> {
-    let sha256 = sha256(asked.text.as_bytes());
+    let sha256 = sha256(&content.bytes);
     let _turn = app.saving.lock().await;
     let path = name.clone();
     let done = on_disk(Arc::clone(&app), move |app| {
-        let done = put(app, &path, asked);
+        let done = put(app, &path, content);
         // So that what was saved here is not told as a change by others.
         app.folder.list();
         done
@@ -176,7 +193,7 @@ async fn save_as(
 }
 
 /// Replaces a file if it is what was read.
-fn put(app: &App, name: &str, asked: SaveAsked) -> Outcome {
+fn put(app: &App, name: &str, content: Content) -> Outcome {
     let place = match place(app, name) {
         Ok(place) => place,
         Err(e) => return Outcome::Failed(e),
@@ -189,11 +206,11 @@ fn put(app: &App, name: &str, asked: SaveAsked) -> Outcome {
         false => None,
     };
     let hash = now.as_deref().map(sha256);
-    if hash != asked.sha256 {
+    if hash != content.before {
         let text = now.and_then(|content| String::from_utf8(content).ok());
-        return Outcome::Changed(OnDisk { text, sha256: hash }, asked.text);
+        return Outcome::Changed(OnDisk { text, sha256: hash }, String::from_utf8(content.bytes).ok());
     }
-    match replace(&place, &asked.text) {
+    match replace(&place, &content.bytes) {
         Ok(()) => Outcome::Saved,
         Err(e) => Outcome::Failed(e),
     }
@@ -214,8 +231,8 @@ fn place(app: &App, name: &str) -> Found<PathBuf> {
     })
 }
 
-/// Puts a text in the place of a file: whole or not at all, with the rights that the file had.
-fn replace(place: &Path, text: &str) -> Found<()> {
+/// Puts bytes in the place of a file: whole or not at all, with the rights that the file had.
+fn replace(place: &Path, bytes: &[u8]) -> Found<()> {
     let (Some(folder), Some(name)) = (place.parent(), place.file_name().and_then(|n| n.to_str())) else {
         let what = format!("`{}` is no name of a file", place.display());
         return Err(Finding::error(kinecut::base::Code::OUTPUT_NOT_WRITTEN, what).into());
@@ -227,7 +244,7 @@ fn replace(place: &Path, text: &str) -> Found<()> {
             .into());
     }
     let mut outputs = Outputs::default();
-    outputs.add(name, text.as_bytes());
+    outputs.add(name, bytes);
     outputs.write(folder)
 }
 

@@ -63,11 +63,41 @@ impl GivenFiles {
     /// # Errors
     /// Those of the files, of the program, and of what cannot be guessed.
     pub(crate) fn job(&self, app: &App, texts: &Texts, cut: bool) -> Result<(GivenJob, Vec<String>)> {
-        let (said, bytes) = (&self.wants, texts.program(app)?);
+        let bytes = texts.program(app)?;
         let program = GivenFile { name: &texts.name, bytes: &bytes };
+        let mut wants = self.of_program(app, texts, &bytes);
+        if let Some(job) = &self.job {
+            let text = texts.text_of(app, job, FileKind::Text)?;
+            let disk = app.folder.beside(job);
+            let given = given_with_job(program, &wants, (job, &text), &texts.over(&disk, job))?;
+            return Ok((given, Vec::new()));
+        }
+        self.add_files(app, texts, &mut wants)?;
+        if cut && (wants.stock.is_none() || wants.tools.is_none()) {
+            Guess::of(program, &wants)?.complete(&mut wants)?;
+        }
+        let given = given_alone(program, &wants, cut)?;
+        Ok((given, wants.guessed))
+    }
+
+    /// A job about the program with what is guessed, as a text for a file beside it.
+    ///
+    /// # Errors
+    /// Those of the files, and of a program whose control nothing tells.
+    pub(crate) fn guessed_job(&self, app: &App, texts: &Texts) -> Result<String> {
+        let bytes = texts.program(app)?;
+        let mut wants = self.of_program(app, texts, &bytes);
+        self.add_files(app, texts, &mut wants)?;
+        let program = GivenFile { name: &texts.name, bytes: &bytes };
+        Ok(Guess::of(program, &wants)?.job(split(&texts.name).1, &[]))
+    }
+
+    /// What is said of the program itself.
+    fn of_program(&self, app: &App, texts: &Texts, bytes: &[u8]) -> ProgramWants {
+        let said = &self.wants;
         let disk = app.folder.beside(&texts.name);
         let loader = texts.over(&disk, &texts.name);
-        let mut wants = ProgramWants {
+        ProgramWants {
             control: said.control.clone(),
             stock: said.stock.map(GivenStock::Block),
             position: said.position,
@@ -75,26 +105,20 @@ impl GivenFiles {
             tool: said.tool,
             tolerant: said.tolerant,
             setup: said.setup,
-            beside: beside(texts, said.control.as_deref(), &bytes, &loader),
+            beside: beside(texts, said.control.as_deref(), bytes, &loader),
             ..ProgramWants::default()
-        };
-        if let Some(job) = &self.job {
-            let text = texts.text_of(app, job, FileKind::Text)?;
-            let disk = app.folder.beside(job);
-            let given = given_with_job(program, &wants, (job, &text), &texts.over(&disk, job))?;
-            return Ok((given, Vec::new()));
         }
+    }
+
+    /// Adds the files of the machine and of the tools.
+    fn add_files(&self, app: &App, texts: &Texts, wants: &mut ProgramWants) -> Result<()> {
         wants.machine = self.machine.as_ref().map(|name| machine(app, texts, name)).transpose()?;
         let tools = self.tools.as_ref().map(|name| {
             let kind = if is_tool_table(name) { FileKind::Program } else { FileKind::Text };
             texts.text_of(app, name, kind).map(|text| (name.clone(), text))
         });
         wants.tools = tools.transpose()?;
-        if cut && (wants.stock.is_none() || wants.tools.is_none()) {
-            Guess::of(program, &wants)?.complete(&mut wants)?;
-        }
-        let given = given_alone(program, &wants, cut)?;
-        Ok((given, wants.guessed))
+        Ok(())
     }
 
     /// The design that the cut part is compared with, put into settings of the simulation.

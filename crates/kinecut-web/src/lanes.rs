@@ -17,6 +17,8 @@ pub(crate) enum Work {
     Simulate,
     /// A planner by itself.
     Verb,
+    /// A job guessed of a program.
+    Guess,
     /// Run, and its files written.
     Write,
 }

@@ -17,6 +17,7 @@ use crate::app::{App, Json};
 use crate::given::GivenWants;
 use crate::kind::Kind;
 use crate::lanes::Work;
+use crate::operations::TextPlaces;
 use crate::refusal::{Refusal, json};
 use crate::rest::Rest;
 use crate::texts::About;
@@ -64,18 +65,20 @@ pub(crate) async fn plan(
     let given = asked.given.files(&app)?;
     let (id, quick) = (texts.id(), asked.quick);
     work(app, (asked.who, Work::Plan, id), move |app, watch| {
-        let (mut draft, check) = match texts.kind {
+        let (mut draft, check, places) = match texts.kind {
             Kind::Program => {
                 let (of_check, _) = given.job(app, &texts, false)?;
                 let sheet = program_sheet(&of_check)?;
                 // Stock and tools that nobody gave are guessed, so that there is something to see.
                 let (given, _) = given.job(app, &texts, true)?;
-                (Draft::of_given(given, watch)?, Some(raw(json_document(&sheet))))
+                (Draft::of_given(given, watch)?, Some(raw(json_document(&sheet))), None)
             }
             _ => {
                 let disk = app.folder.beside(&texts.name);
                 let loader = texts.over(&disk, &texts.name);
-                (Draft::of(&texts.name, &texts.text(app)?, &loader, watch)?, None)
+                let text = texts.text(app)?;
+                let draft = Draft::of(&texts.name, &text, &loader, watch)?;
+                (draft, None, Some(TextPlaces::read(&texts.name, &text, &loader)?))
             }
         };
         if !quick {
@@ -83,7 +86,8 @@ pub(crate) async fn plan(
         }
         watch.still_wanted()?;
         let report = of_draft(&draft);
-        let shown = Shown::of(&report, (&draft.job, &draft.setups), &report.findings, draft_json(&draft));
+        let about = (&draft.job, &draft.setups[..], places.as_ref());
+        let shown = Shown::of(&report, about, &report.findings, draft_json(&draft));
         Ok(json(
             StatusCode::OK,
             &Planned {

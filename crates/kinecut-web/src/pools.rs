@@ -73,7 +73,7 @@ impl Pools {
         }
         let waits = Waits::one_more(&self.waiting);
         let (pool, places) = match work {
-            Work::Plan | Work::Verb => (&self.quick, &self.quick_places),
+            Work::Plan | Work::Verb | Work::Guess => (&self.quick, &self.quick_places),
             Work::Simulate | Work::Write => (&self.long, &self.long_places),
         };
         // Places are never closed.

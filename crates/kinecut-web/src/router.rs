@@ -24,7 +24,7 @@ use crate::gate::Passed;
 use crate::lanes::Work;
 use crate::refusal::{Refusal, bytes, json};
 use crate::work::is_client;
-use crate::{files, inspect, page, plan, simulate, verb, write};
+use crate::{files, guess, inspect, page, plan, simulate, verb, write};
 
 /// The router of the server.
 pub(crate) fn router(app: Arc<App>) -> Router {
@@ -41,6 +41,7 @@ pub(crate) fn router(app: Arc<App>) -> Router {
         .route("/api/events", get(events))
         .route("/api/plan", post(plan::plan))
         .route("/api/simulate", post(simulate::simulate))
+        .route("/api/guess", post(guess::guess))
         .route("/api/stop", post(stop))
         .route("/api/inspect", post(inspect::inspect))
         .route("/api/report", post(inspect::report))

@@ -19,6 +19,7 @@ use crate::app::{App, Json};
 use crate::given::{GivenFiles, GivenWants};
 use crate::kind::Kind;
 use crate::lanes::Work;
+use crate::operations::TextPlaces;
 use crate::refusal::{Refusal, json};
 use crate::rest::Rest;
 use crate::results::Kept;
@@ -114,14 +115,20 @@ pub(crate) async fn simulate(
     let wants = asked.wants;
     let id = texts.id();
     work(app, (asked.who, Work::Simulate, id), move |app, watch| {
-        let (outcome, guessed) = match texts.kind {
-            Kind::Program => of_program(app, (&texts, &given), &wants, watch)?,
-            _ => (of_job_text(app, &texts, &wants, watch)?, Vec::new()),
+        let (outcome, guessed, places) = match texts.kind {
+            Kind::Program => {
+                let (outcome, guessed) = of_program(app, (&texts, &given), &wants, watch)?;
+                (outcome, guessed, None)
+            }
+            _ => {
+                let (outcome, places) = of_job_text(app, &texts, &wants, watch)?;
+                (outcome, Vec::new(), Some(places))
+            }
         };
         watch.still_wanted()?;
         let report = of_job(&outcome);
         let kept = Kept { outcome, report };
-        let answer = answer(app, kept, &guessed, wants.is_coarse(), watch);
+        let answer = answer(app, kept, (&guessed, places.as_ref()), wants.is_coarse(), watch);
         watch.still_wanted()?;
         Ok(answer)
     })
@@ -129,12 +136,18 @@ pub(crate) async fn simulate(
 }
 
 /// The answer; what it shows is kept for questions about it.
-fn answer(app: &App, kept: Kept, guessed: &[String], coarse: bool, watch: &Watch) -> Response<Body> {
+fn answer(
+    app: &App,
+    kept: Kept,
+    (guessed, places): (&[String], Option<&TextPlaces>),
+    coarse: bool,
+    watch: &Watch,
+) -> Response<Body> {
     let of = (watch.asked.client.clone(), watch.asked.file.clone());
     let (result, kept) = app.results.keep(of, kept);
     let Kept { outcome, report } = &*kept;
-    let shown =
-        Shown::of(report, (&outcome.job, &outcome.setups), &outcome.verdict.found, plan_json(outcome));
+    let about = (&outcome.job, &outcome.setups[..], places);
+    let shown = Shown::of(report, about, &outcome.verdict.found, plan_json(outcome));
     json(
         StatusCode::OK,
         &Simulated {
@@ -151,12 +164,14 @@ fn answer(app: &App, kept: Kept, guessed: &[String], coarse: bool, watch: &Watch
     )
 }
 
-fn of_job_text(app: &App, texts: &Texts, wants: &Wants, watch: &Watch) -> Found<Outcome> {
+fn of_job_text(app: &App, texts: &Texts, wants: &Wants, watch: &Watch) -> Found<(Outcome, TextPlaces)> {
     let disk = app.folder.beside(&texts.name);
     let loader = texts.over(&disk, &texts.name);
     let text = texts.text(app)?;
     let stock = wants.settings(|| coarse_of(&texts.name, &text, &loader))?;
-    run_with(&texts.name, &text, &RunWants { compare: wants.compare, stock }, &loader, watch)
+    let wants = RunWants { compare: wants.compare, stock };
+    let outcome = run_with(&texts.name, &text, &wants, &loader, watch)?;
+    Ok((outcome, TextPlaces::read(&texts.name, &text, &loader)?))
 }
 
 /// The coarse step of a job's text.

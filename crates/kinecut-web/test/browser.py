@@ -1,6 +1,7 @@
 """The workbench in a browser, as a person uses it: python3 browser.py KINECUT, with the path of the program. It serves copies of examples and
 opens them in Chromium. Needs playwright and axe-playwright-python, and Debian's Chromium. With KINECUT_SHOTS set, pictures go into that folder;
-with KINECUT_WEEKLY set, the bounds of time count, on a machine that does nothing else."""
+with KINECUT_WEEKLY set, the bounds of time count, on a machine that does nothing else. With KINECUT_DIST set, the page's assets come from that
+folder (../dist after a build of the pages) in place of the program."""
 
 import hashlib
 import json
@@ -103,6 +104,8 @@ class Watched:
         self.page.on("dialog", lambda dialog: dialog.accept())
 
     def opened(self, address: str) -> Page:
+        if built := os.environ.get("KINECUT_DIST"):
+            self.page.route("**/assets/**", lambda route: route.fulfill(path=built + re.sub(r"^\w+://[^/]*", "", route.request.url)))
         self.page.goto(address)
         return self.page
 
@@ -561,4 +564,5 @@ def main() -> None:
     print("the workbench in a browser: as it should be")
 
 
-main()
+if __name__ == "__main__":
+    main()

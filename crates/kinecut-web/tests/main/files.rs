@@ -72,6 +72,14 @@ fn a_new_file_replaces_none() {
     let again = running.post("/api/file", &json!({ "new": "PLATE.NGC", "beside": beside, "text": "G1" }));
     assert_eq!((again.status, again.reason().as_str()), (409, "exists"));
     assert_eq!(folder.read("sub/PLATE.NGC"), "G0");
+    // Bytes that are no text come in base64.
+    let made = running.post("/api/file", &json!({ "new": "O7.NC", "base64": "RzD/Cg==" }));
+    assert_eq!((made.status, fs::read(folder.opened().join("O7.NC")).unwrap()), (200, b"G0\xff\n".to_vec()));
+    let both = json!({ "new": "O8.NC", "base64": "RzA=", "text": "G0" });
+    for asked in [json!({ "new": "O8.NC", "base64": "R*" }), json!({ "new": "O8.NC" }), both] {
+        assert_eq!(running.post("/api/file", &asked).status, 400, "{asked}");
+    }
+    assert!(!folder.opened().join("O8.NC").exists());
 }
 
 #[cfg(unix)]

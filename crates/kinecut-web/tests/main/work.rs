@@ -63,6 +63,97 @@ fn a_text_that_is_being_edited_is_planned() {
     assert_eq!((&broken["state"], &broken["error"]["code"]), (&json!("wrong"), &json!("KC0101")));
 }
 
+/// The runs of lines of a plan or simulation: key, tool, and what of the text stands at their place.
+fn runs(done: &Value, text: &str) -> Vec<(String, u64, String)> {
+    let all = done["operations"].as_array().unwrap_or_else(|| panic!("{done}"));
+    let at = |run: &Value| {
+        let place = &run["place"];
+        let [start, end] = ["start", "end"].map(|end| place[end].as_u64().unwrap() as usize);
+        text[start..end].to_owned()
+    };
+    let word = |run: &Value, key: &str| run[key].as_str().unwrap().to_owned();
+    all.iter().map(|run| (word(run, "key"), run["tool"].as_u64().unwrap(), at(run))).collect()
+}
+
+#[test]
+fn operations_have_the_lines_of_the_programs_that_were_written_for_them() {
+    let (_folder, running) = plate();
+    let id = running.id("job.toml");
+    let second = PLATE[PLATE.find("[[setup]]").unwrap()..].replace("depth = 6", "depth = 4");
+    let text = format!("{PLATE}{second}");
+    for path in ["/api/plan", "/api/simulate"] {
+        let mut asked = json!({ "client": "c", "file": id, "text": text });
+        if path == "/api/simulate" {
+            asked["step"] = json!("coarse");
+        }
+        let done = running.post(path, &asked).json();
+        let keys: Vec<String> = runs(&done, &text).into_iter().map(|(key, ..)| key).collect();
+        assert_eq!(keys, ["setup[0].operation[0]", "setup[1].operation[0]"], "{path}");
+        let [first, second] = [0, 1].map(|i| &done["operations"][i]);
+        let lines = |i: usize| done["programs"][i]["text"].as_str().unwrap().lines().collect::<Vec<_>>();
+        let number = |run: &Value, key: &str| run[key].as_u64().unwrap() as usize;
+        // The second program's lines follow those of the first.
+        let begin = lines(0).len();
+        assert_eq!(done["programs"][1]["first"], begin);
+        assert!(number(first, "to") <= begin && number(second, "from") >= begin, "{first} {second}");
+        let own = &lines(1)[number(second, "from") - begin..number(second, "to") - begin];
+        assert!(own.iter().any(|line| line.contains("X30")) && !own.iter().any(|line| line.contains("M30")));
+        assert_eq!((&first["tool"], &done["tools"][0]["number"]), (&json!(1), &json!(1)));
+        assert_eq!(first["tool_name"], done["tools"][0]["name"]);
+    }
+}
+
+#[test]
+fn operations_of_holes_lie_where_the_hole_is_in_the_text() {
+    let folder = Folder::new();
+    let example = concat!(env!("CARGO_MANIFEST_DIR"), "/../../examples/21_plate_by_sizes");
+    let read = |name: &str| std::fs::read_to_string(format!("{example}/{name}")).unwrap();
+    let text = read("job.toml");
+    for name in ["job.toml", "tools.toml"] {
+        folder.write(name, &read(name));
+    }
+    let running = Running::of(&folder);
+    let asked = json!({ "client": "c", "file": running.id("job.toml"), "text": text });
+    let done = running.post("/api/plan", &asked).json();
+    let runs = runs(&done, &text);
+    // Spot, drill, ream, tap: of one entry of the text come several operations, and none lies elsewhere.
+    let of = |line: &str| {
+        let at = text[..text.find(line).unwrap()].rfind("[[setup.operation]]").unwrap();
+        let number = text[..=at].matches('\n').count() + 1;
+        let all = done["operations"].as_array().unwrap();
+        all.iter().filter(|run| run["place"]["line"] == json!(number)).count()
+    };
+    assert_eq!(
+        [of("type = \"face\""), of("size = 6.6"), of("size = \"8H7\""), of("size = \"M8\"")],
+        [1, 2, 3, 3],
+        "{runs:?}"
+    );
+    assert!(runs.iter().all(|(key, ..)| key.starts_with("setup[0].operation[")), "{runs:?}");
+}
+
+#[test]
+fn a_program_that_comes_alone_is_guessed_as_a_job_that_can_be_planned() {
+    let folder = Folder::new();
+    folder.write(
+        "sub/slot.ngc",
+        "(T1 D=6. CR=0. - FLAT END MILL)\nG21 G90 G54\nT1 M6\nG43\nG0 X0 Y0 Z5\nG1 Z-1 F300\nX30\nM2\n",
+    );
+    let running = Running::of(&folder);
+    let file = running.id("sub/slot.ngc");
+    let done = running.post("/api/guess", &json!({ "client": "c", "generation": 2, "file": file })).json();
+    assert_eq!((&done["state"], &done["generation"]), (&json!("done"), &json!(2)), "{done}");
+    let job = done["job"].as_str().unwrap();
+    assert!(job.contains("min = [-3, -3, -1], max = [33, 3, 0]") && job.contains("diameter = 6"), "{job}");
+    let made = running.post("/api/file", &json!({ "new": "slot.toml", "beside": file, "text": job })).json();
+    let id = running.id(made["name"].as_str().unwrap());
+    let planned = running.post("/api/plan", &json!({ "client": "c", "file": id })).json();
+    assert_eq!((&planned["state"], &planned["programs"][0]["file"]), (&json!("done"), &json!("slot.ngc")));
+    // Programs of others have no operations of the job.
+    assert_eq!(planned["operations"], json!([]));
+    let wrong = running.post("/api/guess", &json!({ "client": "c", "file": id, "control": "none" })).json();
+    assert_eq!(wrong["state"], "wrong", "{wrong}");
+}
+
 #[test]
 fn other_files_that_are_being_edited_are_seen_too() {
     let folder = Folder::new();

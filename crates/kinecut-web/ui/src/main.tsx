@@ -1,23 +1,19 @@
 // The workbench begins here.
 import { render } from "preact";
-import { App, dropped } from "./app/app";
+import { App } from "./app/app";
 import { startKeys } from "./app/commands";
 import { outcome } from "./app/outcome";
 import "./app/theme";
-import { documents, serverGone, start, tell, titled } from "./store/session";
+import { active, documents, serverGone, start, tell, titled } from "./store/session";
 import { Gone } from "./base/api";
+import { face, faceTitle } from "./windows/face/open";
 
 render(<App />, document.getElementById("app") as HTMLElement);
 startKeys();
-titled(() => outcome.value?.word ?? "");
+titled(() => (active.value?.isDrilling ? "" : (outcome.value?.word ?? "")), faceTitle);
 
-addEventListener("dragover", (e) => e.preventDefault());
-addEventListener("drop", (e) => {
-  e.preventDefault();
-  if (e.dataTransfer?.files.length) void dropped(e.dataTransfer.files);
-});
 addEventListener("beforeunload", (e) => {
-  if (documents.value.some((doc) => doc.dirty.value)) e.preventDefault();
+  if (documents.value.some((doc) => doc.dirty.value) || face.value?.dirty.value) e.preventDefault();
 });
 
 start().catch((error: unknown) => {

@@ -1,5 +1,8 @@
 // The path in three dimensions: one object for each role, the piece under the cursor, and what lies under the pointer.
-import { BufferAttribute, BufferGeometry, type Camera, Group, LineBasicMaterial, LineDashedMaterial, LineSegments, Vector3 } from "three";
+import {
+  BufferAttribute, BufferGeometry, type Camera, Group, InstancedBufferAttribute, LineBasicMaterial, LineDashedMaterial, LineSegments, type Material,
+  Vector3,
+} from "three";
 import { LineMaterial } from "three/examples/jsm/lines/LineMaterial.js";
 import { LineSegments2 } from "three/examples/jsm/lines/LineSegments2.js";
 import { LineSegmentsGeometry } from "three/examples/jsm/lines/LineSegmentsGeometry.js";
@@ -15,6 +18,8 @@ const NEAR = 8;
 const MARK = 4.5;
 const MARK_DENSE = 1.8;
 const DENSE = 12;
+/** What is still to come is drawn with this share of what is done. */
+const TO_COME = 0.38;
 const WIDTH: Record<string, number> = { rapid: 1.4, link: 1.4, lead: 1.8, feed: 1.6, rough: 1.6, finish: 2.4 };
 
 interface Role {
@@ -33,6 +38,8 @@ export class PathLines {
   private engaged: Role | null = null;
   private by: Quantity | "" = "";
   private last = Infinity;
+  /** The last piece that is done. */
+  private readonly done = { value: 1e9 };
   private readonly wide: boolean;
 
   constructor(private readonly track: Track, size: number) {
@@ -54,7 +61,7 @@ export class PathLines {
       const dashed = name === "rapid" || name === "link";
       const dash = { dashSize: size * (name === "rapid" ? 0.02 : 0.006), gapSize: size * 0.012 };
       const objects = [true, false].map((front) => {
-        const look = { depthTest: front, transparent: !front, opacity: front ? 1 : 0.22, depthWrite: front };
+        const look = { depthTest: front, transparent: true, opacity: front ? 1 : 0.22, depthWrite: front };
         let line: LineSegments<BufferGeometry, LineBasicMaterial> | LineSegments2;
         if (wide) {
           const material = new LineMaterial({ ...look, linewidth: WIDTH[name], dashed, ...(dashed ? dash : {}) });
@@ -64,6 +71,7 @@ export class PathLines {
           line = new LineSegments(geometry, dashed ? new LineDashedMaterial({ ...look, ...dash }) : new LineBasicMaterial(look));
         }
         if (dashed) line.computeLineDistances();
+        this.dimmed(line, piece);
         line.renderOrder = front ? 3 : 2;
         line.frustumCulled = false;
         this.group.add(line);
@@ -101,7 +109,7 @@ export class PathLines {
   private inColours(quantity: Quantity): Role {
     const { xyz, rgb, piece } = engagedLines(this.track, quantity);
     const objects = [true, false].map((front) => {
-      const look = { depthTest: front, transparent: !front, opacity: front ? 1 : 0.22, depthWrite: front, vertexColors: true };
+      const look = { depthTest: front, transparent: true, opacity: front ? 1 : 0.22, depthWrite: front, vertexColors: true };
       let line: Role["objects"][number];
       if (this.wide) {
         line = new LineSegments2(new LineSegmentsGeometry().setPositions(xyz).setColors(rgb), new LineMaterial({ ...look, linewidth: WIDTH.finish }));
@@ -109,12 +117,33 @@ export class PathLines {
         const geometry = new BufferGeometry().setAttribute("position", new BufferAttribute(Float32Array.from(xyz), 3));
         line = new LineSegments(geometry.setAttribute("color", new BufferAttribute(Float32Array.from(rgb), 3)), new LineBasicMaterial(look));
       }
+      this.dimmed(line, piece);
       line.renderOrder = front ? 3 : 2;
       line.frustumCulled = false;
       this.group.add(line);
       return line;
     });
     return { name: "engaged", objects, piece: Uint32Array.from(piece) };
+  }
+
+  /** Dims what comes after a piece; nothing with infinity. */
+  dimFrom(last: number): void {
+    this.done.value = Math.min(last, 1e9);
+  }
+
+  /** Lets a line dim the segments whose `piece` is still to come. */
+  private dimmed(line: Role["objects"][number], piece: number[]): void {
+    if (line instanceof LineSegments2) line.geometry.setAttribute("order", new InstancedBufferAttribute(Float32Array.from(piece), 1));
+    else line.geometry.setAttribute("order", new BufferAttribute(Float32Array.from({ length: 2 * piece.length }, (_, i) => piece[i >> 1]), 1));
+    const material: Material = line.material;
+    material.onBeforeCompile = (shader) => {
+      shader.uniforms.done = this.done;
+      shader.vertexShader = `attribute float order; varying float ofOrder;\n${shader.vertexShader}`.replace("void main() {", "void main() {\nofOrder = order;");
+      const dims = `(ofOrder > done + 0.5 ? ${TO_COME.toFixed(2)} : 1.0)`;
+      shader.fragmentShader = `uniform float done; varying float ofOrder;\n${shader.fragmentShader}`
+        .replace("float alpha = opacity;", `float alpha = opacity * ${dims};`)
+        .replace("vec4 diffuseColor = vec4( diffuse, opacity );", `vec4 diffuseColor = vec4( diffuse, opacity * ${dims} );`);
+    };
   }
 
   showRapids(on: boolean): void {

@@ -8,6 +8,7 @@ import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
 import { type Head, type PartData, part as readPart } from "./decode";
 import { type Quantity, greatest } from "./engaged";
 import { Fixtures, Machine } from "./bodies";
+import { hatched } from "./cap";
 import { PathLines } from "./lines";
 import { bandTexture, geometry } from "./mesh";
 import { Overlay } from "./overlay";
@@ -40,6 +41,20 @@ export interface Around {
   tolerances: string;
   /** Told when who plays or steps wants to see material go. */
   nowOn: () => void;
+  /** Told of each picture, with the place on the canvas [px] of a point [mm]. */
+  drawn?: (project: (point: Point) => [number, number]) => void;
+  /** Told where a click meets the part; takes it with true, so that the cursor stays. */
+  clicked?: (hit: Hit | null) => boolean;
+}
+
+/** x, y, z [mm]. */
+export type Point = [number, number, number];
+
+/** A place of the part's surface. */
+export interface Hit {
+  point: Point;
+  /** Triangle of the part. */
+  triangle: number;
 }
 
 /** Cutting part, shank, holder. */
@@ -86,6 +101,7 @@ export class View {
     this.renderer = new WebGLRenderer({ canvas, antialias: true, alpha: true });
     this.renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
     this.tool.visible = false;
+    hatched(this.inside);
     const light = new DirectionalLight(0xffffff, 2.1);
     light.position.set(-0.5, 0.8, 1);
     this.camera.add(light, light.target);
@@ -220,7 +236,12 @@ export class View {
     this.renderer.render(this.scene, this.camera);
     freed(this.old, true);
     this.old = [];
-    this.overlay.update(this.camera, this.pixels() * this.camera.zoom, this.canvas.clientWidth, this.canvas.clientHeight);
+    const { clientWidth: width, clientHeight: height } = this.canvas;
+    this.overlay.update(this.camera, this.pixels() * this.camera.zoom, width, height);
+    this.around.drawn?.((point) => {
+      const v = new Vector3(...point).project(this.camera);
+      return [((v.x + 1) / 2) * width, ((1 - v.y) / 2) * height];
+    });
   }
 
   /** Pixels for a millimetre at zoom 1. */
@@ -398,10 +419,12 @@ export class View {
     if (place.piece < 0) {
       lines?.mark(0, 0);
       lines?.upTo(Infinity);
+      lines?.dimFrom(Infinity);
       this.tool.visible = false;
     } else {
       lines?.mark(track.runStart(place.piece), track.runEnd(place.piece));
       lines?.upTo(this.shown.past ? place.piece : Infinity);
+      lines?.dimFrom(place.piece);
       this.place(place, track);
     }
     this.draw();
@@ -446,7 +469,7 @@ export class View {
       const [x, y] = place(e);
       const still = down !== null && Math.hypot(x - down[0], y - down[1]) < 4;
       down = null;
-      if (!still || e.button !== 0) return;
+      if (!still || e.button !== 0 || this.around.clicked?.(this.hit(x, y))) return;
       const hit = this.lines?.group.visible ? this.lines.pick(x, y, this.camera, canvas.clientWidth, canvas.clientHeight) : null;
       if (hit && this.track) this.cursor.go(this.track.ofPiece(hit.piece, hit.part), "view");
       readout(this.read(x, y));
@@ -459,19 +482,36 @@ export class View {
     canvas.addEventListener("pointerleave", () => readout(""));
   }
 
-  /** Coordinates and deviation of the part under the pointer. */
-  private read(x: number, y: number): string {
-    if (!this.data || !this.part.visible) return "";
+  /** The surface of the part that is shown: corners and triangles. */
+  get surfaceData(): PartData | null {
+    return this.data;
+  }
+
+  /** Presses the middle of the picture, as a click there does. */
+  pressMiddle(): void {
+    const { clientWidth, clientHeight } = this.canvas;
+    this.around.clicked?.(this.hit(clientWidth / 2, clientHeight / 2));
+  }
+
+  /** The part's surface at a place of the canvas [px]; null beside it. */
+  private hit(x: number, y: number): Hit | null {
+    if (!this.data || !this.part.visible) return null;
     const ray = new Raycaster();
     ray.setFromCamera(new Vector2((2 * x) / this.canvas.clientWidth - 1, 1 - (2 * y) / this.canvas.clientHeight), this.camera);
     const clipped = this.renderer.localClippingEnabled;
     const hit = ray.intersectObject(this.part.children[0], false).find((h) => !clipped || this.clip.distanceToPoint(h.point) >= 0);
-    if (!hit || hit.faceIndex == null) return "";
+    return hit && hit.faceIndex != null ? { point: hit.point.toArray(), triangle: hit.faceIndex } : null;
+  }
+
+  /** Coordinates and deviation of the part under the pointer. */
+  private read(x: number, y: number): string {
+    const hit = this.hit(x, y);
+    if (!hit || !this.data) return "";
     const { positions, indices, deviation } = this.data;
-    const corners = [0, 1, 2].map((k) => indices[3 * (hit.faceIndex as number) + k]);
+    const corners = [0, 1, 2].map((k) => indices[3 * hit.triangle + k]);
     const [a, b, c] = corners.map((v) => new Vector3().fromArray(positions, 3 * v));
-    const weight = Triangle.getBarycoord(hit.point, a, b, c, new Vector3());
-    const p = hit.point;
+    const p = new Vector3(...hit.point);
+    const weight = Triangle.getBarycoord(p, a, b, c, new Vector3());
     const text = `X ${millimetres(p.x)}  Y ${millimetres(p.y)}  Z ${millimetres(p.z)}`;
     if (!deviation || !weight) return text;
     const d = deviation[corners[0]] * weight.x + deviation[corners[1]] * weight.y + deviation[corners[2]] * weight.z;

@@ -1,6 +1,7 @@
 // The stock as it is at a moment: all squares of its surface over time are on the graphics card. Those are drawn that may be there, and it
 // leaves out what is not.
 import { BackSide, BufferAttribute, BufferGeometry, DoubleSide, FrontSide, Group, type Material, Mesh, MeshBasicMaterial, MeshLambertMaterial, type Plane } from "three";
+import { hatched } from "./cap";
 import { type Head, played } from "./decode";
 import { cornerNormals } from "./mesh";
 import { colour } from "./theme";
@@ -56,6 +57,7 @@ export class Stock {
     this.faces.setAttribute("life", new BufferAttribute(life, 2));
     this.faces.setIndex(this.drawn);
     for (const material of [this.outside, this.inside]) this.living(material);
+    hatched(this.inside);
     this.group.add(new Mesh(this.faces, this.outside), new Mesh(this.faces, this.inside));
     // What is drawn changes; it always lies where the part is.
     for (const mesh of this.group.children) mesh.frustumCulled = false;

@@ -2,22 +2,28 @@
 import { useSignal } from "@preact/signals";
 import * as api from "../base/api";
 import example from "./example.toml";
-import { active, documents, notice, open, project, save, serverGone, takeTheirs, tell } from "../store/session";
+import { active, documents, notice, open, project, save, serverGone, takeTheirs, tell, worker } from "../store/session";
 import { holder } from "../windows/job/change";
+import { DrillWindow } from "../windows/drill/window";
+import { newDrilling } from "../windows/drill/start";
 import { JobWindow } from "../windows/job/window";
+import { face, facing, saveFace } from "../windows/face/open";
+import { FaceWindow } from "../windows/face/window";
 import { t } from "../words";
 import { Bar } from "./bar";
 import { dialog, offer, run } from "./commands";
 import { Dialogs } from "./dialogs";
+import { DropZone, Offered } from "./drop";
 import { type Panel, panel } from "./go";
 import { Outcome, outcome } from "./outcome";
+import { take } from "./take";
 import { turnTheme } from "./theme";
 import { Name } from "./verbatim";
 
 const PANELS: Panel[] = ["form", "text", "program", "findings"];
 
 offer(
-  { id: "command.save", keys: ["Ctrl+S"], run: () => active.value && void save(active.value) },
+  { id: "command.save", keys: ["Ctrl+S"], run: saveShown },
   { id: "command.all", keys: ["Ctrl+K"], run: () => (dialog.value = "commands") },
   { id: "command.keys", keys: ["?"], run: () => (dialog.value = "keys") },
   { id: "command.go", keys: ["G"], run: () => (dialog.value = "go") },
@@ -25,7 +31,13 @@ offer(
   { id: "command.panelBack", keys: ["Shift+F6"], run: () => nextPanel(-1) },
   { id: "command.theme", keys: [], run: turnTheme },
   { id: "command.report", keys: [], run: () => void saveReport() },
+  { id: "command.drilling", keys: [], run: newDrilling },
 );
+
+function saveShown(): void {
+  if (facing.value) face.value && void saveFace(face.value);
+  else if (active.value) void save(active.value);
+}
 
 /** Gives the keyboard to the next panel that is seen. */
 function nextPanel(by: 1 | -1): void {
@@ -51,18 +63,21 @@ async function saveReport(): Promise<void> {
 }
 
 export function App() {
-  const doc = active.value;
+  const doc = facing.value ? null : active.value;
+  const drilling = doc?.isDrilling ?? false;
   return (
-    <div class="wb">
+    <div class={`wb${drilling ? " long" : ""}`}>
       {serverGone.value && <ServerGone />}
       <Bar />
-      {doc && <Outcome />}
+      {doc && !drilling && <Outcome />}
       {doc?.conflict.value && <Conflict />}
       {notice.value && <Notice />}
-      {doc && <Tabs />}
-      {doc ? <JobWindow doc={doc} /> : <Empty />}
+      <Offered />
+      {doc && !drilling && <Tabs />}
+      {facing.value ? <FaceWindow /> : !doc ? <Empty /> : drilling ? <DrillWindow key={doc.id} doc={doc} /> : <JobWindow doc={doc} />}
       <Dialogs />
-      <p class="sr" aria-hidden="true" data-outcome={outcome.value?.word ?? ""} />
+      <DropZone />
+      <p class="sr" aria-hidden="true" data-outcome={drilling ? "" : (outcome.value?.word ?? "")} />
     </div>
   );
 }
@@ -95,13 +110,14 @@ function Tabs() {
 
 function ServerGone() {
   const copied = useSignal(false);
+  const text = (facing.value ? face.value : active.value)?.text.value;
   return (
     <div class="across gone" role="alert">
       {t("gone.sentence")}
-      {active.value && (
+      {text !== undefined && (
         <button
           onClick={() => {
-            void navigator.clipboard.writeText(active.value?.text.value ?? "").then(() => (copied.value = true));
+            void navigator.clipboard.writeText(text).then(() => (copied.value = true));
           }}
         >
           {copied.value ? t("gone.copied") : t("gone.copy")}
@@ -126,7 +142,8 @@ function Conflict() {
           <button
             onClick={() => {
               const text = takeTheirs(doc);
-              if (text !== null) holder.editor?.replace(text);
+              if (text !== null && holder.editor) holder.editor.replace(text);
+              else if (text !== null) worker(doc).changed();
             }}
           >
             {t("conflict.theirs")}
@@ -172,12 +189,7 @@ async function made(name: string, text: string): Promise<void> {
   }
 }
 
-export async function dropped(files: FileList): Promise<void> {
-  for (const file of files) await made(file.name, await file.text());
-}
-
 function Empty() {
-  const over = useSignal(false);
   const files = project.value?.files.filter((f) => f.kind === "job" || f.kind === "program") ?? [];
   if (!project.value) return <main class="empty q">{t("empty.reading")}</main>;
   return (
@@ -190,9 +202,10 @@ function Empty() {
         <button class="primary" onClick={() => void made("example.toml", example)}>
           {t("empty.example")}
         </button>
-        <label class={`drop${over.value ? " over" : ""}`} onDragOver={(e) => { e.preventDefault(); over.value = true; }} onDragLeave={() => (over.value = false)}>
+        <button onClick={newDrilling}>{t("command.drilling")}</button>
+        <label class="drop">
           {t("empty.drop")}
-          <input type="file" class="sr" multiple onChange={(e) => e.currentTarget.files && void dropped(e.currentTarget.files)} />
+          <input type="file" class="sr" multiple onChange={(e) => e.currentTarget.files && void take(e.currentTarget.files)} />
         </label>
       </div>
       <p class="q">{t("empty.what")}</p>

@@ -1,16 +1,21 @@
 // The bar: open texts as tabs, what is done now, save.
 import { useSignal } from "@preact/signals";
+import { useRef } from "preact/hooks";
 import { short } from "../base/format";
 import type { Document } from "../store/document";
-import { active, close, documents, open, project, save, show, worker } from "../store/session";
+import { active, close, documents, project, save, worker } from "../store/session";
+import { closeFace, face, facing, leave, saveFace, showFacing } from "../windows/face/open";
+import { FaceStatus } from "../windows/face/window";
 import { t } from "../words";
 import { dialog } from "./commands";
 import { Menu } from "./menu";
+import { take } from "./take";
 import { turnTheme } from "./theme";
+import { newDrilling } from "../windows/drill/start";
 import { Name } from "./verbatim";
 
 export function Bar() {
-  const doc = active.value;
+  const doc = facing.value ? null : active.value;
   return (
     <header class="top">
       <span class="mark">
@@ -24,10 +29,19 @@ export function Bar() {
         {documents.value.map((d) => (
           <Tab key={d.id} doc={d} on={d === doc} />
         ))}
+        <FaceTab />
       </nav>
       <Files />
+      <button class="ghost wide" data-new="drilling" onClick={newDrilling}>
+        {t("command.drilling")}
+      </button>
       <span class="sp" />
       {doc && <Status doc={doc} />}
+      {facing.value && face.value && (
+        <div class="status">
+          <FaceStatus of={face.value} />
+        </div>
+      )}
       <div class="acts">
         <button class="ghost icon desk" aria-label={t("bar.keys")} title={t("bar.keys")} onClick={() => (dialog.value = "keys")}>
           <span aria-hidden="true">?</span>
@@ -37,6 +51,11 @@ export function Bar() {
         </button>
         {doc && (
           <button class="primary" disabled={!doc.dirty.value} title={t("bar.saveName", { name: doc.name })} onClick={() => void save(doc)}>
+            {t("bar.save")}
+          </button>
+        )}
+        {facing.value && face.value && (
+          <button class="primary" disabled={!face.value.dirty.value} title={t("bar.saveName", { name: face.value.name })} onClick={() => face.value && void saveFace(face.value)}>
             {t("bar.save")}
           </button>
         )}
@@ -51,7 +70,7 @@ function Tab({ doc, on }: { doc: Document; on: boolean }) {
   const name = documents.value.some((d) => d !== doc && last(d) === last(doc)) ? doc.name : last(doc);
   return (
     <span class={`tab${on ? " on" : ""}`}>
-      <button aria-current={on ? "page" : undefined} title={doc.name} onClick={() => show(doc.id)}>
+      <button aria-current={on ? "page" : undefined} title={doc.name} onClick={() => void leave(doc.id)}>
         <Name>{name}</Name>
         {doc.dirty.value && <i class="dot" title={t("bar.unsaved")} />}
         {doc.dirty.value && <span class="sr">{t("bar.unsaved")}</span>}
@@ -63,16 +82,46 @@ function Tab({ doc, on }: { doc: Document; on: boolean }) {
   );
 }
 
+/** The window of face milling. */
+function FaceTab() {
+  const on = facing.value;
+  const open = face.value;
+  return (
+    <span class={`tab window${on ? " on" : ""}`}>
+      <button aria-current={on ? "page" : undefined} title={t("face.title")} onClick={() => void showFacing()} data-open="facing">
+        {t("face.tab")}
+        {open?.dirty.value && <i class="dot" title={t("bar.unsaved")} />}
+        {open?.dirty.value && <span class="sr">{t("bar.unsaved")}</span>}
+      </button>
+      {on && open && (
+        <button class="close" aria-label={t("bar.close", { name: open.name })} title={t("bar.close", { name: open.name })} onClick={() => closeFace()}>
+          <span aria-hidden="true">×</span>
+        </button>
+      )}
+    </span>
+  );
+}
+
 /** The files of the folder that can be opened. */
 function Files() {
   const shown = useSignal(false);
-  const files = project.value?.files.filter((f) => f.kind === "job" || f.kind === "program") ?? [];
+  const chooser = useRef<HTMLInputElement>(null);
+  const files = project.value?.files.filter((f) => f.kind === "job" || f.kind === "program" || f.kind === "question") ?? [];
   return (
     <span class="holdsMenu">
       <button class="ghost" aria-haspopup="menu" aria-expanded={shown.value} onClick={() => (shown.value = !shown.value)} data-open="files">
         {t("bar.open")}
       </button>
       <Menu open={shown} label={t("file.open")}>
+        <button
+          role="menuitem"
+          onClick={() => {
+            shown.value = false;
+            newDrilling();
+          }}
+        >
+          {t("command.drilling")}
+        </button>
         <h2>{t("file.kinds", { name: project.value?.folder ?? "" })}</h2>
         {files.map((f) => (
           <button
@@ -80,14 +129,24 @@ function Files() {
             role="menuitem"
             onClick={() => {
               shown.value = false;
-              void open(f.id);
+              void leave(f.id);
             }}
           >
             <Name>{f.name}</Name>
           </button>
         ))}
         {files.length === 0 && <p class="q">{t("file.none")}</p>}
+        <button
+          role="menuitem"
+          onClick={() => {
+            shown.value = false;
+            chooser.current?.click();
+          }}
+        >
+          <span>{t("file.add")}</span>
+        </button>
       </Menu>
+      <input type="file" hidden multiple ref={chooser} onChange={(e) => e.currentTarget.files && void take(e.currentTarget.files)} />
     </span>
   );
 }

@@ -54,9 +54,11 @@ export interface Program {
 /** A run of program lines that belongs to an operation of the text; `to` is the line after the last. */
 export interface OperationRun {
   key: string;
+  /** Place of the operation in the text; programs of others have none. */
+  place?: Finding["place"];
   title: string;
-  tool: number | null;
-  tool_name: string | null;
+  tool: number;
+  tool_name: string;
   from: number;
   to: number;
 }
@@ -89,11 +91,22 @@ export interface Work extends Answer {
   operations?: OperationRun[];
   tools?: { number: number; name: string }[];
   scene: Scene;
-  control?: string;
+  /** `plan.json`. */
+  plan: Plan;
+  /** Distance of the lines of a coarser stock of which the picture is [mm]; null: it is that of the stock itself. */
+  drawn_step: number | null;
   guessed?: string[];
 }
 
+/** What the workbench reads of `plan.json`. */
+export interface Plan {
+  /** `time_without_jerk_limit` comes with times under the limits of the machine. */
+  setups: { program: string; time: number; time_without_jerk_limit?: number }[];
+}
+
 export interface Planned extends Work {
+  /** Whether the times are those of the programmed feeds alone. */
+  quick: boolean;
   step: number;
   coarse_step: number;
 }
@@ -173,7 +186,22 @@ export const schema = (name: string) => json<Record<string, unknown>>(`/api/sche
 /** Saves a text over one that was read; Refused with `changed` when the file is another by now. */
 export const save = (id: string, text: string, sha256: string | null) => json<{ id: string; sha256: string }>(`/api/file/${id}`, "PUT", { text, sha256 });
 
-export const create = (name: string, text: string) => json<FileText>("/api/file", "POST", { new: name, text });
+/** Makes a file; `beside` is one in whose folder it shall lie. */
+export const create = (name: string, text: string, beside?: string) => json<FileText>("/api/file", "POST", { new: name, beside, text });
+
+/** A new file of these bytes, beside another or at the top of the folder. */
+export async function createBytes(name: string, bytes: Uint8Array, beside: string | null): Promise<{ id: string; name: string }> {
+  const read = new FileReader();
+  const packed = new Promise<string>((done, failed) => {
+    read.onload = () => done(String(read.result).replace(/^[^,]*,?/, ""));
+    read.onerror = () => failed(read.error);
+  });
+  read.readAsDataURL(new Blob([bytes as Uint8Array<ArrayBuffer>]));
+  return json("/api/file", "POST", { new: name, base64: await packed, ...(beside !== null && { beside }) });
+}
+
+/** A job about a program that comes alone. */
+export const guess = (question: Question, signal: AbortSignal) => json<{ state: "done"; job: string } | Wrong | Cancelled>("/api/guess", "POST", { client, ...question }, signal);
 
 export interface Question {
   generation: number;
@@ -181,12 +209,43 @@ export interface Question {
   text?: string;
 }
 
-export const plan = (question: Question, signal: AbortSignal) => json<Planned | Wrong | Cancelled>("/api/plan", "POST", { client, ...question }, signal);
+export const plan = (question: Question & { quick: boolean }, signal: AbortSignal) => json<Planned | Wrong | Cancelled>("/api/plan", "POST", { client, ...question }, signal);
 
 export const simulate = (question: Question & { step: "coarse" | "job" }, signal: AbortSignal) =>
   json<Simulated | Wrong | Cancelled>("/api/simulate", "POST", { client, ...question }, signal);
 
 export const stop = (kind: "simulate" | "plan", file: string) => json<{ stopped: number }>("/api/stop", "POST", { client, kind, file });
+
+/** A question for a planner: about a file, or about a text under a name of its own, beside the file whose folder its names are of. */
+export interface VerbQuestion {
+  generation: number;
+  file?: string;
+  /** Requests of one name follow one another: the newest counts. */
+  new?: string;
+  beside?: string;
+  text: string;
+  compare?: boolean;
+  paper?: boolean;
+}
+
+/** The answer that a verb prints with `--json`; a finding where it could not do it. */
+export const verb = <T>(name: string, question: VerbQuestion, signal: AbortSignal) => json<T | Finding>(`/api/verb/${name}`, "POST", { client, ...question }, signal);
+
+/** The page that a verb writes. */
+export async function verbPage(name: string, question: VerbQuestion, signal: AbortSignal): Promise<string> {
+  return (await answer(`/api/page/${name}`, "POST", { client, ...question }, signal)).text();
+}
+
+/** What the workbench reads of `inspection.json`. */
+export interface Inspection {
+  step: number;
+  /** Distances from the surface are known so far [mm]. */
+  within: number;
+  measures: { distance: number; stretches: { material: boolean; length: number; within: number | null }[] }[];
+}
+
+/** Lines from one point to another of a part that the server has. */
+export const inspect = (result: string, measures: number[][]) => json<Inspection>("/api/inspect", "POST", { result, measures });
 
 export async function report(result: string): Promise<Blob> {
   return (await answer("/api/report", "POST", { result })).blob();

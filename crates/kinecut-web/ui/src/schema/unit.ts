@@ -6,7 +6,7 @@ export type Unit = string | null;
 
 const NAMED = [
   "mm/min, of rotary axes rev/min", "m/s2, of rotary axes degrees/s2", "m/s3, of rotary axes degrees/s3", "mm, rotary axes degrees",
-  "mm, or degrees", "degrees/min", "mm or rad", "degrees and mm", "mm and degrees", "rev/min", "mm/min", "mm/rev", "m/min", "m/s2", "m/s3",
+  "mm, or degrees", "degrees/min", "mm or rad", "degrees and mm", "mm and degrees", "rev/min and N m", "rev/min", "mm/min", "mm/rev", "m/min", "m/s2", "m/s3",
   "degrees", "seconds", "pitches", "N m", "kW", "MB", "Hz", "mm", "s",
 ];
 const PURE = ["direction", "share", "weight", "radial passes as shares", "-1 when"];

@@ -2,7 +2,9 @@
 import { computed, signal } from "@preact/signals";
 import type { Cursor, Place } from "viewer/track";
 import type { FileKind, Finding, Planned, Simulated, Verdict } from "../base/api";
+import { type DrillSheet, isHole } from "../base/drillsheet";
 import { type Path, type Table, at, parse, plain } from "../toml/parse";
+import type { Guess } from "./guess";
 import type { Shown } from "./shown";
 
 /** What is simulated now. */
@@ -32,6 +34,15 @@ export interface Given {
   job?: string;
 }
 
+/** The answer to a drilling, with the text it is of. */
+export interface Drilled {
+  sheet: DrillSheet;
+  text: string;
+  at: Date;
+  /** The page of the same text; null before it has come. */
+  page: string | null;
+}
+
 export class Document {
   readonly text = signal("");
   /** The text as it is on disk, as far as is known; sha256 null: not there. */
@@ -51,6 +62,9 @@ export class Document {
   readonly drawnIn = signal<number | null>(null);
   readonly shown = signal<Shown | null>(null);
   readonly given = signal<Given>({});
+  readonly drilled = signal<Drilled | null>(null);
+  /** What is guessed of a program where no job says it. */
+  readonly guess = signal<Guess | null>(null);
 
   /** The finding that was shown last. */
   readonly finding = signal<number | null>(null);
@@ -69,10 +83,19 @@ export class Document {
     if (wrong) return [wrong];
     const judged = this.judged.value;
     if (judged && judged.text === this.text.value) return judged.verdict.found;
+    const drilled = this.drilled.value;
+    if (drilled) return drilled.sheet.holes.flatMap((hole) => (isHole(hole) ? hole.findings : [hole.error]));
     return (this.simulated.value ?? this.planned.value)?.findings ?? [];
   });
   /** The last answer that has programs and operations. */
   readonly work = computed(() => this.simulated.value ?? this.planned.value);
+
+  /** Whether times are those of the programmed feeds: before a simulation, and where a machine states no limits. */
+  readonly atFeeds = computed(() => {
+    const work = this.work.value;
+    if (!work) return false;
+    return ("quick" in work && work.quick) || work.plan.setups.some((setup) => setup.time_without_jerk_limit === undefined);
+  });
 
   /** The tools that are known: those of the answer, or of the text. */
   readonly tools = computed<{ number: number; name: string }[]>(() => {
@@ -86,7 +109,16 @@ export class Document {
     readonly id: string,
     readonly name: string,
     readonly kind: FileKind,
+    /** Whether no file has been made of it yet. */
+    readonly isNew = false,
   ) {}
+
+  /** Whether it is the question of a drilling. */
+  get isDrilling(): boolean {
+    if (this.kind !== "question") return false;
+    const { operation } = this.values.value;
+    return typeof operation === "object" && operation !== null && (operation as Record<string, unknown>).type === "drill";
+  }
 
   /** The value at a path of the text. */
   value(path: Path): unknown {

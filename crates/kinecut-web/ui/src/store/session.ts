@@ -4,7 +4,9 @@ import { Cursor, type Place } from "viewer/track";
 import * as api from "../base/api";
 import type { Schema } from "../schema/schema";
 import { Document, type Given } from "./document";
+import { DrillWorker } from "./drilling";
 import { Worker } from "./work";
+import { t } from "../words";
 
 export const project = signal<api.Project | null>(null);
 export const documents = signal<Document[]>([]);
@@ -24,12 +26,19 @@ export const cursor = new Cursor();
 export const place = signal<Place>(cursor.place);
 cursor.listen((now) => (place.value = now));
 
-const workers = new Map<string, Worker>();
+const workers = new Map<string, Worker | DrillWorker>();
 
-export function worker(doc: Document): Worker {
+export function worker(doc: Document): Worker | DrillWorker {
   let known = workers.get(doc.id);
-  if (!known) workers.set(doc.id, (known = new Worker(doc)));
+  if (!known) workers.set(doc.id, (known = doc.isDrilling ? new DrillWorker(doc) : new Worker(doc)));
   return known;
+}
+
+/** Windows that are no tabs: each says whether it has opened a question. */
+const others: ((id: string, text: string) => boolean)[] = [];
+
+export function openedElsewhere(opens: (id: string, text: string) => boolean): void {
+  others.push(opens);
 }
 
 /** Opens a file as a tab, or shows its tab. */
@@ -37,8 +46,12 @@ export async function open(id: string): Promise<void> {
   if (!documents.value.some((d) => d.id === id)) {
     const read = await api.file(id);
     const doc = new Document(read.id, read.name, read.kind);
+    doc.text.value = read.text ?? "";
+    if (doc.kind === "question" && !doc.isDrilling) {
+      if (!others.some((opens) => opens(id, doc.text.value))) tell(t("file.noWindow", { name: doc.name }));
+      return;
+    }
     batch(() => {
-      doc.text.value = read.text ?? "";
       doc.saved.value = { text: read.text ?? "", sha256: read.sha256 };
       documents.value = [...documents.value, doc];
     });
@@ -53,6 +66,31 @@ function besides(name: string): Given {
   const folder = name.slice(0, name.lastIndexOf("/") + 1);
   const jobs = project.value?.files.filter((f) => f.kind === "job" && f.name.slice(0, f.name.lastIndexOf("/") + 1) === folder) ?? [];
   return jobs.length === 1 ? { job: jobs[0].id } : {};
+}
+
+/** Opens a text that is no file yet, under a name that is free. */
+export function openNew(stem: string, kind: api.FileKind, text: string): void {
+  const taken = new Set([...(project.value?.files ?? []), ...documents.value].map((f) => f.name));
+  let name = `${stem}.toml`;
+  for (let n = 2; taken.has(name); n++) name = `${stem}-${n}.toml`;
+  const doc = new Document(`new ${name}`, name, kind, true);
+  doc.text.value = text;
+  documents.value = [...documents.value, doc];
+  worker(doc).changed();
+  show(doc.id);
+}
+
+/** Makes a file of the folder; null, with a notice, when it cannot be made. */
+export async function make(name: string, text: string): Promise<string | null> {
+  try {
+    const { id } = await api.create(name, text);
+    project.value = await api.project();
+    return id;
+  } catch (error) {
+    if (error instanceof api.Gone) serverGone.value = true;
+    else tell(error instanceof Error ? error.message : String(error));
+    return null;
+  }
 }
 
 /** Shows a tab. */
@@ -87,6 +125,13 @@ export async function save(doc: Document, over?: { sha256: string | null }): Pro
   // A text that differs on disk is decided first.
   if (doc.conflict.value && !over) return false;
   const text = doc.text.value;
+  if (doc.isNew) {
+    const id = await make(doc.name, text);
+    if (id === null) return false;
+    await open(id);
+    close(doc);
+    return true;
+  }
   try {
     const { sha256 } = await api.save(doc.id, text, over ? over.sha256 : doc.saved.value.sha256);
     batch(() => {
@@ -121,11 +166,14 @@ export function takeTheirs(doc: Document): string | null {
   return text;
 }
 
+/** The last word of a file that another program has changed. */
+export const changedFile = signal<api.Events["changed"] | null>(null);
+
 async function changedOnDisk(event: api.Events["changed"]): Promise<void> {
   for (const doc of documents.value) {
     if (doc.id !== event.id) {
       // A file that this job reads may be another now.
-      if (doc.kind === "job" && event.sha256 !== null) worker(doc).again();
+      if ((doc.kind === "job" || doc.isDrilling) && event.sha256 !== null) worker(doc).again();
       continue;
     }
     if (event.sha256 === doc.saved.value.sha256) continue;
@@ -143,6 +191,7 @@ export async function start(): Promise<void> {
         const event = data as api.Events["progress"];
         workers.get(event.file)?.progress(event);
       } else if (name === "changed") {
+        changedFile.value = data as api.Events["changed"];
         void changedOnDisk(data as api.Events["changed"]).catch(() => undefined);
       } else if (name === "files") {
         void api.project().then((known) => (project.value = known)).catch(() => undefined);
@@ -160,10 +209,10 @@ export async function start(): Promise<void> {
   if (known.open) await open(known.open);
 }
 
-/** The window's title is the outcome and the file. */
-export function titled(word: () => string): void {
+/** The window's title is the outcome and the file, or what another window is about. */
+export function titled(word: () => string, other: () => string | null): void {
   effect(() => {
     const doc = active.value;
-    document.title = doc ? `${word()} ${doc.name}` : "kinecut";
+    document.title = other() ?? (doc ? `${word()} ${doc.name}`.trimStart() : "kinecut");
   });
 }

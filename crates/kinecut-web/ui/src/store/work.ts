@@ -2,6 +2,8 @@
 import { batch } from "@preact/signals";
 import * as api from "../base/api";
 import type { Document, Judged } from "./document";
+import { guessOf } from "./guess";
+import { keyedByText } from "./runs";
 import { Shown } from "./shown";
 
 /** A plan is asked for so long after a change [ms]: keys that come together are one change. */
@@ -106,8 +108,11 @@ export class Worker {
     const question = { generation, file: doc.id, text, ...doc.given.value };
     const old = () => generation !== this.generation || control.signal.aborted;
     try {
-      const planned = await api.plan(question, control.signal);
-      if (old() || planned.state === "cancelled") return;
+      // While one types, the times of the programmed feeds do: those under the limits of the machine come with the simulation.
+      const answer = await api.plan({ ...question, quick: true }, control.signal);
+      if (old() || answer.state === "cancelled") return;
+      const planned = answer.state === "done" ? keyedByText(answer, text) : answer;
+      if (doc.kind === "program") void this.guess(question, control.signal);
       if (planned.state === "wrong" && doc.kind === "program") {
         // A simulation guesses the tools and the stock that nobody gives.
         await this.simulate(question, null, old, control.signal);
@@ -145,6 +150,22 @@ export class Worker {
     }
   }
 
+  /** Asks what is guessed of a program that no job speaks of. */
+  private async guess(question: api.Question, signal: AbortSignal): Promise<void> {
+    const { doc } = this;
+    if (doc.given.value.job !== undefined) {
+      doc.guess.value = null;
+      return;
+    }
+    try {
+      const guess = await guessOf(question, signal);
+      if (!signal.aborted) doc.guess.value = guess;
+    } catch (error) {
+      // The form goes without it; the plan tells what is wrong.
+      if (!signal.aborted && !(error instanceof api.Refused || error instanceof api.Gone)) throw error;
+    }
+  }
+
   /** Tells when the new plan is on the screen. */
   private whenDrawn(generation: number): void {
     const from = this.changedAt;
@@ -165,8 +186,10 @@ export class Worker {
     for (const step of steps) {
       const coarse = step === "coarse";
       doc.running.value = { step: (coarse ? planned?.coarse_step : planned?.step) ?? null, coarse, share: null };
-      const simulated = await api.simulate({ ...question, step }, signal);
-      if (old() || simulated.state === "cancelled") return;
+      const text = question.text ?? "";
+      const answer = await api.simulate({ ...question, step }, signal);
+      if (old() || answer.state === "cancelled") return;
+      const simulated = answer.state === "done" ? keyedByText(answer, text) : answer;
       if (simulated.state === "wrong") {
         batch(() => {
           doc.running.value = null;
@@ -176,7 +199,6 @@ export class Worker {
         });
         return;
       }
-      const text = question.text ?? "";
       const shown = await Shown.of(simulated.scene, text, true);
       if (old()) return;
       batch(() => {

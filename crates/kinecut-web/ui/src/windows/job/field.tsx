@@ -75,10 +75,12 @@ interface NumberProps {
   clear: (() => void) | null;
   invalid: (text: string | null) => void;
   told: boolean;
+  /** What the standard is. */
+  standardIs?: "form.default" | "form.guessedField";
 }
 
 /** A field of a number: arrows step, Shift tenfold, Alt a tenth; sums are worked out. */
-export function NumberInput({ value, standard, unit, whole, id, name, set, clear, invalid, told }: NumberProps) {
+export function NumberInput({ value, standard, unit, whole, id, name, set, clear, invalid, told, standardIs = "form.default" }: NumberProps) {
   const draft = useSignal<string | null>(null);
   const text = value === undefined ? "" : typeof value === "object" ? JSON.stringify(value) : String(value);
   const plainStandard = standard !== null && /^[-\d.]+/.test(standard) ? (/^[-\d.]*\d/.exec(standard)?.[0] ?? "") : (standard ?? "");
@@ -109,14 +111,14 @@ export function NumberInput({ value, standard, unit, whole, id, name, set, clear
     <span class={`f${value === undefined ? " def" : ""}`}>
       <input
         id={id}
-        aria-label={value === undefined && standard !== null ? t("form.default", { name }) : name}
+        aria-label={value === undefined && standard !== null ? t(standardIs, { name }) : name}
         aria-invalid={told || undefined}
         aria-describedby={told ? `${id}-told` : undefined}
         inputMode="decimal"
         autocomplete="off"
         spellcheck={false}
         placeholder={plainStandard}
-        title={value === undefined && standard !== null ? t("form.default", { name }) : undefined}
+        title={value === undefined && standard !== null ? t(standardIs, { name }) : undefined}
         value={draft.value ?? text}
         onInput={(e) => {
           draft.value = e.currentTarget.value;

@@ -159,7 +159,7 @@ function Section({ doc, path, form, optional, label }: Props & { optional: boole
   const value = doc.value(path);
   const there = value !== undefined;
   return (
-    <section class="part" aria-label={label}>
+    <section class="part" role="group" aria-label={label}>
       <h3 title={form.about.replaceAll("`", "")}>
         {label}
         <span class="sp" />

@@ -35,6 +35,9 @@ export function FindingsPanel({ doc }: { doc: Document }) {
                 </button>
               )}
               <p class="t">
+                <b class="no" translate={false}>
+                  {i + 1}
+                </b>{" "}
                 <span class="sr">{t(`findings.severity.${finding.severity}`)}: </span>
                 <Said text={finding.message} />
               </p>

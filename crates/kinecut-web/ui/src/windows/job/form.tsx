@@ -4,14 +4,15 @@ import { Form } from "../../schema/schema";
 import { kinds } from "../../editor/complete";
 import { type Document, keyOf } from "../../store/document";
 import { jobSchema, tell } from "../../store/session";
-import { type Value, append } from "../../toml/edit";
-import { type Path, plain, at } from "../../toml/parse";
+import type { Value } from "../../toml/edit";
+import type { Path } from "../../toml/parse";
 import { named, t } from "../../words";
 import { Menu } from "../../app/menu";
 import { Name } from "../../app/verbatim";
-import { apply, drop } from "./change";
+import { drop } from "./change";
 import { Fields } from "./fields";
 import { type Item, chosenPath, sectionOf, sections } from "./items";
+import { add as addTable, lastTool, rowsOf } from "./newoperation";
 import { Picture } from "./picture";
 import { ProgramForm } from "./programform";
 
@@ -45,7 +46,7 @@ export function FormPanel({ doc }: { doc: Document }) {
             </option>
           ))}
         </select>
-        {section.adds && <Adds doc={doc} section={section.id} adds={section.adds} choose={choose} />}
+        {section.adds && <Adds doc={doc} section={section.id} adds={section.adds} />}
       </header>
       <div class="scrolls">
         <List items={section.items} path={path} choose={choose} />
@@ -115,18 +116,13 @@ interface AddsProps {
   doc: Document;
   section: string;
   adds: "operation" | "tools" | "fixtures";
-  choose: (path: Path) => void;
 }
 
-function Adds({ doc, section, adds, choose }: AddsProps) {
+function Adds({ doc, section, adds }: AddsProps) {
   const open = useSignal(false);
   const schema = jobSchema.value;
   const add = (path: Path, rows: [string, Value][]) => {
-    const made = append(doc.text.value, path, rows);
-    if (!made) return;
-    apply(doc, [made.change]);
-    choose([...path, made.index]);
-    open.value = false;
+    if (addTable(doc, path, rows)) open.value = false;
   };
   if (adds === "operation") {
     const setup = Number(section.slice("setup".length));
@@ -162,22 +158,4 @@ function Adds({ doc, section, adds, choose }: AddsProps) {
       </button>
     </>
   );
-}
-
-function lastTool(doc: Document, path: Path): Value | undefined {
-  const all = plain(at(doc.tree.value, path));
-  const last = Array.isArray(all) ? all.findLast((o: Record<string, unknown>) => o.tool !== undefined) : undefined;
-  return (last as { tool?: Value } | undefined)?.tool;
-}
-
-/** The keys that a table must have, with their examples. */
-function rowsOf(form: Form, type: string | null, tool: Value | undefined): [string, Value][] {
-  const rows: [string, Value][] = type === null ? [] : [["type", type]];
-  for (const key of form.own.required ?? []) {
-    if (key === "type" && type !== null) continue;
-    const example = key === "tool" && tool !== undefined ? tool : form.key(key)?.example;
-    if (example !== undefined) rows.push([key, example as Value]);
-  }
-  if (form.key("tool") && !form.required("tool") && tool !== undefined && type !== "hole") rows.push(["tool", tool]);
-  return rows;
 }

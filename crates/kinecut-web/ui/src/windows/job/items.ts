@@ -57,7 +57,7 @@ export function runsOf(runs: OperationRun[] | undefined, path: Path): OperationR
 function side(doc: Document, path: Path, operation: Values): string {
   const runs = runsOf(doc.work.value?.operations, path);
   const track = doc.shown.value?.track;
-  const tools = [...new Set(runs.map((run) => run.tool).filter((n) => n !== null))];
+  const tools = [...new Set(runs.map((run) => run.tool))];
   const tool = tools.length > 0 ? tools.map((n) => `T${n}`).join(" ") : typeof operation.tool === "number" ? `T${operation.tool}` : "";
   if (!track || runs.length === 0) return tool;
   let seconds = 0;

@@ -12,6 +12,9 @@ import { cursor, place } from "../../store/session";
 import type { Shown } from "../../store/shown";
 import { t } from "../../words";
 import { linesOf, wordBefore } from "./lines";
+import { Marks, drawn } from "./measure/marks";
+import { Measured } from "./measure/measured";
+import { inView, measuring, pick, toggleMeasure } from "./measure/picks";
 import { playing } from "./player";
 
 const DIRECTIONS = ["iso", "top", "front", "right"] as const;
@@ -57,6 +60,7 @@ offer(
   { id: "command.right", keys: ["4"], run: () => look("right") },
   { id: "command.section", keys: ["X"], run: () => (section.value = section.value ? null : { axis: "Y", share: 0.5 }) },
   { id: "command.sectionTurn", keys: ["Shift+X"], run: turnSection },
+  { id: "command.measure", keys: ["M"], run: toggleMeasure },
   { id: "command.path", keys: ["P"], run: () => toggle("path") },
   { id: "command.tool", keys: ["T"], run: () => toggle("tool") },
   { id: "command.holder", keys: ["H"], run: () => toggle("holder") },
@@ -70,6 +74,13 @@ function started(canvas: HTMLCanvasElement): View | null {
     notCompared: t("part.notCompared"),
     tolerances: t("part.tolerances"),
     nowOn: () => (colour.value = colour.value === "deviation" ? "now" : colour.value),
+    drawn,
+    clicked: (hit) => {
+      const data = view.surfaceData;
+      if (!measuring.value) return false;
+      if (hit && data) pick(data, hit);
+      return true;
+    },
   });
   places.showPoint = (point) => view.showPoint(point);
   return view;
@@ -95,6 +106,7 @@ function keys(e: KeyboardEvent): void {
   else if (e.key === "+" || e.key === "=") view.zoom(1.2);
   else if (e.key === "-") view.zoom(1 / 1.2);
   else if (e.key === "0") look(direction.value);
+  else if (e.key === "Enter" && measuring.value) view.pressMiddle();
   else return;
   e.preventDefault();
 }
@@ -108,7 +120,10 @@ function follow(view: View, doc: Document): () => void {
       if (!shown) return;
       shown.open();
       // The part that was cut stays until the next one is: a plan has the raw stock alone.
-      view.load(shown.head, shown.track, { fit: before === null, keepPart: !shown.cut && before !== null });
+      const keepPart = !shown.cut && before !== null;
+      view.load(shown.head, shown.track, { fit: before === null, keepPart });
+      const simulated = doc.simulated.peek();
+      if (!keepPart) inView.value = { text: shown.text, step: shown.cut && simulated ? (simulated.drawn_step ?? simulated.step) : null };
       before = shown;
       // A place of the program before may be another one now.
       const { line } = cursor.place;
@@ -121,7 +136,8 @@ function follow(view: View, doc: Document): () => void {
     effect(() => {
       void doc.shown.value;
       const by = colour.value;
-      view.show("now", by !== "deviation", true);
+      // The finished part is measured, not the stock on the way to it.
+      view.show("now", by !== "deviation" && !measuring.value, true);
       most.value = view.colourPath(by === "arc" || by === "chip" ? by : "");
     }),
     effect(() => {
@@ -152,9 +168,12 @@ export function PartPanel({ doc }: { doc: Document }) {
         <canvas ref={canvas} tabIndex={0} role="img" aria-label={t("part.canvas")} onKeyDown={keys} />
         {noView.current && <p class="hint">{t("part.noWebgl")}</p>}
         {!shown && !noView.current && <p class="hint q">{t("part.waiting")}</p>}
+        <Marks doc={doc} />
+        {measuring.value && <span class="middle" aria-hidden="true" />}
         <ReadOut doc={doc} />
         <Stale doc={doc} />
       </div>
+      <Measured doc={doc} />
       <Legend doc={doc} />
     </section>
   );
@@ -211,6 +230,9 @@ function Tools({ doc }: { doc: Document }) {
       </select>
       <button class="wide" aria-pressed={cut !== null} onClick={() => (section.value = cut ? null : { axis: "Y", share: 0.5 })}>
         {t("part.section")}
+      </button>
+      <button aria-pressed={measuring.value} onClick={toggleMeasure} data-measure={measuring.value ? "on" : "off"}>
+        {t("part.measure")}
       </button>
       {cut && (
         <span class="section">
@@ -295,6 +317,14 @@ function Legend({ doc }: { doc: Document }) {
             {t(`part.role.${role}`)}
           </div>
         ))
+      )}
+      {place.value.piece >= 0 && (
+        <div data-legend="to-come">
+          <svg width="28" height="6" aria-hidden="true" opacity="0.38">
+            <path class={`p-${roles.at(-1) ?? "feed"}`} d="M0 3h28" />
+          </svg>
+          {t("part.toCome")}
+        </div>
       )}
       {part?.compared && <Bands edges={part.edges} tolerance={part.tolerance} relative={part.relative} />}
     </div>

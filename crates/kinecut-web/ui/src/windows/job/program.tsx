@@ -3,7 +3,8 @@ import { useComputed, useSignal } from "@preact/signals";
 import { useEffect, useRef } from "preact/hooks";
 import { programLine } from "../../app/go";
 import { Name } from "../../app/verbatim";
-import type { Document } from "../../store/document";
+import { type Document, keyOf } from "../../store/document";
+import { runAt } from "../../store/runs";
 import { cursor, place } from "../../store/session";
 import { t } from "../../words";
 import { chosenPath, runsOf } from "./items";
@@ -76,6 +77,13 @@ export function ProgramPanel({ doc }: { doc: Document }) {
     return true;
   };
   const own = doc.kind === "program" ? [] : runsOf(work?.operations, chosenPath(doc));
+  /** The block of the operation under the cursor. */
+  const here = runAt(work?.operations, line);
+  const chosen = keyOf(chosenPath(doc));
+  useEffect(() => {
+    // Who chooses an operation in the form sees its first line.
+    if (own.length > 0 && here?.key !== chosen) toSight(own[0].from);
+  }, [chosen, doc]);
   const program = work?.programs.findLast((p) => line < 0 ? p.first === 0 : p.first <= line) ?? work?.programs[0];
   const first = Math.max(0, from.value - SPARE);
   const last = Math.min(lines.length, from.value + room.value + SPARE);
@@ -87,8 +95,9 @@ export function ProgramPanel({ doc }: { doc: Document }) {
     const role = piece >= 0 ? track?.head.roles[track.role[piece]] : "none";
     const mark = marks.get(l);
     const number = l - (work?.programs.findLast((p) => p.first <= l)?.first ?? 0) + 1;
+    const under = here !== undefined && here.from <= l && l < here.to;
     rows.push(
-      <div key={l} class={`l${l === line ? " on" : inside ? " in" : ""}`} data-line={l} onClick={() => go(l)}>
+      <div key={l} class={`l${l === line ? " on" : inside ? " in" : ""}${under ? " block" : ""}`} data-line={l} onClick={() => go(l)}>
         <i>{number}</i>
         <em class={`role ${role}`} />
         <span class={mark ? `wave ${mark}` : undefined}>{colours(lines[l])}</span>

@@ -1,9 +1,39 @@
 // What is said beside a program of others: its control, stock, tools; what nobody gives is guessed.
 import type { Document, Given } from "../../store/document";
-import { project, worker } from "../../store/session";
-import { t } from "../../words";
-import { Said } from "../../app/verbatim";
+import type { Guess } from "../../store/guess";
+import { open, project, tell, worker } from "../../store/session";
+import { named, t } from "../../words";
+import { placed } from "../../store/placed";
+import { Name, Said } from "../../app/verbatim";
 import { NumberInput } from "./field";
+
+/** The guessed tools, and a job of the guess in which all of it can be corrected. */
+function Guessed({ doc, guess }: { doc: Document; guess: Guess }) {
+  const job = async () => {
+    const name = `${(doc.name.split("/").at(-1) ?? doc.name).replace(/\.[^.]*$/, "")}.toml`;
+    try {
+      await open(await placed(name, new TextEncoder().encode(guess.job), doc.id));
+    } catch (error) {
+      tell(error instanceof Error && error.message ? error.message : String(error));
+    }
+  };
+  return (
+    <section class="part" data-guess="tools">
+      <h3>{t("form.guessedTools")}</h3>
+      {guess.tools.length === 0 && <p class="q">{t("form.noGuessedTools")}</p>}
+      {guess.tools.length > 0 && (
+        <ul class="guessed">
+          {guess.tools.map((tool) => (
+            <li key={tool.number}>
+              <Name>{`T${tool.number}`}</Name> {named(tool.type)} <Name>{`⌀${tool.diameter} mm`}</Name>
+            </li>
+          ))}
+        </ul>
+      )}
+      <button onClick={() => void job()}>{t("form.guessedJob")}</button>
+    </section>
+  );
+}
 
 const CONTROLS = ["fanuc", "sinumerik-840d", "heidenhain", "linuxcnc", "grbl"];
 
@@ -17,6 +47,8 @@ export function ProgramForm({ doc }: { doc: Document }) {
     worker(doc).changed();
   };
   const jobs = project.value?.files.filter((f) => f.kind === "job") ?? [];
+  const guess = doc.guess.value;
+  const guessed = guess?.stock ?? null;
   const corner = (label: string, from: number) => (
     <div class="row">
       <span class="label">{label}</span>
@@ -25,12 +57,13 @@ export function ProgramForm({ doc }: { doc: Document }) {
           <NumberInput
             key={axis}
             value={given.stock?.[from + i]}
-            standard={null}
+            standard={guessed ? String(guessed[from + i]) : null}
+            standardIs="form.guessedField"
             unit={axis}
             whole={false}
             id={`stock-${from + i}`}
             name={t("form.axis", { name: label, axis })}
-            set={(n) => set({ stock: Array.from({ length: 6 }, (_, k) => (k === from + i ? n : (given.stock?.[k] ?? 0))) })}
+            set={(n) => set({ stock: Array.from({ length: 6 }, (_, k) => (k === from + i ? n : (given.stock?.[k] ?? guessed?.[k] ?? 0))) })}
             clear={() => set({ stock: undefined })}
             invalid={() => undefined}
             told={false}
@@ -50,7 +83,7 @@ export function ProgramForm({ doc }: { doc: Document }) {
             <label for="g-control">{t("form.control")}</label>
             <span class={`f${given.control ? "" : " def"}`}>
               <select id="g-control" translate={false} value={given.control ?? ""} onChange={(e) => set({ control: e.currentTarget.value || undefined })}>
-                <option value="">{work?.control ?? "\u2013"}</option>
+                <option value="">{work?.programs[0]?.control ?? "\u2013"}</option>
                 {CONTROLS.map((c) => (
                   <option key={c}>{c}</option>
                 ))}
@@ -80,6 +113,7 @@ export function ProgramForm({ doc }: { doc: Document }) {
             <input type="checkbox" checked={given.tolerant ?? false} onChange={(e) => set({ tolerant: e.currentTarget.checked || undefined })} />
             {t("form.tolerant")}
           </label>
+          {guess && <Guessed doc={doc} guess={guess} />}
           {(work?.guessed?.length ?? 0) > 0 && (
             <section class="part">
               <h3>{t("form.guessed")}</h3>

@@ -58,7 +58,8 @@ export function TimePanel({ doc }: { doc: Document }) {
         </span>
         {track && (
           <span class="clock">
-            <b translate={false}>{at.line < 0 ? show(total) : show(now.value)}</b> <span class="q">{t("time.of", { total: show(total) })}</span>
+            <b translate={false}>{at.line < 0 ? show(total) : show(now.value)}</b> <span class="q">{t("time.of", { total: show(total) })}</span>{" "}
+            {track.timed && doc.atFeeds.value && <span class="q feeds">{t("time.atFeeds")}</span>}
           </span>
         )}
         {track && at.line >= 0 && (
@@ -239,7 +240,7 @@ function Drawing({ doc, track, curve, bands, frame, at, hover, show }: DrawingPr
   return (
     <svg width={width} height={height} aria-hidden="true">
       {bands.map((band, i) => (
-        <BandRect key={i} doc={doc} band={band} x={x} number={i + 1} />
+        <BandRect key={i} doc={doc} band={band} x={x} />
       ))}
       {curve && (
         <>
@@ -286,11 +287,14 @@ function Drawing({ doc, track, curve, bands, frame, at, hover, show }: DrawingPr
   );
 }
 
-function BandRect({ doc, band, x, number }: { doc: Document; band: Band; x: (s: number) => number; number: number }) {
+function BandRect({ doc, band, x }: { doc: Document; band: Band; x: (s: number) => number }) {
   const [from, to] = [x(band.start), x(band.end)];
   const width = Math.max(2, to - from - 2);
   const chosen = place.value.line >= band.run.from && place.value.line < band.run.to;
-  const words = `${number} ${band.run.title}${band.run.tool === null ? "" : `, T${band.run.tool}`}`;
+  const path = pathOf(band.run.key);
+  // The number that the form has before its name.
+  const number = Number(path.at(-1)) + 1;
+  const words = `${number} ${band.run.title}, T${band.run.tool}`;
   const room = Math.floor((width - 10) / 6.3);
   const shown = room >= words.length ? words : room >= 4 ? `${words.slice(0, room - 1)}…` : room >= 1 ? String(number).slice(0, room) : "";
   const doubt = doc.findings.value.some((f) => f.severity !== "note" && f.key?.startsWith(band.run.key));
@@ -301,7 +305,7 @@ function BandRect({ doc, band, x, number }: { doc: Document; band: Band; x: (s: 
       {...untranslated}
       onPointerDown={(e) => {
         e.stopPropagation();
-        doc.chosen.value = pathOf(band.run.key);
+        doc.chosen.value = path;
         goTime(band.start + 1e-9);
       }}
     >

@@ -8,6 +8,7 @@ import { FindingsPanel } from "./findings";
 import { FormPanel } from "./form";
 import { PartPanel } from "./part";
 import { ProgramPanel } from "./program";
+import "./link";
 import { TextPanel } from "./text";
 import { TimePanel } from "./time";
 
