@@ -93,7 +93,7 @@ pub(crate) struct SaveAsked {
     sha256: Option<String>,
 }
 
-/// What a file shall hold, and the hash of what it holds before.
+/// The bytes that a file shall hold, and the hash of those that it holds before.
 struct Content {
     bytes: Vec<u8>,
     before: Option<String>,

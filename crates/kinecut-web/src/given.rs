@@ -92,7 +92,7 @@ impl GivenFiles {
         Ok(Guess::of(program, &wants)?.job(split(&texts.name).1, &[]))
     }
 
-    /// What is said of the program itself.
+    /// The part that is about the program itself.
     fn of_program(&self, app: &App, texts: &Texts, bytes: &[u8]) -> ProgramWants {
         let said = &self.wants;
         let disk = app.folder.beside(&texts.name);

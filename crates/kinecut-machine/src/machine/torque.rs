@@ -27,24 +27,28 @@ impl TorqueCurve {
     /// Of points, each a speed [rad/s] and the torque there (N m).
     ///
     /// # Errors
-    /// `KC0703` with the key of the point, counted from the list: fewer than two points, a number that is not above zero, a speed that is not above the one before.
+    /// `KC0703` with the key of the point, counted from the list: fewer than two points or more than [`MOST`](Self::MOST), a number that
+    /// is not above zero, a speed that is not above the one before.
     pub fn new(points: &[[f64; 2]]) -> Result<TorqueCurve> {
-        let fail = |what: &str, value: f64, key: String| {
-            let finding = Finding::error(Code::MACHINE_AXIS, what).value(value, "").key(key);
+        const TURNS: f64 = 60.0 / std::f64::consts::TAU;
+        let fail = |what: &str, (value, bound, unit): (f64, f64, &str), key: String| {
+            let finding =
+                Finding::error(Code::MACHINE_AXIS, what).value(value, unit).bound(bound, unit).key(key);
             Err(finding.help("write speed and torque, the slowest first: [[1500, 40], [6000, 10]]").into())
         };
         if !(2..=TorqueCurve::MOST).contains(&points.len()) {
+            let bound = if points.len() < 2 { 2 } else { TorqueCurve::MOST };
             let what = "a curve of torque has two to a hundred points";
-            return fail(what, points.len() as f64, String::new());
+            return fail(what, (points.len() as f64, bound as f64, "points"), String::new());
         }
         let mut before = 0.0;
         for (i, [speed, torque]) in points.iter().enumerate() {
             if !(speed.is_finite() && *speed > before) {
                 let what = "the speeds of a curve of torque are above zero and ascend";
-                return fail(what, *speed, format!("[{i}]"));
+                return fail(what, (*speed * TURNS, before * TURNS, "rev/min"), format!("[{i}]"));
             }
             if !(torque.is_finite() && *torque > 0.0) {
-                return fail("a torque is above zero", *torque, format!("[{i}]"));
+                return fail("a torque is above zero", (*torque, 0.0, "N m"), format!("[{i}]"));
             }
             before = *speed;
         }
@@ -93,6 +97,10 @@ mod tests {
         );
         let key = |points: &[[f64; 2]]| TorqueCurve::new(points).unwrap_err().0.key.clone().unwrap();
         assert_eq!(key(&points[..1]), "");
+        // As a person has written it: 955 rev/min after 955.
+        let error = TorqueCurve::new(&[[100.0, 40.0], [100.0, 10.0]]).unwrap_err();
+        let value = error.0.value.as_ref().unwrap();
+        assert!((value.value - 954.93).abs() < 0.01 && value.unit == "rev/min", "{error}");
         assert_eq!(key(&[[100.0, 40.0], [100.0, 10.0]]), "[1]");
         assert_eq!(key(&[[100.0, f64::NAN], [200.0, 10.0]]), "[0]");
         assert_eq!(key(&[[0.0, 4.0], [200.0, 10.0]]), "[0]");

@@ -59,6 +59,8 @@ pub(crate) struct OutlineKeys<'a> {
     pub(crate) polygon: Option<&'a [[f64; 2]]>,
     pub(crate) slot: Option<OutlineSlot>,
     pub(crate) drawing: Option<Drawn<'a>>,
+    /// Whether the section of a mesh is asked for.
+    pub(crate) has_section: bool,
 }
 
 /// The section of a mesh at a height of its own [mm].
@@ -66,7 +68,7 @@ pub(crate) struct OutlineKeys<'a> {
 pub(crate) enum MeshSection {
     /// The material just below it.
     Material(f64),
-    /// What that material encloses.
+    /// The holes in that material.
     Holes(f64),
 }
 
@@ -91,6 +93,7 @@ macro_rules! outline_keys {
             circle: $table.circle.as_ref(),
             polygon: $table.polygon.as_deref(),
             slot: $table.slot,
+            has_section: $table.section.is_some(),
             drawing: $table.outline.as_ref().map(|outline| $crate::operations::outlines::Drawn {
                 outline,
                 unit: $table.unit,
@@ -144,6 +147,9 @@ impl OutlineKeys<'_> {
             let help = "give one of rectangle, circle, polygon, slot, outline: for example rectangle = { size = [40, 30], corner = 6 }";
             return Err(finding.help(help).key("outline").into());
         };
+        if self.has_section && self.drawing.is_none() {
+            return Err(no_section());
+        }
         let under = |e: Error| e.under(key);
         let outline = match (self.rectangle, self.circle, self.polygon, self.slot, self.drawing) {
             (Some(rectangle), ..) => rectangle.outline().map_err(under)?,
@@ -198,11 +204,7 @@ impl Drawn<'_> {
         let is_mesh =
             matches!(self.outline, OutlineEntry::Name(name) if FileKind::of_outline(name) == FileKind::Mesh);
         if !is_mesh {
-            let finding = Finding::error(Code::JOB_SHAPE, "only a mesh has a section at a height");
-            return Err(finding
-                .help("write outline = \"part.stl\", or leave `section` out")
-                .key("section")
-                .into());
+            return Err(no_section());
         }
         length("section", z, -MAX_LENGTH, MAX_LENGTH).map(Some)
     }
@@ -245,7 +247,7 @@ impl Drawn<'_> {
     }
 }
 
-/// What the loops of a section enclose without the outermost ones: its holes, with the material in them as islands.
+/// The holes of a section, with the material in them as islands: all of its loops but the outermost ones.
 fn enclosed(read: OutlineRead, z: f64) -> Result<OutlineRead> {
     let outline = &read.outline;
     let all = outline.loops();
@@ -264,6 +266,11 @@ fn enclosed(read: OutlineRead, z: f64) -> Result<OutlineRead> {
     }
     let outline = Outline::new(inner, Vec::new())?;
     Ok(OutlineRead { weights: vec![1.0; outline.edges().len()], outline, notes: read.notes })
+}
+
+fn no_section() -> Error {
+    let finding = Finding::error(Code::JOB_SHAPE, "only a mesh has a section at a height");
+    finding.help("write outline = \"part.stl\", or leave `section` out").key("section").into()
 }
 
 impl OutlineRectangle {

@@ -7,6 +7,8 @@ use crate::tool::{Cutter, Tool};
 
 /// Share of the cutting force that presses a mill away from the wall beside which it cuts.
 pub(super) const RADIAL: f64 = 0.5;
+/// Arc of contact up to which a mill cuts beside a wall [rad]: the teeth of a wider cut press it to several sides.
+pub(super) const BESIDE: f64 = 0.25 * TAU + 1e-6;
 /// Diameter of a round bar that is as stiff as the flutes, in diameters of the cutter.
 const FLUTED: f64 = 0.8;
 
@@ -23,9 +25,14 @@ pub(super) fn give(tool: &Tool) -> Option<f64> {
     Some(tip_deflection(1.0, tool.elasticity?, &[shank, flutes]))
 }
 
-/// Deflection of a tool's tip [mm] away from the wall beside which it makes a cut, by half of the force while teeth cut.
+/// Deflection of a tool's tip [mm] away from the wall beside which it makes a cut, by half of the force while teeth cut; `None` where it
+/// cuts with more than a quarter of its circle, and where its give is not known.
 pub(crate) fn deflection_beside(cut: &MillingCut, force: &CuttingForce, tool: &Tool) -> Option<f64> {
-    let cutting = f64::from(cut.teeth.max(1)) * cut.chip().engagement / TAU;
+    let arc = cut.chip().engagement;
+    if arc > BESIDE {
+        return None;
+    }
+    let cutting = f64::from(cut.teeth.max(1)) * arc / TAU;
     Some(RADIAL * cut.load(force).force / cutting.min(1.0) * give(tool)?)
 }
 

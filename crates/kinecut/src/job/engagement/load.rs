@@ -4,15 +4,13 @@ use std::f64::consts::{PI, TAU};
 
 use super::super::setup_outcome::SetupOutcome;
 use super::course::{arcs, rates};
-use super::give::{RADIAL, give};
+use super::give::{BESIDE, RADIAL, give};
 use crate::cutting::{CuttingForce, CuttingLoad, Material};
 use crate::job::Outcome;
 use crate::stock::cut::{EngagedStretch, MoveEngagement};
 use crate::tool::{Cutter, Tool};
 use crate::trace::Segment;
 
-/// Arc of contact up to which it cuts beside a wall [rad]: the teeth of a wider cut press it to several sides.
-const BESIDE: f64 = 0.25 * TAU + 1e-6;
 /// Stretches of an edge along which its contact is summed up.
 const PARTS: u32 = 32;
 

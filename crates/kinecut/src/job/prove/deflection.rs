@@ -35,7 +35,7 @@ fn one(simulated: &Simulated<'_>, work: &Work<'_>) -> Option<Finding> {
     let begin = work.feeds().find(finishes)?;
     let of = if wanted.is_some() { "a third of the tolerance" } else { "is usually allowed" };
     let message = format!(
-        "the deflection of {} while it finishes the wall, within {:.0} %, is more than {of}",
+        "the deflection of {} while it finishes the wall, by half of a force that is known within {:.0} %, is more than {of}",
         work.tool.number,
         100.0 * FORCE_SPREAD
     );

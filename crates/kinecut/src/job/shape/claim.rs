@@ -14,7 +14,7 @@ const FACES_UP: f64 = 0.7;
 /// Part of its normal that a face has towards a wall's cut, at the least, where it is the bottom of a groove in the wall.
 const SQUARELY: f64 = 0.9;
 
-/// What is known of an end of a line by the cut that made it.
+/// Questions about the cut that made an end of a line.
 pub(super) trait Cuts {
     /// Whether the wall's own operation made a cut.
     fn own(&mut self, cut: CutId) -> bool;

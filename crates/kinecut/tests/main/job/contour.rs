@@ -489,4 +489,6 @@ fn a_mesh_is_cut_at_a_height_for_its_outline_and_for_what_it_encloses() {
         let e = run("job.toml", &text, &loader, &Silent).unwrap_err();
         assert!(e.code() == code && !e.0.help.is_empty(), "{e}");
     }
+    let e = refused("rectangle = { size = [40, 30] }\nsection = -5\ndepth = 6\n");
+    assert!(e.code() == Code::JOB_SHAPE && e.0.key.as_deref().is_some_and(|k| k.ends_with("section")), "{e}");
 }
