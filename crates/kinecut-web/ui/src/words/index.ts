@@ -10,7 +10,7 @@ interface Language {
   pseudo?: boolean;
 }
 
-/** The languages by the word that chooses them; others come as catalogues beside `en.ts`. */
+/** The languages by the word that chooses them; others come as catalogues beside `en`. */
 const LANGUAGES: Record<string, Language> = {
   en: { tag: "en", words: en },
   pseudo: { tag: "en-x-pseudo", words: en, pseudo: true },
