@@ -250,7 +250,7 @@ def mistakes(page: Page) -> None:
     shot(page, "no-outcome")
     page.locator(".pform .ops").focus()
     page.locator(".outcome .acts button").click()
-    assert page.evaluate("() => document.activeElement.closest('.cm-editor') !== null")
+    page.wait_for_function("() => document.activeElement.closest('.cm-editor') !== null", timeout=LONG)
     for _ in range(20):
         if "diameter = 200\n" in text_of(page):
             break

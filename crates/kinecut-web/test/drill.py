@@ -111,6 +111,8 @@ def type_the_paper(page: Page) -> dict:
 
 def paper(page: Page, served: Served, program: str) -> None:
     """The printed example, number by number; and each number that is shown is the verb's."""
+    page.locator('[data-open="new"]').focus()
+    page.keyboard.press("Enter")
     page.locator('[data-new="drilling"]').focus()
     page.keyboard.press("Enter")
     settled(page)
@@ -370,6 +372,7 @@ def looks(browser: Browser, served: Served) -> None:
 def pseudo(browser: Browser, served: Served) -> None:
     """No text but names, numbers, units, program text and sentences of the library is outside the catalogue."""
     one, page = watched(browser, (1400, 900), "light", served.at("lang=pseudo"))
+    page.locator('[data-open="new"]').click()
     page.locator('[data-new="drilling"]').click()
     settled(page)
     found = page.evaluate(UNMARKED, MARK)

@@ -6,11 +6,12 @@ import { outcome } from "./app/outcome";
 import "./app/theme";
 import { active, documents, serverGone, start, tell, titled } from "./store/session";
 import { Gone } from "./base/api";
+import "./windows/questions";
 import { face, faceTitle } from "./windows/face/open";
 
 render(<App />, document.getElementById("app") as HTMLElement);
 startKeys();
-titled(() => (active.value?.isDrilling ? "" : (outcome.value?.word ?? "")), faceTitle);
+titled(() => (active.value?.question ? "" : (outcome.value?.word ?? "")), faceTitle);
 
 addEventListener("beforeunload", (e) => {
   if (documents.value.some((doc) => doc.dirty.value) || face.value?.dirty.value) e.preventDefault();

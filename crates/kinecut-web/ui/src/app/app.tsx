@@ -2,10 +2,10 @@
 import { useSignal } from "@preact/signals";
 import * as api from "../base/api";
 import example from "./example.toml";
-import { active, documents, notice, open, project, save, serverGone, takeTheirs, tell, worker } from "../store/session";
+import { active, begin, documents, notice, open, project, save, serverGone, takeTheirs, tell, worker } from "../store/session";
+import { beginnings } from "../store/questions";
+import "../windows/questions";
 import { holder } from "../windows/job/change";
-import { DrillWindow } from "../windows/drill/window";
-import { newDrilling } from "../windows/drill/start";
 import { JobWindow } from "../windows/job/window";
 import { face, facing, saveFace } from "../windows/face/open";
 import { FaceWindow } from "../windows/face/window";
@@ -31,7 +31,7 @@ offer(
   { id: "command.panelBack", keys: ["Shift+F6"], run: () => nextPanel(-1) },
   { id: "command.theme", keys: [], run: turnTheme },
   { id: "command.report", keys: [], run: () => void saveReport() },
-  { id: "command.drilling", keys: [], run: newDrilling },
+  ...beginnings().map((kind) => ({ id: kind.begin.command, keys: [], run: () => begin(kind.begin) })),
 );
 
 function saveShown(): void {
@@ -64,20 +64,20 @@ async function saveReport(): Promise<void> {
 
 export function App() {
   const doc = facing.value ? null : active.value;
-  const drilling = doc?.isDrilling ?? false;
+  const Asked = doc?.question?.Window;
   return (
-    <div class={`wb${drilling ? " long" : ""}`}>
+    <div class={`wb${Asked ? " long" : ""}`}>
       {serverGone.value && <ServerGone />}
       <Bar />
-      {doc && !drilling && <Outcome />}
+      {doc && !Asked && <Outcome />}
       {doc?.conflict.value && <Conflict />}
       {notice.value && <Notice />}
       <Offered />
-      {doc && !drilling && <Tabs />}
-      {facing.value ? <FaceWindow /> : !doc ? <Empty /> : drilling ? <DrillWindow key={doc.id} doc={doc} /> : <JobWindow doc={doc} />}
+      {doc && !Asked && <Tabs />}
+      {facing.value ? <FaceWindow /> : !doc ? <Empty /> : Asked ? <Asked key={doc.id} doc={doc} /> : <JobWindow doc={doc} />}
       <Dialogs />
       <DropZone />
-      <p class="sr" aria-hidden="true" data-outcome={drilling ? "" : (outcome.value?.word ?? "")} />
+      <p class="sr" aria-hidden="true" data-outcome={Asked ? "" : (outcome.value?.word ?? "")} />
     </div>
   );
 }
@@ -202,7 +202,11 @@ function Empty() {
         <button class="primary" onClick={() => void made("example.toml", example)}>
           {t("empty.example")}
         </button>
-        <button onClick={newDrilling}>{t("command.drilling")}</button>
+        {beginnings().map(({ name, begin: first }) => (
+          <button key={name} onClick={() => begin(first)}>
+            {t(first.command)}
+          </button>
+        ))}
         <label class="drop">
           {t("empty.drop")}
           <input type="file" class="sr" multiple onChange={(e) => e.currentTarget.files && void take(e.currentTarget.files)} />

@@ -3,7 +3,8 @@ import { useSignal } from "@preact/signals";
 import { useRef } from "preact/hooks";
 import { short } from "../base/format";
 import type { Document } from "../store/document";
-import { active, close, documents, project, save, worker } from "../store/session";
+import { beginnings } from "../store/questions";
+import { active, begin, close, documents, project, save, worker } from "../store/session";
 import { closeFace, face, facing, leave, saveFace, showFacing } from "../windows/face/open";
 import { FaceStatus } from "../windows/face/window";
 import { t } from "../words";
@@ -11,7 +12,6 @@ import { dialog } from "./commands";
 import { Menu } from "./menu";
 import { take } from "./take";
 import { turnTheme } from "./theme";
-import { newDrilling } from "../windows/drill/start";
 import { Name } from "./verbatim";
 
 export function Bar() {
@@ -32,9 +32,7 @@ export function Bar() {
         <FaceTab />
       </nav>
       <Files />
-      <button class="ghost wide" data-new="drilling" onClick={newDrilling}>
-        {t("command.drilling")}
-      </button>
+      <New />
       <span class="sp" />
       {doc && <Status doc={doc} />}
       {facing.value && face.value && (
@@ -102,6 +100,33 @@ function FaceTab() {
   );
 }
 
+/** The questions that can be begun. */
+function New() {
+  const shown = useSignal(false);
+  return (
+    <span class="holdsMenu wide">
+      <button class="ghost" aria-haspopup="menu" aria-expanded={shown.value} onClick={() => (shown.value = !shown.value)} data-open="new">
+        {t("bar.new")}
+      </button>
+      <Menu open={shown} label={t("bar.new")}>
+        {beginnings().map(({ name, begin: first }) => (
+          <button
+            key={name}
+            role="menuitem"
+            data-new={name}
+            onClick={() => {
+              shown.value = false;
+              begin(first);
+            }}
+          >
+            {t(first.command)}
+          </button>
+        ))}
+      </Menu>
+    </span>
+  );
+}
+
 /** The files of the folder that can be opened. */
 function Files() {
   const shown = useSignal(false);
@@ -113,15 +138,18 @@ function Files() {
         {t("bar.open")}
       </button>
       <Menu open={shown} label={t("file.open")}>
-        <button
-          role="menuitem"
-          onClick={() => {
-            shown.value = false;
-            newDrilling();
-          }}
-        >
-          {t("command.drilling")}
-        </button>
+        {beginnings().map(({ name, begin: first }) => (
+          <button
+            key={name}
+            role="menuitem"
+            onClick={() => {
+              shown.value = false;
+              begin(first);
+            }}
+          >
+            {t(first.command)}
+          </button>
+        ))}
         <h2>{t("file.kinds", { name: project.value?.folder ?? "" })}</h2>
         {files.map((f) => (
           <button

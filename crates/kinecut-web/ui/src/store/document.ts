@@ -2,9 +2,9 @@
 import { computed, signal } from "@preact/signals";
 import type { Cursor, Place } from "viewer/track";
 import type { FileKind, Finding, Planned, Simulated, Verdict } from "../base/api";
-import { type DrillSheet, isHole } from "../base/drillsheet";
 import { type Path, type Table, at, parse, plain } from "../toml/parse";
 import type { Guess } from "./guess";
+import { type Answered, type QuestionKind, kindOf } from "./questions";
 import type { Shown } from "./shown";
 
 /** What is simulated now. */
@@ -34,15 +34,6 @@ export interface Given {
   job?: string;
 }
 
-/** The answer to a drilling, with the text it is of. */
-export interface Drilled {
-  sheet: DrillSheet;
-  text: string;
-  at: Date;
-  /** The page of the same text; null before it has come. */
-  page: string | null;
-}
-
 export class Document {
   readonly text = signal("");
   /** The text as it is on disk, as far as is known; sha256 null: not there. */
@@ -62,7 +53,8 @@ export class Document {
   readonly drawnIn = signal<number | null>(null);
   readonly shown = signal<Shown | null>(null);
   readonly given = signal<Given>({});
-  readonly drilled = signal<Drilled | null>(null);
+  /** The answer to a question. */
+  readonly answered = signal<Answered | null>(null);
   /** What is guessed of a program where no job says it. */
   readonly guess = signal<Guess | null>(null);
 
@@ -83,8 +75,8 @@ export class Document {
     if (wrong) return [wrong];
     const judged = this.judged.value;
     if (judged && judged.text === this.text.value) return judged.verdict.found;
-    const drilled = this.drilled.value;
-    if (drilled) return drilled.sheet.holes.flatMap((hole) => (isHole(hole) ? hole.findings : [hole.error]));
+    const answered = this.answered.value;
+    if (answered && this.question) return this.question.findings(answered.answer);
     return (this.simulated.value ?? this.planned.value)?.findings ?? [];
   });
   /** The last answer that has programs and operations. */
@@ -113,11 +105,12 @@ export class Document {
     readonly isNew = false,
   ) {}
 
-  /** Whether it is the question of a drilling. */
-  get isDrilling(): boolean {
-    if (this.kind !== "question") return false;
-    const { operation } = this.values.value;
-    return typeof operation === "object" && operation !== null && (operation as Record<string, unknown>).type === "drill";
+  private asks: QuestionKind | null = null;
+
+  /** Its kind, where it is a question of a verb that has a window; a text that has become unreadable stays in its window. */
+  get question(): QuestionKind | null {
+    if (this.kind !== "question") return null;
+    return (this.asks = kindOf(this.values.value) ?? this.asks);
   }
 
   /** The value at a path of the text. */

@@ -3,8 +3,9 @@ import { batch, computed, effect, signal } from "@preact/signals";
 import { Cursor, type Place } from "viewer/track";
 import * as api from "../base/api";
 import type { Schema } from "../schema/schema";
+import { Asker } from "./asking";
 import { Document, type Given } from "./document";
-import { DrillWorker } from "./drilling";
+import type { Begin } from "./questions";
 import { Worker } from "./work";
 import { t } from "../words";
 
@@ -26,11 +27,11 @@ export const cursor = new Cursor();
 export const place = signal<Place>(cursor.place);
 cursor.listen((now) => (place.value = now));
 
-const workers = new Map<string, Worker | DrillWorker>();
+const workers = new Map<string, Worker | Asker>();
 
-export function worker(doc: Document): Worker | DrillWorker {
+export function worker(doc: Document): Worker | Asker {
   let known = workers.get(doc.id);
-  if (!known) workers.set(doc.id, (known = doc.isDrilling ? new DrillWorker(doc) : new Worker(doc)));
+  if (!known) workers.set(doc.id, (known = doc.question ? new Asker(doc) : new Worker(doc)));
   return known;
 }
 
@@ -47,7 +48,7 @@ export async function open(id: string): Promise<void> {
     const read = await api.file(id);
     const doc = new Document(read.id, read.name, read.kind);
     doc.text.value = read.text ?? "";
-    if (doc.kind === "question" && !doc.isDrilling) {
+    if (doc.kind === "question" && !doc.question) {
       if (!others.some((opens) => opens(id, doc.text.value))) tell(t("file.noWindow", { name: doc.name }));
       return;
     }
@@ -78,6 +79,11 @@ export function openNew(stem: string, kind: api.FileKind, text: string): void {
   documents.value = [...documents.value, doc];
   worker(doc).changed();
   show(doc.id);
+}
+
+/** Opens a new question. */
+export function begin({ stem, text }: Begin): void {
+  openNew(stem, "question", text);
 }
 
 /** Makes a file of the folder; null, with a notice, when it cannot be made. */
@@ -173,7 +179,7 @@ async function changedOnDisk(event: api.Events["changed"]): Promise<void> {
   for (const doc of documents.value) {
     if (doc.id !== event.id) {
       // A file that this job reads may be another now.
-      if ((doc.kind === "job" || doc.isDrilling) && event.sha256 !== null) worker(doc).again();
+      if ((doc.kind === "job" || doc.question) && event.sha256 !== null) worker(doc).again();
       continue;
     }
     if (event.sha256 === doc.saved.value.sha256) continue;

@@ -4,6 +4,7 @@ import type { Hole } from "../../base/drillsheet";
 import type { Document } from "../../store/document";
 import { make, open, project, tell } from "../../store/session";
 import { t } from "../../words";
+import { drilled } from "./drilled";
 import { jobText, operationText } from "./export";
 
 export function Acts({ doc, hole }: { doc: Document; hole: Hole | undefined }) {
@@ -28,7 +29,7 @@ export function Acts({ doc, hole }: { doc: Document; hole: Hole | undefined }) {
     await open(id);
     tell(t("drill.guessedStock", { name }));
   };
-  const sheet = doc.drilled.value;
+  const sheet = drilled(doc);
   const saveSheet = () => {
     if (!sheet?.page) return;
     const link = document.createElement("a");

@@ -1,7 +1,6 @@
 // A new drilling: a text to begin with, which is no file before it is saved.
-import { openNew } from "../../store/session";
 
-const BEGIN = `# A hole through a plate: change the surfaces, the point and the numbers.
+export const BEGIN = `# A hole through a plate: change the surfaces, the point and the numbers.
 title = "Drilling"
 
 [tool]
@@ -22,7 +21,3 @@ overrun = 2
 cutting_speed = 25
 feed_per_rev = { entry = 0.1, steady = 0.2, exit = 0.1 }
 `;
-
-export function newDrilling(): void {
-  openNew("drilling", "question", BEGIN);
-}

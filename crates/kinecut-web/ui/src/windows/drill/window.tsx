@@ -12,6 +12,7 @@ import { edited, tell } from "../../store/session";
 import { parse, plain } from "../../toml/parse";
 import { t } from "../../words";
 import { Acts } from "./acts";
+import { drilled } from "./drilled";
 import { kindOf } from "./faces";
 import { Load } from "./load";
 import { Matrix } from "./matrix";
@@ -61,10 +62,10 @@ export function DrillWindow({ doc }: { doc: Document }) {
     };
   }, [doc]);
 
-  const known = doc.drilled.value;
-  const holes = known?.sheet.holes.filter(isHole) ?? [];
+  const known = drilled(doc);
+  const holes = known?.answer.holes.filter(isHole) ?? [];
   const hole = holes[Math.min(chosen.value, holes.length - 1)];
-  const refused = known?.sheet.holes.filter((h) => !isHole(h)) ?? [];
+  const refused = known?.answer.holes.filter((h) => !isHole(h)) ?? [];
   const wrong = doc.wrong.value;
   const isOld = known !== null && known.text !== doc.text.value && (!doc.planning.value || late.value);
   const state = doc.planning.value ? "planning" : wrong || doc.refused.value ? "wrong" : known?.text === doc.text.value ? "done" : "planning";
@@ -80,7 +81,7 @@ export function DrillWindow({ doc }: { doc: Document }) {
         <h1>{heading(question, place)}</h1>
         {known && (
           <span class="q">
-            <span lang="en">{known.sheet.point}</span>, <Name>{known.sheet.control}</Name>
+            <span lang="en">{known.answer.point}</span>, <Name>{known.answer.control}</Name>
           </span>
         )}
         <div class="acts">
@@ -88,7 +89,7 @@ export function DrillWindow({ doc }: { doc: Document }) {
             <select aria-label={t("drill.whichHole")} value={chosen.value} onChange={(e) => (chosen.value = Number(e.currentTarget.value))}>
               {holes.map((h, i) => (
                 <option key={h.number} value={i}>
-                  {t("drill.hole", { n: h.number + 1, of: known?.sheet.holes.length ?? 0 })}
+                  {t("drill.hole", { n: h.number + 1, of: known?.answer.holes.length ?? 0 })}
                 </option>
               ))}
             </select>
@@ -103,7 +104,7 @@ export function DrillWindow({ doc }: { doc: Document }) {
           {t("drill.old", { time: timeOfDay(known.at) })}
         </p>
       )}
-      {hole && <Facts hole={hole} old={isOld} speed={drawn.speed} diameter={known?.sheet.diameter ?? NaN} />}
+      {hole && <Facts hole={hole} old={isOld} speed={drawn.speed} diameter={known?.answer.diameter ?? NaN} />}
       {schema.value && <Strip doc={doc} schema={schema.value} place={place} hole={isOld ? undefined : hole} />}
       <div class="cols">
         <div class="stack">
@@ -121,8 +122,8 @@ export function DrillWindow({ doc }: { doc: Document }) {
             <div class={`stack${isOld ? " older" : ""}`}>
               <Zones hole={hole} way={way} />
               <Zeros hole={hole} />
-              <Findings hole={hole} refused={refused.flatMap((h) => ("error" in h ? [{ ...h.error, hole: h.number + 1 }] : []))} of={known.sheet.holes.length} />
-              {schema.value && <Blocks doc={doc} schema={schema.value} text={known.sheet.program} control={known.sheet.control} />}
+              <Findings hole={hole} refused={refused.flatMap((h) => ("error" in h ? [{ ...h.error, hole: h.number + 1 }] : []))} of={known.answer.holes.length} />
+              {schema.value && <Blocks doc={doc} schema={schema.value} text={known.answer.program} control={known.answer.control} />}
             </div>
           </>
         ) : (

@@ -4,6 +4,7 @@ export const app = {
   // Bar.
   "bar.jobs": "Open files",
   "bar.open": "Open",
+  "bar.new": "New",
   "bar.close": "Close {name}",
   "bar.unsaved": "unsaved",
   "bar.save": "Save",

@@ -1,21 +1,17 @@
-// Planning a drilling after each change of its text: the newest counts, the older is given up. The page follows the numbers.
+// Asking a verb after each change of a text: the newest counts, the older is given up. A page follows the numbers.
 import { batch } from "@preact/signals";
 import * as api from "../base/api";
-import type { DrillSheet } from "../base/drillsheet";
 import type { Document } from "./document";
+import type { QuestionKind } from "./questions";
 
-/** A plan is asked for so long after a change [ms]: keys that come together are one change. */
+/** An answer is asked for so long after a change [ms]: keys that come together are one change. */
 const SOON = 12;
 /** The page is asked for when the numbers have rested for so long [ms]. */
 const REST = 200;
 /** Code of a finding: a newer request came before the answer. */
 const CANCELLED = "KC0009";
 
-function isSheet(answer: DrillSheet | api.Finding): answer is DrillSheet {
-  return "holes" in answer;
-}
-
-export class DrillWorker {
+export class Asker {
   private generation = 0;
   private changedAt = 0;
   private timer = 0;
@@ -54,21 +50,23 @@ export class DrillWorker {
 
   private async run(): Promise<void> {
     const { doc, generation } = this;
+    const kind = doc.question;
+    if (!kind) return;
     const { signal } = (this.control = new AbortController());
     const text = doc.text.value;
     const question = { generation, text, ...(doc.isNew ? { new: doc.name } : { file: doc.id }) };
     const old = () => generation !== this.generation || signal.aborted;
     try {
-      const answer = await api.verb<DrillSheet>("drill", { paper: true, ...question }, signal);
-      if (old() || (!isSheet(answer) && answer.code === CANCELLED)) return;
+      const told = await kind.ask(question, signal);
+      if (old() || ("wrong" in told && told.wrong.code === CANCELLED)) return;
       batch(() => {
         doc.planning.value = false;
         doc.refused.value = null;
-        doc.wrong.value = isSheet(answer) ? null : answer;
-        if (isSheet(answer)) doc.drilled.value = { sheet: answer, text, at: new Date(), page: null };
+        doc.wrong.value = "wrong" in told ? told.wrong : null;
+        if ("answer" in told) doc.answered.value = { answer: told.answer, text, at: new Date(), page: null };
       });
       this.whenDrawn(generation);
-      if (isSheet(answer)) await this.page(question, signal, old);
+      if ("answer" in told) await this.page(kind, question, signal, old);
     } catch (error) {
       if (old()) return;
       batch(() => {
@@ -79,18 +77,19 @@ export class DrillWorker {
   }
 
   /** Asks for the page; the numbers hold without it. */
-  private async page(question: api.VerbQuestion, signal: AbortSignal, old: () => boolean): Promise<void> {
+  private async page(kind: QuestionKind, question: api.VerbQuestion, signal: AbortSignal, old: () => boolean): Promise<void> {
+    if (!kind.page) return;
     await new Promise((done) => setTimeout(done, REST));
     if (old()) return;
-    const page = await api.verbPage("drill", { paper: true, ...question }, signal).catch((error: unknown) => {
+    const page = await kind.page(question, signal).catch((error: unknown) => {
       if (error instanceof api.Refused) return "";
       throw error;
     });
-    const known = this.doc.drilled.value;
-    if (!old() && known?.text === question.text && page.startsWith("<!DOCTYPE html>")) this.doc.drilled.value = { ...known, page };
+    const known = this.doc.answered.value;
+    if (!old() && known?.text === question.text && page.startsWith("<!DOCTYPE html>")) this.doc.answered.value = { ...known, page };
   }
 
-  /** Tells when the new plan is on the screen. */
+  /** Tells when the new answer is on the screen. */
   private whenDrawn(generation: number): void {
     requestAnimationFrame(() =>
       requestAnimationFrame(() => {
