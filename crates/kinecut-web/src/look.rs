@@ -10,8 +10,8 @@ use serde::Serialize;
 use crate::app::App;
 use crate::folder::{Listed, Stamp};
 
-/// Largest file whose bytes are compared; of a larger one the stamp tells.
-const COMPARED: u64 = 16 << 20;
+/// Largest file that is read at the first look; a larger one is read when its stamp is another.
+const READ_FIRST: u64 = 16 << 20;
 
 #[derive(Serialize)]
 struct Changed<'a> {
@@ -54,10 +54,12 @@ fn compared(app: &App, before: Option<BTreeMap<String, Seen>>) -> BTreeMap<Strin
         let old = before.as_ref().and_then(|before| before.get(&listed.id));
         let hash = match old {
             Some(old) if old.stamp == stamp => old.hash.clone(),
+            None if listed.bytes > READ_FIRST => None,
             _ => hash_of(app, &listed),
         };
+        // Told too where the bytes are those of the last look: between the two a page may have saved others.
         if let (Some(old), Some(hash)) = (old, &hash)
-            && old.hash.as_ref() != Some(hash)
+            && old.stamp != stamp
         {
             tell(app, &listed, Some(hash));
         }
@@ -83,8 +85,5 @@ fn tell(app: &App, listed: &Listed, sha256: Option<&String>) {
 }
 
 fn hash_of(app: &App, listed: &Listed) -> Option<String> {
-    if listed.bytes > COMPARED {
-        return None;
-    }
     app.folder.read(&listed.name, FileKind::Bytes).ok().map(|content| sha256(&content))
 }

@@ -70,6 +70,15 @@ fn progress_goes_to_who_asked_and_changes_go_to_all() {
         assert_eq!((&changed["id"], &changed["name"]), (&json!(id), &json!("job.toml")));
         assert_eq!(changed["sha256"], kinecut::job::sha256(edited.as_bytes()));
     }
+    // The page saves, and the other program puts its own back before the next look: the bytes are those that were seen last.
+    let saved = running.send(
+        "PUT",
+        &format!("/api/file/{id}"),
+        &json!({ "text": PLATE, "sha256": kinecut::job::sha256(edited.as_bytes()) }),
+    );
+    assert_eq!(saved.status, 200, "{}", saved.json());
+    folder.write("job.toml", &edited);
+    assert_eq!(other.next("changed")["sha256"], kinecut::job::sha256(edited.as_bytes()));
     folder.write("more.toml", "x = 1");
     other.next("files");
     std::fs::remove_file(folder.opened().join("job.toml")).unwrap();
