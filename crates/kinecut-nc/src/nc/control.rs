@@ -207,6 +207,29 @@ impl Control {
         }
     }
 
+    /// Note on a register that holds the radius of the cutter, for the operator, as a comment in the program.
+    ///
+    /// ```
+    /// # use kinecut_nc as kinecut;
+    /// use kinecut::{nc::Control, program::ToolNumber};
+    /// assert_eq!(Control::LinuxCnc.radius_note(ToolNumber(3), 103), "DIAMETER OF THE CUTTER IN TOOL TABLE T103");
+    /// ```
+    pub fn radius_note(self, tool: ToolNumber, register: u32) -> String {
+        let tool = tool.0;
+        match self {
+            Control::Sinumerik840d if register == 1 => format!("RADIUS OF THE CUTTER IN T{tool} D1"),
+            Control::Sinumerik840d => format!("RADIUS OF THE CUTTER IN T{tool} D{register}, LENGTH AS D1"),
+            Control::LinuxCnc => format!("DIAMETER OF THE CUTTER IN TOOL TABLE T{register}"),
+            Control::Heidenhain if register == 1 => format!("RADIUS OF THE CUTTER IN TOOL {tool}"),
+            Control::Heidenhain => {
+                format!("RADIUS OF THE CUTTER IN TOOL {tool}.{register}, LENGTH AS {tool}")
+            }
+            Control::Fanuc | Control::Haas | Control::Grbl | Control::GrblHal => {
+                format!("RADIUS OF THE CUTTER IN D{register}")
+            }
+        }
+    }
+
     /// Radius by which the control compensates for the number in a register [mm]: half of it on LinuxCNC, whose
     /// table holds diameters.
     ///

@@ -142,6 +142,8 @@ pub(super) struct Dialect {
     pub(super) both_coolants: bool,
     /// Source of the radius of G41 and G42.
     pub(super) comp: CompWord,
+    /// Word by which feeds under compensation are those of the cutter's centre, where the control may take them for those of the contour.
+    pub(super) centre_feed: Option<&'static str>,
     /// Word of a dwell, and the unit of its number [s].
     pub(super) dwell: (&'static str, f64),
     /// Word for turns of a helix, and its value for less than one more turn.

@@ -9,7 +9,7 @@ use super::check::{check, out_of_range};
 use super::corners::uncut;
 use super::lead::Lead;
 use super::pieces::{CutPiece, Open, Run, runs};
-use super::plan::{ContourPlan, Planner, RAMP_ABOVE, SWITCH};
+use super::plan::{ContourPlan, Planner, RAMP_ABOVE};
 use super::spec::{ContourFinish, ContourSide, ContourSpec};
 use super::stretches::loop_length;
 use super::track::Track;
@@ -318,7 +318,7 @@ impl Planner<'_> {
     fn finish_line(&mut self, side: &Side, rough: &[Side], wall: f64, finish: &ContourFinish) -> Result<()> {
         let (spec, track) = (self.spec, &side.track);
         let wear = finish.wear.map_or(0.0, |w| w.largest);
-        let line = if finish.wear.is_some() { SWITCH * wear + 0.1 } else { 0.0 };
+        let line = spec.switching();
         let radius = self.usual_lead();
         if finish.wear.is_some() && radius <= wear + 0.01 {
             let what = "the lead-in is too tight for this wear correction";
@@ -348,6 +348,7 @@ impl Planner<'_> {
                 return Err(finding.help(help).key("lead_radius").into());
             }
         }
+        let on = self.entered(on);
         let start = on.first().map_or(p, |e| e.start);
         let is_cut = rough.iter().flat_map(Side::edges).any(|e| e.nearest(start).1 <= 0.1 * finish.allowance);
         if !(is_cut || spec.clear_ends || spec.cutter.centre_cutting) {
@@ -368,12 +369,14 @@ impl Planner<'_> {
                 let down = if is_cut { finish.feed } else { spec.plunge_feed };
                 self.travel.route.vertically(ToolpathRole::Entry, ToolpathPace::Feed(down), level.floor);
                 self.travel.route.comp = finish.wear.is_some();
+                let first = self.travel.route.moves.len();
                 self.travel.route.edges(ToolpathRole::LeadIn, finish.feed, &on)?;
                 let lap = Stretch { along, heights: [level.floor; 2], feed: finish.feed };
                 self.travel.follow(ToolpathRole::Finish, track, &[], lap)?;
                 self.travel.route.edges(ToolpathRole::LeadOut, finish.feed, &off[..1])?;
                 self.travel.route.comp = false;
                 self.travel.route.edges(ToolpathRole::LeadOut, finish.feed, &off[1..])?;
+                self.onto_wall(first)?;
             }
         }
         Ok(())

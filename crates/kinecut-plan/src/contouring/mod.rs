@@ -21,6 +21,7 @@ mod edge_break;
 mod feed;
 mod lead;
 mod line;
+mod onto_wall;
 mod pieces;
 mod plan;
 mod room;

@@ -8,6 +8,7 @@ use super::check::{check, out_of_range};
 use super::corners::{UncutCorner, remark, uncut};
 use super::lead::Lead;
 use super::line::plan_lines;
+use super::onto_wall::onto_wall;
 use super::pieces::CutPiece;
 use super::room::{nearer, reaching};
 use super::rough::Beginning;
@@ -30,9 +31,6 @@ pub(super) const LEAST_LEAD: f64 = 0.2;
 /// The same where no place has room for that, and least radius of such an arc [mm].
 const TIGHT_LEAD: f64 = 0.02;
 const LEAST_ARC: f64 = 0.005;
-
-/// Length of the line of a lead on which the control switches its compensation, in largest wears.
-pub(super) const SWITCH: f64 = 1.1;
 
 /// A planned contour.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -523,7 +521,7 @@ impl Planner<'_> {
     ) -> Result<DVec2> {
         let spec = self.spec;
         let wear = finish.wear.map_or(0.0, |w| w.largest);
-        let line = if finish.wear.is_some() { SWITCH * wear + 0.1 } else { 0.0 };
+        let line = spec.switching();
         let tabs = match &spec.tabs {
             Some(t) if t.finish => self.left_tabs(track, finish.allowance),
             _ => Vec::new(),
@@ -567,7 +565,7 @@ impl Planner<'_> {
         let floors = levels(spec.top, depth, step, |_| Ok(0.0))?;
         let left = spec.keeps_right();
         let (p, along) = track.at(start.at);
-        let on = start.lead.on(p, along, left);
+        let on = self.entered(start.lead.on(p, along, left));
         let laps = f64::from(finish.spring_passes + 1);
         let mut last = p;
         for level in &floors {
@@ -576,6 +574,7 @@ impl Planner<'_> {
             // Roughing has opened the way down.
             self.travel.route.vertically(ToolpathRole::Entry, ToolpathPace::Feed(finish.feed), level.floor);
             self.travel.route.comp = finish.wear.is_some();
+            let first = self.travel.route.moves.len();
             self.travel.route.edges(ToolpathRole::LeadIn, finish.feed, &on)?;
             let end = start.at + laps * track.length() + self.overlap();
             let lap = Stretch { along: [start.at, end], heights: [level.floor; 2], feed: finish.feed };
@@ -585,8 +584,32 @@ impl Planner<'_> {
             self.travel.route.edges(ToolpathRole::LeadOut, finish.feed, &off[..1])?;
             self.travel.route.comp = false;
             self.travel.route.edges(ToolpathRole::LeadOut, finish.feed, &off[1..])?;
+            self.onto_wall(first)?;
             last = p;
         }
         Ok(last)
+    }
+
+    /// A way on with its straight way behind the entry as an edge of its own.
+    pub(super) fn entered(&self, mut on: Vec<OutlineEdge>) -> Vec<OutlineEdge> {
+        let behind = self.spec.onto_wall.map_or(0.0, |[_, on]| on * self.spec.radius());
+        if let Some(line) = on.first().copied().filter(|e| behind > 0.0 && e.turn.is_none()) {
+            let at = line.at(1.0 - behind / line.length());
+            on[0] = OutlineEdge::line(at, line.end);
+            on.insert(0, OutlineEdge::line(line.start, at));
+        }
+        on
+    }
+
+    /// The moves from an index on as those of the wall, where the register holds the cutter's radius.
+    pub(super) fn onto_wall(&mut self, first: usize) -> Result<()> {
+        if self.spec.onto_wall.is_none() {
+            return Ok(());
+        }
+        let radius = self.spec.radius();
+        let mut moves = self.travel.route.moves.split_off(first);
+        onto_wall(&mut moves, if self.spec.keeps_right() { radius } else { -radius })?;
+        self.travel.route.moves.append(&mut moves);
+        Ok(())
     }
 }

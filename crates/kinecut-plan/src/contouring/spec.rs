@@ -86,6 +86,9 @@ pub struct ContourFinish {
     pub wear: Option<Wear>,
 }
 
+/// Length of the line of a lead on which the control switches its compensation, in largest wears.
+const SWITCH: f64 = 1.1;
+
 /// A contour to be milled [mm, mm/s, rad].
 #[derive(Clone, Debug, PartialEq)]
 pub struct ContourSpec {
@@ -126,6 +129,9 @@ pub struct ContourSpec {
     pub cleared: bool,
     /// Finishing.
     pub finish: Option<ContourFinish>,
+    /// Where the moves under compensation are those of the wall itself, because the register holds the cutter's radius: least length
+    /// of the entry, and of the straight way on behind it, in radii of the cutter. `None`: those of the cutter's centre.
+    pub onto_wall: Option<[f64; 2]>,
     /// Pieces of the loops along which it is cut; `None`: along whole loops. A contour in pieces has no ramp, no finish and no tabs.
     pub pieces: Option<Vec<OutlinePiece>>,
     /// Distance from all edges at which the cutter comes down and goes up, and below which it comes only towards the contour: for
@@ -165,6 +171,14 @@ impl ContourSpec {
     pub fn usual_lead(&self) -> f64 {
         let a = self.radius();
         self.lead_radius.unwrap_or(if a > 2.0 { 0.5 * a } else { 1.0 })
+    }
+
+    /// Length of the straight way on which the control switches its compensation [mm]; 0 without one.
+    pub(super) fn switching(&self) -> f64 {
+        let Some(wear) = self.finish.and_then(|f| f.wear) else { return 0.0 };
+        let line = SWITCH * wear.largest + 0.1;
+        let least = self.onto_wall.map_or(0.0, |[entry, on]| (entry + on) * self.radius());
+        line + least
     }
 
     /// Lengths by which an open line goes on where the travel along it begins, and where it ends [mm].
@@ -240,6 +254,7 @@ impl ContourSpec {
             ramp: Some(3.0_f64.to_radians()),
             cleared: false,
             finish: None,
+            onto_wall: None,
             pieces: None,
             room: None,
             clear_ends: false,

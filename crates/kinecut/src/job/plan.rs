@@ -235,14 +235,15 @@ impl<'a> Writer<'a> {
 
     /// Notes the value of a wear register.
     fn wear(&mut self, wear: Option<WearRegister>) -> Result<()> {
-        let Some(WearRegister { number, value }) = wear else { return Ok(()) };
+        let Some(WearRegister { number, value, radius }) = wear else { return Ok(()) };
+        let value = value + radius;
         if self.radii.iter().any(|&(r, other)| r == number && other != value) {
             return Err(Finding::error(
                 Code::JOB_VALUE,
                 format!("two operations give D{number} different values"),
             )
             .value_mm(value)
-            .help("give each bore a register of its own, or the same value")
+            .help("give each operation a register of its own, or the same value")
             .key("finish.wear_value")
             .into());
         }

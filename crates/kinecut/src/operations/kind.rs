@@ -150,6 +150,8 @@ pub(crate) struct WearRegister {
     pub(crate) number: u32,
     /// The value with which the program is simulated [mm].
     pub(crate) value: f64,
+    /// The radius that it holds beside that: of a cutter whose contour is posted, else 0 [mm].
+    pub(crate) radius: f64,
 }
 
 /// A planned operation.

@@ -16,9 +16,16 @@ pub(crate) fn place(at: DVec2) -> String {
     format!("X{} Y{}", trimmed(at.x, 3), trimmed(at.y, 3))
 }
 
-/// The corners as fillets of a radius [mm], from which the wall is compared.
-pub(crate) fn fillets(uncut: &[UncutCorner], radius: f64) -> Vec<Fillet> {
-    uncut.iter().map(|c| Fillet { centre: c.at, radius, between: c.between }).collect()
+/// The corners as fillets of a radius [mm], from which the wall is compared; `moved`: distance by which a register moves the path away
+/// from the wall [mm].
+pub(crate) fn fillets(uncut: &[UncutCorner], radius: f64, moved: f64) -> Vec<Fillet> {
+    let fillet = |c: &UncutCorner| {
+        let [from, to] = c.between;
+        let back = (from + to) / (1.0 + from.dot(to));
+        let centre = if back.is_finite() { c.at - moved * back } else { c.at };
+        Fillet { centre, radius, between: c.between }
+    };
+    uncut.iter().map(fillet).collect()
 }
 
 /// Parts of the wall that are not compared; `radius`: that of the cutter [mm].

@@ -96,6 +96,7 @@ pub(super) const DIALECT: Dialect = Dialect {
     length_off: "G49",
     one_register: false,
     comp: CompWord::ModalRegister,
+    centre_feed: None,
     tool_change: " M6",
     per_revolution: true,
     mist: true,

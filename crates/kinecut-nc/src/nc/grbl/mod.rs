@@ -53,6 +53,7 @@ pub(super) const DIALECT: Dialect = Dialect {
     length_off: "",
     one_register: false,
     comp: CompWord::None,
+    centre_feed: None,
     tool_change: " M0",
     per_revolution: false,
     mist: false,

@@ -18,6 +18,7 @@ const LIFT: f64 = 0.1;
 
 pub(super) const DIALECT: Dialect = Dialect {
     comp: CompWord::None,
+    centre_feed: None,
     exact_stop: "G61",
     exact_path: None,
     continuous: "G61",

@@ -103,6 +103,7 @@ pub(super) const DIALECT: Dialect = Dialect {
     length_off: "",
     one_register: true,
     comp: CompWord::Edge,
+    centre_feed: None,
     tool_change: "",
     per_revolution: true,
     mist: true,

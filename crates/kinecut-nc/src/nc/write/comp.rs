@@ -63,6 +63,13 @@ impl Writer<'_> {
                 .into());
         }
         self.modal.comp = Some(state.comp).filter(|c| *c != Comp::Off);
+        let word = match self.dialect.centre_feed.filter(|_| !self.modal.centre_feed) {
+            Some(feed) if state.comp != Comp::Off => {
+                self.modal.centre_feed = true;
+                format!("{feed} {word}")
+            }
+            _ => word,
+        };
         self.modal.comp_word = Some(match self.modal.plane {
             Some(Plane::Xy) => word,
             _ => {

@@ -25,6 +25,8 @@ pub(super) struct Modal {
     pub(super) comp: Option<Comp>,
     /// Its words for the next block of motion.
     pub(super) comp_word: Option<String>,
+    /// Whether feeds under compensation have been said to be those of the centre.
+    pub(super) centre_feed: bool,
     /// The frame in which the position is known.
     pub(super) placed_in: Option<(WorkOffset, Turn)>,
     /// Shift and turn in force.

@@ -49,7 +49,8 @@ pub(super) fn planned(of: &Arc<BoreOperation>, setting: &Setting<'_>) -> Result<
         e
     })?;
     let value = of.table.finish.as_ref().and_then(|f| f.wear_value).unwrap_or(0.0);
-    let wear = spec.finish.and_then(|f| f.wear).map(|w| WearRegister { number: w.register, value });
+    let wear =
+        spec.finish.and_then(|f| f.wear).map(|w| WearRegister { number: w.register, value, radius: 0.0 });
     Ok(Attempt::SetupPlan(PlannedBore { of: Arc::clone(of), plan, wear, taken_out: Vec::new() }, Vec::new()))
 }
 

@@ -38,8 +38,12 @@ pub struct PlannedContour {
 pub(super) fn planned(of: &Arc<ContourOperation>, setting: &Setting<'_>) -> Result<Attempt<PlannedContour>> {
     let spec = spec(setting, of)?;
     let plan = plan_contour(&spec)?;
-    let wear =
-        of.table.finish.as_ref().zip(spec.finish.and_then(|f| f.wear)).map(|(t, wear)| t.register(wear));
+    let wear = of
+        .table
+        .finish
+        .as_ref()
+        .zip(spec.finish.and_then(|f| f.wear))
+        .map(|(t, wear)| t.register(wear, &of.milling.tool));
     let mut findings = plan.findings.clone();
     findings.extend(loose(of, setting, &spec));
     Ok(Attempt::SetupPlan(PlannedContour { of: Arc::clone(of), spec, plan, wear }, findings))
@@ -82,6 +86,7 @@ fn spec(setting: &Setting<'_>, of: &ContourOperation) -> Result<ContourSpec> {
             spring_passes: f.spring_passes,
             wear,
         }),
+        onto_wall: t.finish.as_ref().and_then(|f| f.onto_wall(setting)),
         lead_radius: t.lead_radius,
         start: t.start.map(DVec2::from_array),
         overlap: t.overlap,
@@ -196,7 +201,7 @@ impl kind::Plan for PlannedContour {
                 Band::new(&self.cut_outline(), keeps_face, leave, spec.cutter.diameter)
             }
         };
-        band.corners = uncut::fillets(&self.plan.uncut, spec.radius());
+        band.corners = uncut::fillets(&self.plan.uncut, spec.radius(), self.wear.map_or(0.0, |w| w.value));
         band.tabs = self.tabs();
         let through = t.breakthrough > 0.0;
         let floor = spec.top - spec.depth;

@@ -189,6 +189,17 @@ fn yes() -> bool {
     true
 }
 
+/// The path that is posted under compensation of the control.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Compensation {
+    /// The path of the cutter's centre: the register holds what the cutter is off.
+    #[default]
+    Wear,
+    /// The contour itself: the register holds the cutter's radius.
+    Full,
+}
+
 /// Finishing of a contour.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -209,6 +220,10 @@ pub struct ContourFinishTable {
     /// Register of the control by whose value the wall is moved at the machine: "D2".
     #[serde(default)]
     pub wear_offset: Option<String>,
+    /// The path that is posted under this register: "wear", that of the cutter's centre, where the register holds what the cutter is
+    /// off; or "full", the contour itself, where it holds the cutter's radius. Default wear.
+    #[serde(default)]
+    pub compensation: Compensation,
     /// Largest value, of either sign, that the register may get; default 0.05.
     #[serde(default)]
     pub wear_largest: Option<f64>,

@@ -243,7 +243,7 @@ impl PlannedEdge {
             },
         };
         let mut band = band.leaning(slope);
-        band.corners = uncut::fillets(&self.plan.uncut, spec.radius());
+        band.corners = uncut::fillets(&self.plan.uncut, spec.radius(), 0.0);
         let wall = |band: Band| WantedWall {
             centre: band.middle,
             top: spec.top,

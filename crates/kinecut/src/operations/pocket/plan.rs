@@ -51,8 +51,12 @@ pub(crate) fn planned(of: &Arc<PocketOperation>, setting: &Setting<'_>) -> Resul
             (plan_slot(&slot.of(&spec))?, if is_cut { ContourPlan::default() } else { plan_contour(&lap)? })
         }
     };
-    let wear =
-        of.table.finish.as_ref().zip(lap.finish.and_then(|f| f.wear)).map(|(t, wear)| t.register(wear));
+    let wear = of
+        .table
+        .finish
+        .as_ref()
+        .zip(lap.finish.and_then(|f| f.wear))
+        .map(|(t, wear)| t.register(wear, &of.milling.tool));
     let own = loose(of, setting, &spec);
     let findings = clearing.findings.iter().chain(&wall.findings).cloned().chain(own).collect();
     Ok(Attempt::SetupPlan(PlannedPocket { of: Arc::clone(of), spec, clearing, lap, wall, wear }, findings))
@@ -110,6 +114,7 @@ fn specs(setting: &Setting<'_>, of: &PocketOperation) -> Result<(PocketSpec, Con
             spring_passes: f.spring_passes,
             wear,
         }),
+        onto_wall: t.finish.as_ref().and_then(|f| f.onto_wall(setting)),
         lead_radius: t.lead_radius.or_else(|| of.slot.as_ref()?.lead_radius(&cutter, t.stock_to_leave)),
         retract_z,
         approach_z,
@@ -169,7 +174,7 @@ impl kind::Plan for PlannedPocket {
         // A wear register moves the wall: positive values leave stock.
         let leave = spec.stock_to_leave + self.wear.map_or(0.0, |w| w.value);
         let mut band = Band::inside_of(&self.of.outline, leave);
-        band.corners = uncut::fillets(&self.wall.uncut, spec.radius());
+        band.corners = uncut::fillets(&self.wall.uncut, spec.radius(), self.wear.map_or(0.0, |w| w.value));
         // The wall is cut to size above the cutter's corner.
         band.foot = self.of.corner();
         let through = t.breakthrough > 0.0;

@@ -119,7 +119,12 @@ fn spec(of: &ThreadMillOperation, setting: &Setting<'_>) -> Result<ThreadMillSpe
 /// The wear register, read and checked.
 fn wear(of: &ThreadMillOperation, setting: &Setting<'_>) -> Result<Option<Wear>> {
     let t = &of.table;
-    let keys = WearKeys { register: t.wear_offset.as_deref(), largest: t.wear_largest, value: t.wear_value };
+    let keys = WearKeys {
+        register: t.wear_offset.as_deref(),
+        largest: t.wear_largest,
+        value: t.wear_value,
+        full: false,
+    };
     let wear = keys.wear(USUAL_WEAR)?;
     keys.check(setting, of.milling.tool.number, wear)?;
     Ok(wear)
@@ -133,7 +138,7 @@ impl PlannedThreadMilling {
 
     fn wear_of_table(&self) -> Option<WearRegister> {
         let value = self.of.table.wear_value.unwrap_or(0.0);
-        self.spec.wear.map(|w| WearRegister { number: w.register, value })
+        self.spec.wear.map(|w| WearRegister { number: w.register, value, radius: 0.0 })
     }
 
     /// Radius of the wall that the crests leave [mm].

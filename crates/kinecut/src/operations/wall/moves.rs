@@ -58,8 +58,14 @@ pub(crate) fn write_worn_moves(
     keeps_right: bool,
 ) {
     if let Some(wear) = wear {
-        pen.text(pen.setting.post.control.wear_note(milling.tool.number, wear.number));
-        pen.text("0 AS PLANNED, POSITIVE LEAVES STOCK ON THE WALL");
+        let control = pen.setting.post.control;
+        if wear.radius > 0.0 {
+            pen.text(control.radius_note(milling.tool.number, wear.number));
+            pen.text("THE RADIUS AS PLANNED, MORE LEAVES STOCK ON THE WALL");
+        } else {
+            pen.text(control.wear_note(milling.tool.number, wear.number));
+            pen.text("0 AS PLANNED, POSITIVE LEAVES STOCK ON THE WALL");
+        }
     }
     let comp = wear.map(|w| if keeps_right { Comp::Left(w.number) } else { Comp::Right(w.number) });
     write_moves(pen, moves, milling.coolant, comp);

@@ -102,7 +102,12 @@ impl FinishTable {
 
     /// The keys of its wear register.
     pub(crate) fn wear_keys(&self) -> WearKeys<'_> {
-        WearKeys { register: self.wear_offset.as_deref(), largest: self.wear_largest, value: self.wear_value }
+        WearKeys {
+            register: self.wear_offset.as_deref(),
+            largest: self.wear_largest,
+            value: self.wear_value,
+            full: false,
+        }
     }
 }
 

@@ -11,6 +11,8 @@ pub(crate) struct WearKeys<'a> {
     pub(crate) register: Option<&'a str>,
     pub(crate) largest: Option<f64>,
     pub(crate) value: Option<f64>,
+    /// Whether the register holds the cutter's radius.
+    pub(crate) full: bool,
 }
 
 /// Largest register that a control has.
@@ -47,6 +49,13 @@ impl WearKeys<'_> {
                 .key("wear_value")
                 .into());
             }
+            if self.full {
+                let finding = Finding::error(
+                    Code::JOB_SHAPE,
+                    "compensation by the control needs the register of the radius",
+                );
+                return Err(finding.help("add wear_offset = \"D2\"").key("wear_offset").into());
+            }
             return Ok(());
         };
         let value = self.value.unwrap_or(0.0);
@@ -68,7 +77,7 @@ impl WearKeys<'_> {
             .key("wear_offset")
             .into());
         }
-        if wear.register == control.length_register(tool) {
+        if !self.full && wear.register == control.length_register(tool) {
             return Err(Finding::error(
                 Code::JOB_VALUE,
                 format!(

@@ -14,6 +14,7 @@ mod external;
 mod feeds;
 mod five_axis;
 mod fixtures;
+mod full_compensation;
 mod hole;
 mod inches;
 mod inspect;
