@@ -3,8 +3,8 @@
 use std::path::PathBuf;
 
 use kinecut::base::Error;
-use kinecut::machine::layouts::{Query, Search, Stacking};
-use kinecut::verbs::layouts::{attitudes, criteria, kinds, layout_sheet, motions};
+use kinecut::machine::layouts::Query;
+use kinecut::verbs::layouts::{LISTED, LayoutWants, layout_sheet};
 
 use crate::answers::{To, answer};
 use crate::numbers::{stacking, triple, weight};
@@ -57,7 +57,7 @@ pub(crate) struct Layouts {
     #[arg(long, value_name = "NAME=WEIGHT", value_parser = weight)]
     weight: Vec<(String, f64)>,
     /// Number of layouts listed
-    #[arg(long, default_value_t = 24, value_name = "N")]
+    #[arg(long, default_value_t = LISTED, value_name = "N")]
     show: usize,
     /// Draw those that are listed, to scale, into this SVG file
     #[arg(long, value_name = "FILE")]
@@ -75,27 +75,23 @@ impl Layouts {
     }
 
     fn query(&self) -> Result<Query, Error> {
-        let mut query = Query::new(Search::parse(&self.of)?);
-        query.quarter_turns_are_one = self.quarter_turns;
-        query.listed = self.show;
-        query.workspaces = self.stroke.is_some() || self.part.is_some();
-        query.attitudes = attitudes(self.spindle.as_deref().unwrap_or("vertical"))?;
-        let conditions = &mut query.conditions;
-        conditions.full_mobility = self.full;
-        conditions.regular = self.regular;
-        conditions.most_work_links = self.work_links;
-        conditions.work_motions = self.work_axes.as_deref().map(motions).transpose()?;
-        conditions.tool_motions = self.tool_axes.as_deref().map(motions).transpose()?;
-        conditions.tilt = self.tilt.map(f64::to_radians);
-        conditions.stacking = self.stacking.map(|(most, above)| Stacking { most, above });
-        conditions.within_stroke = self.stroke.is_some() && self.part.is_some();
-        conditions.kinds = if self.kind.is_empty() { None } else { Some(kinds(&self.kind)?) };
-        query.sizes.stroke = self.stroke.unwrap_or(query.sizes.stroke);
-        query.sizes.part = self.part;
-        query.sizes.tool_length = self.tool_length.unwrap_or(query.sizes.tool_length);
-        if !self.weight.is_empty() {
-            query.weights = criteria(&self.weight)?;
-        }
-        Ok(query)
+        let wants = LayoutWants {
+            full: self.full,
+            regular: self.regular,
+            work_links: self.work_links,
+            work_axes: self.work_axes.clone(),
+            tool_axes: self.tool_axes.clone(),
+            kind: self.kind.clone(),
+            tilt: self.tilt,
+            stroke: self.stroke,
+            part: self.part,
+            tool_length: self.tool_length,
+            stacking: self.stacking,
+            spindle: self.spindle.clone(),
+            quarter_turns: self.quarter_turns,
+            weight: self.weight.clone(),
+            show: Some(self.show),
+        };
+        wants.query(&self.of)
     }
 }

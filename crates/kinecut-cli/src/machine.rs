@@ -3,13 +3,11 @@
 use std::path::{Path, PathBuf};
 
 use kinecut::base::{Code, Error, Finding, Silent};
-use kinecut::job::machine::{LoadOptions, Loaded, load, machine_toml};
+use kinecut::job::machine::{LoadOptions, Loaded, load};
 use kinecut::machine::Machine as Loadable;
-use kinecut::machine::layouts::Attitude;
 use kinecut::verbs::fk::forward;
 use kinecut::verbs::ik::{self, InverseWants, PathWants, StraightWants, SweepWants};
-use kinecut::verbs::layouts::machine_drawing_at;
-use kinecut::verbs::machine::{KnownMachines, MachineAnswer, MachineFile};
+use kinecut::verbs::machine::{KnownMachines, MachineWants};
 use kinecut::verbs::poses::{AxisValues, PoseTexts, PoseWords};
 use kinecut::verbs::reach::reach;
 
@@ -70,41 +68,48 @@ pub(crate) struct Machine {
     /// Draw the machine, to scale, into this SVG file: the bodies that its file gives, or the usual ones
     #[arg(long, value_name = "FILE")]
     svg: Option<PathBuf>,
-    /// Draw it with its axes at these positions: "A-45 C30"; needs bodies in the machine file
-    #[arg(long, value_name = "WORDS", requires = "svg")]
+    /// The machine with its axes at these positions: "A-45 C30": tip and direction of the tool, motions of its links; drawn
+    /// so. Usual bodies turn about their own middles
+    #[arg(long, value_name = "WORDS")]
     at: Option<String>,
+    /// With --json: the bodies with their faces, for a program that draws them itself
+    #[arg(long)]
+    bodies: bool,
+    /// A layout as a machine, with usual bodies: its code
+    #[arg(long, value_name = "CODE", conflicts_with = "name")]
+    layout: Option<String>,
+    /// With --layout: strokes of X, Y, Z, mm: 600,500,500
+    #[arg(long, value_name = "X,Y,Z", value_parser = triple, requires = "layout")]
+    stroke: Option<[f64; 3]>,
+    /// Stand of the spindle: vertical, horizontal
+    #[arg(long)]
+    spindle: Option<String>,
+    #[command(flatten)]
+    tool: ToolLength,
 }
 
 impl Machine {
     /// Shows a machine, or lists those that are known.
     pub(crate) fn answer(&self, args: &Printing) -> Result<u8, Error> {
-        let Some(name) = &self.name else { return answer(args, To::default(), KnownMachines::all()) };
-        let loaded = self.configuration.load(name)?;
-        let svg = match self.svg {
-            Some(_) => {
-                machine_drawing_at(&loaded.machine, Attitude::Vertical, &self.drawn_at(&loaded.machine)?)
-            }
-            None => String::new(),
+        let wants = MachineWants {
+            at: self.at.clone(),
+            bodies: self.bodies,
+            svg: self.svg.is_some(),
+            spindle: self.spindle.clone(),
+            stroke: self.stroke,
+            length: self.tool.given()?,
+        };
+        let loaded = match (&self.name, &self.layout) {
+            (None, None) => return answer(args, To::default(), KnownMachines::all()),
+            (Some(name), _) => self.configuration.load(name)?,
+            (None, Some(code)) => Loaded { machine: wants.layout(code)?, import: None },
         };
         let to = To { svg: self.svg.as_deref(), ..To::default() };
         if self.toml {
-            let toml = machine_toml(&loaded.machine);
-            return answer(args, To { data: Data::Alone, ..to }, MachineFile { toml, svg });
+            let file = wants.file(&loaded.machine, self.layout.is_some())?;
+            return answer(args, To { data: Data::Alone, ..to }, file);
         }
-        answer(args, to, MachineAnswer { svg, ..MachineAnswer::of(loaded) })
-    }
-
-    /// Axis positions of a drawing.
-    fn drawn_at(&self, machine: &Loadable) -> Result<Vec<f64>, Error> {
-        let values = axes("--at", self.at.as_ref())?.joints(machine)?;
-        if self.at.is_some() && machine.bodies.is_empty() {
-            let what = "the machine has no bodies that could be drawn at these positions";
-            return Err(Finding::error(Code::MACHINE_BODY, what)
-                .help("add [[body]] to the machine file, or leave --at out")
-                .key("--at")
-                .into());
-        }
-        Ok(values.to_vec())
+        answer(args, to, wants.answer(loaded)?)
     }
 }
 

@@ -47,7 +47,7 @@ pub(crate) fn pair(text: &str) -> Result<[f64; 2], String> {
 }
 
 /// An axis with its errors.
-pub(crate) fn axis_errors(text: &str) -> Result<(char, [f64; 2]), String> {
+pub(crate) fn errors_of(text: &str) -> Result<(char, [f64; 2]), String> {
     let wrong = || "write an axis and its errors, such as X=5,3".to_owned();
     let (axis, errors) = text.split_once('=').ok_or_else(wrong)?;
     let mut letters = axis.trim().chars();

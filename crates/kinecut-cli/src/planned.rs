@@ -3,9 +3,9 @@
 use std::path::PathBuf;
 
 use kinecut::base::Error;
-use kinecut::verbs::drill::plan_drill_sheet;
+use kinecut::verbs::drill::{DrillSheet, plan_drill_sheet};
 use kinecut::verbs::face::{SheetWants, plan_face_sheet};
-use kinecut::verbs::hole::{compare_hole, plan_hole, read_holes};
+use kinecut::verbs::hole::{HoleSamples, compare_hole, plan_hole_sheet, read_holes};
 
 use crate::answers::{Data, To, answers};
 use crate::printing::Printing;
@@ -19,9 +19,30 @@ pub(crate) struct Hole {
     /// Run every strategy and compare them
     #[arg(long)]
     compare: bool,
+    /// Give with --json the passes as they are run: way, speed, acceleration, jerk, curvature, load in samples
+    #[arg(long, value_name = "PASS", conflicts_with = "compare")]
+    samples: Option<Samples>,
     /// Folder for hole.html, with figures of the lead-in, or compare.html; made if it is not there
     #[arg(long)]
     out: Option<PathBuf>,
+}
+
+/// Passes in samples.
+#[derive(Clone, Copy, Debug, clap::ValueEnum)]
+enum Samples {
+    Rough,
+    Finish,
+    All,
+}
+
+impl From<Samples> for HoleSamples {
+    fn from(samples: Samples) -> HoleSamples {
+        match samples {
+            Samples::Rough => HoleSamples::Rough,
+            Samples::Finish => HoleSamples::Finish,
+            Samples::All => HoleSamples::All,
+        }
+    }
 }
 
 impl Hole {
@@ -32,7 +53,10 @@ impl Hole {
         let to = To { out: self.out.as_deref(), ..To::default() };
         match self.compare {
             true => answers(args, to, &holes, compare_hole),
-            false => answers(args, to, &holes, plan_hole),
+            false => {
+                let samples = self.samples.map_or(HoleSamples::None, HoleSamples::from);
+                answers(args, to, &holes, |table| plan_hole_sheet(table, samples))
+            }
         }
     }
 }
@@ -45,6 +69,9 @@ pub(crate) struct Drill {
     /// Show what the formulas of Belyakov and Seleznev 2023 give as printed, beside the exact numbers
     #[arg(long)]
     paper: bool,
+    /// Add the share of the point in material along the way of each hole to the JSON
+    #[arg(long)]
+    load: bool,
     /// Print the program too: its blocks, not simulated
     #[arg(long)]
     program: bool,
@@ -59,7 +86,10 @@ impl Drill {
         let (text, loader) = files::question(&self.file)?;
         let holes = read_holes(&self.file, text)?;
         let to = To { out: self.out.as_deref(), data: below(self.program), ..To::default() };
-        answers(args, to, &holes, |table| plan_drill_sheet(table, self.paper, &loader))
+        answers(args, to, &holes, |table| {
+            let sheet = plan_drill_sheet(table, self.paper, &loader)?;
+            Ok(DrillSheet { load: self.load, ..sheet })
+        })
     }
 }
 
@@ -83,6 +113,12 @@ pub(crate) struct Face {
     /// List every crossing of every tooth with the outline
     #[arg(long)]
     events: bool,
+    /// Add the bad length over all placements of one straight pass to the JSON
+    #[arg(long)]
+    map: bool,
+    /// Add the steps of the paper's method from the placement that is chosen to the JSON
+    #[arg(long)]
+    walk: bool,
     /// Print the program too: its blocks, not simulated
     #[arg(long)]
     program: bool,
@@ -97,8 +133,13 @@ impl Face {
         let (text, loader) = files::question(&self.file)?;
         let faces = read_holes(&self.file, text)?;
         let page = self.out.is_some();
-        let wants =
-            SheetWants { compare: self.compare || page, paper: self.paper || page, events: self.events };
+        let wants = SheetWants {
+            compare: self.compare || page,
+            paper: self.paper || page,
+            events: self.events,
+            map: self.map,
+            walk: self.walk,
+        };
         let to = To { out: self.out.as_deref(), data: below(self.program), ..To::default() };
         let bar = progress::Bar::new();
         answers(args, to, &faces, |table| plan_face_sheet(table, wants, &loader, &bar))

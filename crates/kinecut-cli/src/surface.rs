@@ -4,14 +4,12 @@ use std::path::{Path, PathBuf};
 
 use kinecut::base::{Error, FileKind, Silent};
 use kinecut::geom::read_stl;
-use kinecut::machine::generation::AxisErrors;
 use kinecut::verbs::surface::{
-    KnownSurfaces, OnMachine, OnMachineWants, SurfaceAnswer, SurfaceSheet, load_surface, mesh_sheet,
-    on_machine, set_parameter, surface_sheet,
+    KnownSurfaces, OnMachineWants, SurfaceWants, axis_errors, load_surface, mesh_sheet,
 };
 
 use crate::answers::{To, answer};
-use crate::numbers::{axis_errors, named, pair};
+use crate::numbers::{errors_of, named, pair};
 use crate::printing::Printing;
 use crate::{files, machine};
 
@@ -23,6 +21,13 @@ pub(crate) struct Surface {
     /// A parameter: R=40, alpha=20*pi/180; may be given again
     #[arg(long, value_name = "NAME=VALUE", value_parser = named)]
     set: Vec<(String, String)>,
+    /// A place by a variable of the surface: phi=1; may be given again, variables that are not named are in the middle of
+    /// their domains. Its point, matrices and lines in numbers; sketches are drawn there
+    #[arg(long, value_name = "NAME=VALUE", value_parser = named)]
+    at: Vec<(String, String)>,
+    /// With --json: the points of the sketches, for a program that draws them itself
+    #[arg(long)]
+    sketch: bool,
     /// The material on the other side: of a shaft the bore
     #[arg(long)]
     reversed: bool,
@@ -49,7 +54,7 @@ pub(crate) struct Surface {
     #[arg(long, value_name = "UM,ARCSEC", default_value = "10,10", value_parser = pair, requires = "machine")]
     errors: [f64; 2],
     /// With --machine: errors of one axis: X=5,3; may be given again
-    #[arg(long, value_name = "AXIS=UM,ARCSEC", value_parser = axis_errors, requires = "machine")]
+    #[arg(long, value_name = "AXIS=UM,ARCSEC", value_parser = errors_of, requires = "machine")]
     error_of: Vec<(char, [f64; 2])>,
     /// With --machine: the nearest machines that could where this one cannot, among all layouts of two to five axes
     #[arg(long, requires = "machine")]
@@ -75,31 +80,29 @@ impl Surface {
         }
         let is_file = name == "-" || name.contains(['.', '/', '\\']);
         let text = if is_file { Some(files::text(name)?) } else { None };
-        let mut surface = load_surface(name, text.as_deref())?;
-        for (parameter, value) in &self.set {
-            surface = set_parameter(surface, parameter, value)?;
-        }
-        if self.reversed {
-            surface = surface.reversed();
-        }
-        let sheet = surface_sheet(&surface)?;
-        let on_machine = self.machine.as_deref().map(|name| self.on_machine(name, &sheet)).transpose()?;
+        let surface = load_surface(name, text.as_deref())?;
+        let asked = self.machine.as_deref().map(machine::of_name).transpose()?;
+        let on_machine = self.on_machine();
+        let wants = SurfaceWants {
+            set: self.set.clone(),
+            at: self.at.clone(),
+            reversed: self.reversed,
+            sketch: self.sketch,
+        };
+        let found = wants.answer(surface, asked.as_ref().map(|m| (m, &on_machine)), &Silent)?;
         let to = To { out: self.out.as_deref(), svg: self.svg.as_deref(), ..To::default() };
-        answer(args, to, SurfaceAnswer { sheet, on_machine })
+        answer(args, to, found)
     }
 
-    /// The answer of a machine to it.
-    fn on_machine(&self, name: &str, sheet: &SurfaceSheet) -> Result<OnMachine, Error> {
-        let errors =
-            |[shift, turn]: [f64; 2]| AxisErrors { shift: shift / 1e3, turn: (turn / 3600.0).to_radians() };
-        let wants = OnMachineWants {
+    /// What a machine is asked.
+    fn on_machine(&self) -> OnMachineWants {
+        OnMachineWants {
             length: self.length,
             alternatives: self.alternatives,
             only: self.verify.clone(),
             tolerance: self.tolerance / 1e3,
-            errors: errors(self.errors),
-            own_errors: self.error_of.iter().map(|&(axis, e)| (axis, errors(e))).collect(),
-        };
-        on_machine(&sheet.surface, &sheet.found, &machine::of_name(name)?, &wants, &Silent)
+            errors: axis_errors(self.errors),
+            own_errors: self.error_of.iter().map(|&(axis, e)| (axis, axis_errors(e))).collect(),
+        }
     }
 }

@@ -4,7 +4,9 @@ use std::path::PathBuf;
 
 use kinecut::base::{Error, Silent};
 use kinecut::job::TextItems;
-use kinecut::verbs::envelope::{ENVELOPE_LIST, EnvelopeTable, Envelopes, envelope_sheets};
+use kinecut::verbs::envelope::{
+    ENVELOPE_LIST, EnvelopeTable, Envelopes, MOST_INTERVALS, envelope_sheets, growths,
+};
 use kinecut::verbs::grazing::{GRAZING_LIST, Gallery, GrazingTable, gallery, grazing_sheet};
 
 use crate::answers::{To, answer, answers};
@@ -45,6 +47,11 @@ pub(crate) struct Envelope {
     /// A tool with its move, or a list of them, in TOML or JSON; `-` reads standard input
     #[arg(default_value = "-")]
     file: String,
+    /// Show the move at the ends of so many equal parts of its time instead: poses, grazing curves, the walls up to each
+    /// moment; nothing is trimmed
+    #[arg(long, value_name = "N", conflicts_with_all = ["out", "svg"],
+          value_parser = clap::value_parser!(u32).range(1..=i64::from(MOST_INTERVALS)))]
+    moments: Option<u32>,
     /// Folder for envelope.html, envelope.stl and envelope.glb (numbered when there are several), made if it is not there
     #[arg(long)]
     out: Option<PathBuf>,
@@ -59,6 +66,9 @@ impl Envelope {
         let (text, loader) = files::question(&self.file)?;
         let moves = TextItems::<EnvelopeTable>::read(&self.file, text, ENVELOPE_LIST)?;
         let to = To { out: self.out.as_deref(), svg: self.svg.as_deref(), ..To::default() };
+        if let Some(moments) = self.moments {
+            return answers(args, to, &moves, |table| growths(table, moments, &loader, &Silent));
+        }
         answers(args, to, &moves, |table| envelope_sheets(table, &loader, &Silent).map(Envelopes))
     }
 }

@@ -390,3 +390,64 @@ fn files_stand_alone_and_are_whole_or_absent() {
         std::fs::remove_dir_all(folder).unwrap();
     }
 }
+
+#[test]
+fn a_move_at_equal_moments_has_poses_curves_and_walls() {
+    let motion = r#""tolerance": 0.05, "move": { "from": [0, 0, 0], "to": [20, 0, 0] }"#;
+    let run = kinecut(&["envelope", "-", "--moments", "4", "--json"], &flat(motion));
+    assert_eq!(run.status.code(), Some(0), "{}", text(&run.stderr));
+    let growth: Value = serde_json::from_slice(&run.stdout).unwrap();
+    let moments = growth["moments"].as_array().unwrap();
+    assert_eq!(moments.len(), 5);
+    for (k, m) in moments.iter().enumerate() {
+        let t = 0.25 * k as f64;
+        assert_eq!((m["t"].as_f64().unwrap(), m["pose"][0][3].as_f64().unwrap()), (t, 20.0 * t));
+        assert_eq!(three(&m["velocity"]), [20.0, 0.0, 0.0]);
+        // By the whole move the tool enters its section, 10 by 30.
+        assert!((m["volume_rate"].as_f64().unwrap() - 6000.0).abs() < 1e-6, "{m}");
+    }
+    let triangles: Vec<u64> = moments.iter().map(|m| m["triangles"].as_u64().unwrap()).collect();
+    assert_eq!(triangles[0], 0);
+    assert!(triangles.windows(2).all(|p| p[0] < p[1]), "{triangles:?}");
+    assert_eq!(growth["ends"][0][0].as_u64(), triangles.last().copied());
+    assert_eq!(growth["ends"][1][1], growth["triangles"]);
+    assert!(growth["stream"].as_str().unwrap().len() > 100);
+    let shown = kinecut(&["envelope", "-", "--moments", "4"], &flat(motion));
+    assert!(text(&shown.stdout).contains("15.0000"), "{}", text(&shown.stdout));
+    assert_eq!(kinecut(&["envelope", "-", "--moments", "0"], &flat(motion)).status.code(), Some(2));
+}
+
+#[test]
+fn a_move_is_swept_up_to_a_share_of_it() {
+    // Half of each way is the move that ends there.
+    let volume = |motion: &str| {
+        let sheet = json(&flat(&format!(r#""step": 1, "points": 0, {motion}"#)));
+        (
+            sheet["length"].as_f64().unwrap(),
+            sheet["untrimmed"]["volume"].as_f64().unwrap(),
+            sheet["until"].as_f64().unwrap(),
+        )
+    };
+    let halves = [
+        (
+            r#""move": { "from": [0, 0, 0], "to": [20, 0, -4] }"#,
+            r#""move": { "from": [0, 0, 0], "to": [10, 0, -2] }"#,
+        ),
+        (
+            r#""screw": { "turn": [0, 40, 0], "velocity": [9, 0, 0] }"#,
+            r#""screw": { "turn": [0, 20, 0], "velocity": [4.5, 0, 0] }"#,
+        ),
+        (
+            r#""joints": { "machine": "trt_xyzac", "length": 120, "from": { "A": -10 }, "to": { "X": 40, "A": -30 } }"#,
+            r#""joints": { "machine": "trt_xyzac", "length": 120, "from": { "A": -10 }, "to": { "X": 20, "A": -20 } }"#,
+        ),
+    ];
+    for (whole, half) in halves {
+        let (a, b) = (volume(&format!(r#""until": 0.5, {whole}"#)), volume(half));
+        assert_eq!((a.2, b.2), (0.5, 1.0));
+        assert!((a.0 - b.0).abs() < 1e-9 && (a.1 / b.1 - 1.0).abs() < 1e-5, "{a:?} {b:?}");
+    }
+    let line = r#""move": { "from": [0, 0, 0], "to": [20, 0, 0] }"#;
+    refused(&flat(&format!(r#""until": 0, {line}"#)), "KC0103", &["share of the move", "above 0"]);
+    refused(&flat(&format!(r#""until": 1.5, {line}"#)), "KC0103", &["1.5"]);
+}

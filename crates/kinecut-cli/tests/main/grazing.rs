@@ -305,3 +305,49 @@ fn the_gallery_writes_a_drawing_of_each_case() {
     }
     std::fs::remove_dir_all(&folder).unwrap();
 }
+
+#[test]
+fn bands_folds_and_ends_are_those_of_the_curve() {
+    let run = kinecut(&["grazing", &example("06_five_axis_sweep/tool.toml"), "--json"], "");
+    let sheet: Value = serde_json::from_slice(&run.stdout).unwrap();
+    let number = |v: &Value| v.as_f64().unwrap();
+    let all = |v: &Value| v.as_array().unwrap().clone();
+    // Folds: as many as the spans say, each a point of a curve with the parameter of its span's end.
+    let ends = all(&sheet["spans"]).iter().flat_map(|s| all(&s["folds"])).filter(|f| *f == true).count();
+    let folds = all(&sheet["folds"]);
+    assert_eq!((folds.len(), ends), (8, 8));
+    for fold in &folds {
+        let span = &sheet["spans"][fold["span"].as_u64().unwrap() as usize];
+        assert!(fold["u"] == span["from"] || fold["u"] == span["to"], "{fold} {span}");
+        let on = |p: &Value| p["span"] == fold["span"] && p["point"] == fold["point"];
+        assert!(all(&sheet["loops"]).iter().any(|l| all(&l["points"]).iter().any(on)), "{fold}");
+    }
+    // Areas of the bands that enter: those of the pieces, but for the strips' straight borders.
+    for (i, piece) in all(&sheet["pieces"]).iter().enumerate().filter(|(_, p)| p["fan"] == false) {
+        let mut area = 0.0;
+        for band in all(&sheet["bands"]).iter().filter(|b| b["piece"] == i && !b["enters"].is_null()) {
+            let at = |k: usize, j: usize| number(&band["places"][k][j]);
+            let slant = (at(1, 0) - at(0, 0)).hypot(at(1, 1) - at(0, 1));
+            let wide = |k: usize| number(&band["enters"][k][1]) - number(&band["enters"][k][0]);
+            // Simpson over the way of radius and angle, which are straight.
+            let part = |t: f64| {
+                (at(0, 0) * (1.0 - t) + at(1, 0) * t) * (wide(0) * (1.0 - t) + wide(1) * t).to_radians()
+            };
+            area += slant * (part(0.0) + 4.0 * part(0.5) + part(1.0)) / 6.0;
+        }
+        let exact = number(&piece["entering_area"]);
+        assert!((area - exact).abs() < 0.005 * number(&piece["area"]) + 1e-9, "{area} {exact} {piece}");
+    }
+    // Velocities at both ends: v + w x p.
+    let v = |k: usize, j: usize| number(&sheet["ends"][k]["velocity"][j]);
+    let high = number(&sheet["ends"][1]["z"]);
+    assert_eq!((number(&sheet["ends"][0]["z"]), high), (0.0, 54.0));
+    let by = 1100f64.to_radians() * high;
+    assert!(
+        (v(0, 0) - 1200.0).abs() < 1e-9
+            && (v(1, 0) - 1200.0 - by).abs() < 1e-9
+            && (v(1, 2) + 220.0).abs() < 1e-9
+    );
+    assert_eq!(sheet["pieces"][1]["outcome"], "one U");
+    assert_eq!((number(&sheet["pieces"][1]["radius"]), number(&sheet["pieces"][1]["centre"][0])), (5.0, 5.0));
+}

@@ -284,8 +284,17 @@ fn bodies_are_listed_written_drawn_and_moved() {
     assert_ne!(std::fs::read_to_string(&picture).unwrap(), home);
     let written = text(&kinecut(&["machine", &file, "--toml"], "").stdout);
     assert!(written.contains("link = \"C\"") && written.contains("max = [100, 50, 0]"), "{written}");
-    let none = kinecut(&["machine", "trt_xyzac", "--svg", &picture, "--at", "C30"], "");
-    assert!(none.status.code() == Some(2) && text(&none.stderr).contains("KC0705"), "{}", text(&none.stderr));
+    // Usual bodies move too.
+    let usual = |at: &str| {
+        let run = kinecut(&["machine", "trt_xyzac", "--svg", &picture, "--at", at], "");
+        assert_eq!(run.status.code(), Some(0), "{}", text(&run.stderr));
+        std::fs::read_to_string(&picture).unwrap()
+    };
+    assert_ne!(usual("C0"), usual("A-30 C30"));
+    let layout = text(&kinecut(&["machine", "--layout", "641203", "--toml"], "").stdout);
+    assert!(layout.contains("code = \"641203\"") && layout.contains("[[body]]"), "{layout}");
+    let (code, posed) = json(&["machine", "trt_xyzac", "--at", "A80", "--json"], "");
+    assert_eq!((code, posed["pose"]["findings"][0]["code"].as_str()), (Some(1), Some("KC0507")));
     std::fs::write(&file, "code = \"641203\"\n[[body]]\nlink = \"C\"\nmesh = \"no.stl\"\n").unwrap();
     let missing = kinecut(&["machine", &file], "");
     let message = text(&missing.stderr);

@@ -94,6 +94,37 @@ fn a_lathe_is_asked_for_a_cone_and_a_thread() {
     assert!(text(&mill.stdout).contains("lacks"), "{}", text(&mill.stdout));
 }
 
+#[test]
+fn a_place_and_the_sketches_come_as_numbers() {
+    let told = json(&["surface", "cone", "--at", "phi=1", "--at", "z=20", "--sketch", "--json"], "");
+    let point = [12.5036996551, 19.4733584297, 18.7874542569];
+    for (i, wanted) in point.into_iter().enumerate() {
+        assert!((told["place"]["point"][i].as_f64().unwrap() - wanted).abs() < 1e-9);
+    }
+    let digits: Vec<u64> =
+        told["place"]["motions"].as_array().unwrap().iter().map(|m| m["digit"].as_u64().unwrap()).collect();
+    assert_eq!(digits, [6, 1, 5, 3]);
+    let lines: Vec<&str> =
+        told["place"]["lines"].as_array().unwrap().iter().map(|l| l["line"].as_str().unwrap()).collect();
+    assert_eq!(lines, ["directrix", "generatrix"]);
+    let splits = told["sketch"]["splits"].as_array().unwrap();
+    let tools: Vec<&str> = splits.iter().map(|s| s["tool"].as_str().unwrap()).collect();
+    assert_eq!(tools, ["point", "edge", "edge", "edge", "surface"]);
+    // The point of the point tool is the place; the edge goes through it.
+    assert_eq!(splits[0]["points"][0], told["place"]["point"]);
+    // Every corner of the mesh is on the cone: its distance from the axis falls by the tangent of the angle.
+    for p in told["sketch"]["mesh"].as_array().unwrap().iter().flat_map(|row| row.as_array().unwrap()) {
+        let [x, y, z] = [0, 1, 2].map(|i| p[i].as_f64().unwrap());
+        assert!((x.hypot(y) - (30.0 - z * 0.35f64.tan())).abs() < 1e-9);
+    }
+    let wrong = kinecut(&["surface", "cone", "--at", "z=70"], "");
+    assert!(
+        wrong.status.code() == Some(2) && text(&wrong.stderr).contains("0 to 50"),
+        "{}",
+        text(&wrong.stderr)
+    );
+}
+
 /// A thread of its own: a groove of a rounded profile on a screw.
 const GROOVE: &str = r#"title = "rounded groove"
 parameters = { p = "6/(2*pi)", R = 20, r = 3 }

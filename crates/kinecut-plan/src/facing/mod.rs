@@ -35,7 +35,10 @@ pub use case::{FaceCase, Placement};
 pub use exit_order::{CornerExit, InsertCorner, exit_order};
 pub use exits::{ExitStretch, exit_stretches, largest_exit_angle};
 pub use limit::{BadStretch, Sweep, bad_length, bad_stretches, either_bad_length};
-pub use nelder_mead::{DescentStatistics, NelderMead, SimplexDescent, descend, descents, random_placements};
+pub use nelder_mead::{
+    DescentStatistics, NelderMead, SimplexCorner, SimplexDescent, SimplexStep, descend, descend_steps,
+    descents, random_placements,
+};
 pub use objective::Objective;
 pub use plan::{FacePlan, plan_face};
 pub use spec::{FaceSpec, PassesChoice, PlacementChoice};

@@ -59,6 +59,25 @@ pub struct SimplexDescent {
     pub evaluations: u32,
 }
 
+/// A corner of the triangle.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct SimplexCorner {
+    /// Its placement; the angle may lie beyond a full turn.
+    #[serde(flatten)]
+    pub placement: Placement,
+    /// The value there [mm]; more than the weighted perimeter where the part is not covered.
+    pub value: f64,
+}
+
+/// The triangle before an iteration, or at the end.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct SimplexStep {
+    /// Its corners, the best first.
+    pub corners: [SimplexCorner; 3],
+    /// Evaluations of the objective so far.
+    pub evaluations: u32,
+}
+
 /// Statistics of descents from many starts.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct DescentStatistics {
@@ -113,10 +132,39 @@ pub fn descend(
     options: &NelderMead,
     start: Placement,
 ) -> Result<SimplexDescent> {
+    run(case, objective, options, start, |_, _| ())
+}
+
+/// Runs the simplex from a start, with each triangle on its way.
+///
+/// # Errors
+/// As [`Objective::value`].
+pub fn descend_steps(
+    case: &FaceCase,
+    objective: &Objective,
+    options: &NelderMead,
+    start: Placement,
+) -> Result<(SimplexDescent, Vec<SimplexStep>)> {
+    let mut steps = Vec::new();
+    let corner =
+        |v: Vertex| SimplexCorner { placement: Placement { angle: v.x[0], offset: v.x[1] }, value: v.value };
+    let descent = run(case, objective, options, start, |simplex, evaluations| {
+        steps.push(SimplexStep { corners: simplex.map(corner), evaluations });
+    })?;
+    Ok((descent, steps))
+}
+
+fn run(
+    case: &FaceCase,
+    objective: &Objective,
+    options: &NelderMead,
+    start: Placement,
+    mut seen: impl FnMut([Vertex; 3], u32),
+) -> Result<SimplexDescent> {
     let worst = case.weighted_perimeter() * case.bad.largest_weight() + 1.0;
-    let mut evaluations = 0;
-    let mut at = |x: [f64; 2]| -> Result<Vertex> {
-        evaluations += 1;
+    let evaluations = std::cell::Cell::new(0);
+    let at = |x: [f64; 2]| -> Result<Vertex> {
+        evaluations.set(evaluations.get() + 1);
         let [low, high] = case.offsets(x[0], options.margin);
         let short = if low - x[1] > x[1] - high { low - x[1] } else { x[1] - high };
         // Rounding of a point at the bound.
@@ -133,6 +181,7 @@ pub fn descend(
         at([x[0], x[1] + options.offset_step * case.radius])?,
     ];
     simplex.sort_by(Vertex::order);
+    seen(simplex, evaluations.get());
     for _ in 0..options.iterations {
         let [best, middle, last] = simplex;
         let far = [middle, last].iter().any(|v| {
@@ -165,10 +214,11 @@ pub fn descend(
             }
         }
         simplex.sort_by(Vertex::order);
+        seen(simplex, evaluations.get());
     }
     let Vertex { x, value } = simplex[0];
     let placement = Placement { angle: x[0].rem_euclid(TAU), offset: x[1] };
-    Ok(SimplexDescent { start, placement, value, evaluations })
+    Ok(SimplexDescent { start, placement, value, evaluations: evaluations.get() })
 }
 
 /// Runs the simplex from `starts` random placements that cover the part, in parallel; the same `seed` gives the same

@@ -38,7 +38,7 @@ pub struct JointStep {
 }
 
 impl JointStep {
-    fn new(joint: &CurveJoint, s: f64, radius: f64, feed: f64) -> JointStep {
+    pub(super) fn new(joint: &CurveJoint, s: f64, radius: f64, feed: f64) -> JointStep {
         let order = joint.contact;
         let known = |v: f64| v.is_finite().then_some(v);
         let kinked = order <= ContactOrder::G0;
@@ -80,6 +80,17 @@ pub(super) fn joints(chain: &Chain, feed: f64) -> Vec<JointStep> {
             JointStep::new(&joint(&pair[0], &pair[1]), *s, pair[1].start().truncate().length(), feed)
         })
         .collect()
+}
+
+/// So many of the hardest joints, in their order along the path.
+pub(super) fn hardest(mut joints: Vec<JointStep>, most: usize) -> Vec<JointStep> {
+    joints.sort_by(|a, b| {
+        let (a, b) = (a.hardness(), b.hardness());
+        b.0.cmp(&a.0).then(b.1.total_cmp(&a.1))
+    });
+    joints.truncate(most);
+    joints.sort_by(|a, b| a.s.total_cmp(&b.s));
+    joints
 }
 
 /// The hardest joint.

@@ -17,6 +17,7 @@ mod joints;
 mod lead;
 mod limits;
 mod load;
+mod pass;
 mod peaks;
 mod posted;
 mod program;
@@ -34,6 +35,7 @@ pub use joints::{JointStep, Steps};
 pub use lead::LeadGrowth;
 pub use limits::Limits;
 pub use load::{Load, LoadSample, radial_depth};
+pub use pass::{Cut, PassPeaks, PassPiece, PassRun, PassSamples, PassWay, pass_run};
 pub use peaks::{AxisPeaks, Sampled, feed_cap};
 pub use run::{ProfilePlace, Run, ServoError};
 

@@ -117,7 +117,7 @@ pub(super) fn run(chain: &Chain, terms: &Terms, feed: f64) -> Result<(Run, Vec<P
 }
 
 /// A machine whose axes have the limits of the terms.
-fn machine(terms: &Terms) -> Result<Machine> {
+pub(super) fn machine(terms: &Terms) -> Result<Machine> {
     let limits = &terms.limits;
     let dynamics = Dynamics {
         rapid: Some(limits.axis_velocity),

@@ -47,6 +47,10 @@ pub struct Envelope {
     pub mesh: Mesh,
     /// The moments at which the grazing curves were taken.
     pub moments: Vec<f64>,
+    /// Triangles of the mesh up to each moment: walls first, in the order of time, and both ends after them.
+    pub walls: Vec<usize>,
+    /// Where the triangles of the tool at the start end; those of the tool at the end follow.
+    pub start: usize,
     /// Places at which curves are born, join, part or end.
     pub events: Vec<EnvelopeEvent>,
     /// A bound on the distance of points of the tool from straight ways between the moments [mm].
@@ -123,6 +127,20 @@ impl ProfileChain {
     /// assert!((swept.mesh.volume() / exact - 1.0).abs() < 1e-4);
     /// ```
     pub fn envelope(&self, motion: &ToolMotion, tolerance: f64, progress: &dyn Progress) -> Result<Envelope> {
+        self.envelope_by(motion, tolerance, 1, progress)
+    }
+
+    /// The envelope, with the ends of `intervals` equal parts of the time among its moments.
+    ///
+    /// # Errors
+    /// As [`ProfileChain::envelope`].
+    pub fn envelope_by(
+        &self,
+        motion: &ToolMotion,
+        tolerance: f64,
+        intervals: usize,
+        progress: &dyn Progress,
+    ) -> Result<Envelope> {
         if !(tolerance > 0.0 && tolerance.is_finite()) {
             return Err(Finding::error(
                 Code::SWEEP_TOLERANCE,
@@ -141,7 +159,8 @@ impl ProfileChain {
         if count.is_nan() || count > MOST_SLICES {
             return Err(too_fine(count, MOST_SLICES));
         }
-        let count = count as usize;
+        let intervals = intervals.max(1);
+        let count = intervals * (count as usize).div_ceil(intervals);
         let fineness = Fineness { chord: CHORDS * tolerance, step: 1.0 / count as f64, cap: f64::INFINITY };
         let refine =
             Refine { chain: self, motion, reach, strip: STRIPS * tolerance, fineness, faces: faces(self) };
@@ -169,13 +188,16 @@ impl ProfileChain {
         builder.mesh.triangles.reserve(2 * vertices);
         let rails: Vec<Rail> = slices.iter().map(|slice| Rail::new(slice, &mut builder)).collect();
         let mut events = Vec::new();
+        let mut walls = vec![0];
         for (slice, rail) in slices.windows(2).zip(rails.windows(2)) {
             wall::wall(&mut builder, (&slice[0], &rail[0]), (&slice[1], &rail[1]));
             events.extend(wall::kin(&slice[0], &slice[1]).into_iter().filter(|k| !k.is_plain()).map(|kin| {
                 let (before, after) = (kin.before.len(), kin.after.len());
                 EnvelopeEvent { between: [slice[0].t, slice[1].t], before, after }
             }));
+            walls.push(builder.mesh.triangles.len());
         }
+        let mut start = builder.mesh.triangles.len();
         if let (Some(first), Some(last)) =
             (slices.first().zip(rails.first()), slices.last().zip(rails.last()))
         {
@@ -183,11 +205,15 @@ impl ProfileChain {
             let widest = self.pieces().iter().map(ends).fold(0.0, f64::max);
             for ((slice, rail), entering) in [(first, false), (last, true)] {
                 Cap { chain: self, slice, rail, entering, chord: CAPS * tolerance, widest }.add(&mut builder);
+                if !entering {
+                    start = builder.mesh.triangles.len();
+                }
             }
         }
         let pose_error =
             slices.windows(2).map(|s| motion.chord_error(s[0].t, s[1].t, reach)).fold(0.0, f64::max);
-        Ok(Envelope { mesh: builder.mesh, moments: slices.iter().map(|s| s.t).collect(), events, pose_error })
+        let moments = slices.iter().map(|s| s.t).collect();
+        Ok(Envelope { mesh: builder.mesh, moments, walls, start, events, pose_error })
     }
 }
 

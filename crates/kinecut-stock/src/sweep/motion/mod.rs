@@ -224,6 +224,33 @@ impl ToolMotion {
         }
     }
 
+    /// Its beginning: the same move up to `t`.
+    #[must_use]
+    pub fn until(&self, t: f64) -> ToolMotion {
+        let kind = match &self.kind {
+            Kind::Turning { curve, start, rate } => {
+                Kind::Turning { curve: curve.part(0.0, t * curve.length()), start: *start, rate: *rate * t }
+            }
+            Kind::Joints { chain, from, to, place } => Kind::Joints {
+                chain: chain.clone(),
+                from: *from,
+                to: joints::between(from, to, t),
+                place: *place,
+            },
+            Kind::TipAndJoints { curve, chain, from, to, place } => Kind::TipAndJoints {
+                curve: curve.part(0.0, t * curve.length()),
+                chain: chain.clone(),
+                from: *from,
+                to: joints::between(from, to, t),
+                place: *place,
+            },
+            Kind::Screw { start, twist } => {
+                Kind::Screw { start: *start, twist: Twist { turn: twist.turn * t, shift: twist.shift * t } }
+            }
+        };
+        ToolMotion { kind }
+    }
+
     /// The curve of the tip and the tool's axis, if the axis keeps its direction; else `None`.
     pub fn as_fixed(&self) -> Option<(&Curve, DVec3)> {
         match &self.kind {

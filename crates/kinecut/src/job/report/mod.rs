@@ -35,6 +35,7 @@ mod tools;
 mod workspace;
 
 pub use deviation::{BAND_EDGES, Band, bands, extremes};
+pub(crate) use encode::packed_body;
 pub use encode::{Scene, scene};
 pub use model::{
     BodyView, FixtureView, JointView, MachineSetup, MachineView, PartView, ProgramPart, ProgramView, Report,

@@ -3,7 +3,7 @@
 
 use serde::Serialize;
 
-use super::PlannedHole;
+use super::{DrilledHole, LoadCurve, PlannedHole};
 use crate::base::Finding;
 use crate::drilling::{DrillPlan, PaperResult, Zone, ZoneStage};
 
@@ -34,6 +34,8 @@ struct PlanJson {
     lip_eccentricity: Option<f64>,
     lip_difference: f64,
     findings: Vec<Finding>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    load: Option<LoadCurve>,
     #[serde(skip_serializing_if = "Option::is_none")]
     paper: Option<PaperJson>,
 }
@@ -91,9 +93,10 @@ struct PaperJson {
     printed_times: [f64; 4],
 }
 
-/// A planned hole; with what the paper's formulas give where asked for.
-pub(crate) fn hole_json(hole: &PlannedHole, with_paper: bool) -> HoleJson {
-    HoleJson { number: hole.number, at: hole.at, error: None, plan: Some(plan_json(hole, with_paper)) }
+/// A planned hole; with what the paper's formulas give, and with the load along the way, where asked for.
+pub(crate) fn hole_json(hole: &PlannedHole, with_paper: bool, with_load: bool) -> HoleJson {
+    let plan = Some(plan_json(hole, with_paper, with_load));
+    HoleJson { number: hole.number, at: hole.at, error: None, plan }
 }
 
 /// A hole that cannot be drilled.
@@ -101,7 +104,7 @@ pub(crate) fn refused_json(number: usize, at: [f64; 2], error: Finding) -> HoleJ
     HoleJson { number, at, error: Some(error), plan: None }
 }
 
-fn plan_json(hole: &PlannedHole, with_paper: bool) -> PlanJson {
+fn plan_json(hole: &PlannedHole, with_paper: bool, with_load: bool) -> PlanJson {
     let p = &hole.plan;
     PlanJson {
         zero: hole.zero,
@@ -118,6 +121,7 @@ fn plan_json(hole: &PlannedHole, with_paper: bool) -> PlanJson {
         lip_eccentricity: Some(p.balance.eccentricity).filter(|e| e.is_finite()),
         lip_difference: p.balance.difference,
         findings: p.findings.clone(),
+        load: with_load.then(|| LoadCurve::of(&DrilledHole::new("", &hole.spec, p))),
         paper: if with_paper { hole.paper().map(|p| paper_json(&p)) } else { None },
     }
 }

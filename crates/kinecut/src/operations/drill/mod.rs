@@ -19,7 +19,7 @@ pub(crate) use json::{HoleJson, hole_json, refused_json};
 pub use plan::PlannedDrilling;
 pub(crate) use section::{ShownHole, title};
 pub use show::{
-    DrilledHole, RefusedHole, drill_html, drill_list, drill_section, drill_sections, drill_table,
+    DrilledHole, LoadCurve, RefusedHole, drill_html, drill_list, drill_section, drill_sections, drill_table,
     drill_words, point_drawing, section_drawings, share_in_material,
 };
 pub use table::*;

@@ -101,7 +101,7 @@ impl kind::Plan for PlannedDrilling {
     }
 
     fn json(&self, shown: &Shown<'_>) -> Option<DrillingJson> {
-        let holes = self.holes.iter().map(|hole| hole_json(hole, false)).collect();
+        let holes = self.holes.iter().map(|hole| hole_json(hole, false, false)).collect();
         Some(DrillingJson { operation: shown.number, holes })
     }
 }

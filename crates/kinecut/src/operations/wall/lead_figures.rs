@@ -10,6 +10,7 @@
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use glam::DVec2;
+use serde::Serialize;
 
 use crate::geom::{LensOrder, PlaneCurve, SpiralLaw, Support};
 use crate::holes::PassFigures;
@@ -31,6 +32,73 @@ const NO_TURN: f64 = 1e-9;
 pub(crate) fn lead_drawings(pass: &PassFigures) -> Vec<Drawing> {
     let Some(lead) = Involute::of(pass) else { return Vec::new() };
     vec![lead.whole(), lead.base_circle(), lead.touching(), lead.start()]
+}
+
+/// An involute as the figures have it: places from the bore's centre [mm].
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct LeadFigure {
+    /// Turn about the centre, the paper's psi, counted in the direction of the path [rad].
+    pub psi: f64,
+    /// Base radius, of a lens spiral its mean [mm].
+    pub base_radius: f64,
+    /// Centre of the base circle, or the middle of the evolute.
+    pub base_centre: [f64; 2],
+    /// The evolute of a lens spiral; empty where it is the base circle.
+    pub evolute: Vec<[f64; 2]>,
+    /// Start, the paper's T_0.
+    pub start: [f64; 2],
+    /// Place in which it touches the path at the wall, T_psi.
+    pub touch: [f64; 2],
+    /// The start before the turn by psi, T_P.
+    pub unturned_start: [f64; 2],
+    /// Centre of curvature at the start.
+    pub start_centre: [f64; 2],
+    /// The spiral from its cusp to the start, which is not run.
+    pub before: Vec<[f64; 2]>,
+    /// The whole spiral before the turn by psi; empty where it is not turned.
+    pub unturned: Vec<[f64; 2]>,
+    /// Radii of the circles about the centre that it osculates after whole turns, the outermost first [mm].
+    pub osculated: Vec<f64>,
+    /// Turns that are run by the paper's formula, n (1 - rho/R).
+    pub visible_turns_formula: f64,
+}
+
+/// Angle between two points of a figure that is sent [rad].
+const SENT_GRAIN: f64 = 0.08;
+
+/// The involute of a pass; none for curves that are not one.
+pub(crate) fn lead_figure(pass: &PassFigures) -> Option<LeadFigure> {
+    let lead = Involute::of(pass)?;
+    let [cusp, start, wall] = lead.angles;
+    let line = |[from, to]: [f64; 2], psi: f64| {
+        let points = grained(SENT_GRAIN, from, to, |theta| lead.point(theta, psi));
+        points.into_iter().map(|p| p.map(|v| (v * 1e4).round() / 1e4)).collect::<Vec<_>>()
+    };
+    let [x, y] = lead.point(start, lead.psi);
+    let evolute = if lead.is_lens() {
+        grained(SENT_GRAIN, 0.0, TAU, |theta| lead.centre(theta, lead.psi))
+    } else {
+        Vec::new()
+    };
+    let whole = pass.turns.round() as u32;
+    Some(LeadFigure {
+        psi: lead.psi,
+        base_radius: lead.base_radius,
+        base_centre: lead.base(),
+        evolute,
+        start: [x, y],
+        touch: lead.point(wall, lead.psi),
+        unturned_start: lead.point(start, 0.0),
+        start_centre: lead.centre(start, lead.psi),
+        before: if start > cusp { line([cusp, start], lead.psi) } else { Vec::new() },
+        unturned: if lead.psi.abs() > NO_TURN { line([cusp, wall], 0.0) } else { Vec::new() },
+        osculated: (1..whole)
+            .rev()
+            .take(MOST_CIRCLES as usize)
+            .map(|i| lead.law.radius(TAU * f64::from(i)))
+            .collect(),
+        visible_turns_formula: pass.turns * (1.0 - x.hypot(y) / pass.path_radius),
+    })
 }
 
 /// The involute whose end is a lead-in.
@@ -369,8 +437,12 @@ fn circle([x, y]: [f64; 2], radius: f64) -> Vec<[f64; 2]> {
 
 /// Places between two angles, both ends among them.
 fn sampled(from: f64, to: f64, at: impl Fn(f64) -> [f64; 2]) -> Vec<[f64; 2]> {
+    grained(GRAIN, from, to, at)
+}
+
+fn grained(grain: f64, from: f64, to: f64, at: impl Fn(f64) -> [f64; 2]) -> Vec<[f64; 2]> {
     /// More would not be seen.
     const MOST: f64 = 20_000.0;
-    let count = ((to - from).abs() / GRAIN).ceil().clamp(1.0, MOST);
+    let count = ((to - from).abs() / grain).ceil().clamp(1.0, MOST);
     (0..=count as u32).map(|i| at(from + (to - from) * f64::from(i) / count)).collect()
 }

@@ -7,7 +7,8 @@ mod section;
 mod table;
 mod wear;
 
-pub(crate) use lead_figures::lead_drawings;
+pub use lead_figures::LeadFigure;
+pub(crate) use lead_figures::{lead_drawings, lead_figure};
 pub(crate) use moves::{CLEARANCE, write_moves, write_told_moves, write_worn_moves};
 pub(crate) use section::{ShownWall, sections};
 pub use table::*;

@@ -21,7 +21,7 @@ impl Serialize for DrillSheet {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         let holes = self.holes.iter().zip(&self.places).enumerate();
         let holes = holes.map(|(number, (hole, at))| match hole {
-            Ok(hole) => hole_json(hole, self.paper),
+            Ok(hole) => hole_json(hole, self.paper, self.load),
             Err(e) => refused_json(number, *at, (*e.0).clone()),
         });
         let sheet = SheetJson {

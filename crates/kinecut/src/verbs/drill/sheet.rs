@@ -33,6 +33,8 @@ pub struct DrillSheet {
     pub findings: Vec<Finding>,
     /// Whether the result of the paper's own formulas is shown too.
     pub paper: bool,
+    /// Whether the JSON has the load along the way of each hole.
+    pub load: bool,
 }
 
 /// Plans a drilling; `paper`: with what the paper's own formulas give.
@@ -94,6 +96,7 @@ pub fn plan_drill_sheet(table: &HoleTable, paper: bool, loader: &dyn Loader) -> 
         program,
         findings,
         paper,
+        load: false,
     })
 }
 

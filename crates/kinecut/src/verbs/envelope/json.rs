@@ -31,6 +31,7 @@ struct SheetJson<'a> {
     tolerance: f64,
     tool_volume: f64,
     turn: f64,
+    until: f64,
     untrimmed: UntrimmedJson,
     walls: WallsJson,
     way: &'static str,
@@ -120,6 +121,7 @@ impl Serialize for EnvelopeSheet {
             tolerance: self.tolerance,
             tool_volume: self.tool_volume,
             turn: self.turn.to_degrees(),
+            until: self.until,
             untrimmed: UntrimmedJson {
                 bounds: bounds(&envelope.mesh),
                 may_cut_itself: self.cuts_itself(),

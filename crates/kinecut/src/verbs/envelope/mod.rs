@@ -1,6 +1,7 @@
 //! The verb `kinecut envelope`: what a tool sweeps in a move, as a sheet of numbers and a mesh for a person or another program.
 
 mod given_move;
+mod growth;
 mod joints;
 mod json;
 mod moving;
@@ -10,6 +11,7 @@ mod table;
 mod walls;
 
 pub use given_move::MoveSource;
+pub use growth::{Growth, GrowthMoment, Growths, MOST_INTERVALS, growths};
 pub use sheet::{EnteringAt, EnvelopeSheet, envelope_sheets};
 pub use walls::WallCell;
 

@@ -19,7 +19,7 @@ use crate::sweep::{
 use crate::tool::{Contour, ContourRead};
 
 /// Tolerance of the mesh where none is wanted [mm].
-const TOLERANCE: f64 = 0.01;
+pub(super) const TOLERANCE: f64 = 0.01;
 /// Sample points where no number is wanted.
 const POINTS: u32 = 400;
 /// Most sample points: beyond it the text has gigabytes.
@@ -64,6 +64,8 @@ pub struct EnvelopeSheet {
     pub length: f64,
     /// Angle by which the tool's axis turns, along its way [rad].
     pub turn: f64,
+    /// Share of the move that is swept.
+    pub until: f64,
     /// Tolerance of the meshes [mm].
     pub tolerance: f64,
     /// The boundary of what is swept.
@@ -104,12 +106,20 @@ pub fn envelope_sheets(
     moves.into_iter().map(|moving| sheet(table, given.clone(), moving, progress)).collect()
 }
 
-fn sheet(
-    table: &EnvelopeTable,
-    given: Option<ContourRead>,
-    moving: GivenMove,
-    progress: &dyn Progress,
-) -> Result<EnvelopeSheet> {
+/// A tool in a move.
+pub(super) struct Moved {
+    pub(super) title: String,
+    pub(super) contour: Contour,
+    pub(super) motion: ToolMotion,
+    pub(super) until: f64,
+    pub(super) way: &'static str,
+    pub(super) mode: &'static str,
+    pub(super) source: MoveSource,
+    pub(super) notes: Vec<String>,
+}
+
+/// The tool of a table in one of its moves, up to the share that is wanted.
+pub(super) fn moved(table: &EnvelopeTable, given: Option<ContourRead>, moving: GivenMove) -> Result<Moved> {
     let GivenMove { motion, way, mode, source, tool } = moving;
     let (name, contour, notes) = chosen_contour(given, tool)?;
     let mut title = table.title.clone().unwrap_or(name);
@@ -118,6 +128,25 @@ fn sheet(
     {
         title = format!("{title}{}move {part} of {of}", if title.is_empty() { "" } else { ", " });
     }
+    let until = table.until.unwrap_or(1.0);
+    if !(until > 0.0 && until <= 1.0) {
+        return Err(Finding::error(Code::JOB_VALUE, "the share of the move is not above 0 and up to 1")
+            .value(until, "")
+            .bound(1.0, "")
+            .key("until")
+            .into());
+    }
+    let motion = if until < 1.0 { motion.until(until) } else { motion };
+    Ok(Moved { title, contour, motion, until, way, mode, source, notes })
+}
+
+fn sheet(
+    table: &EnvelopeTable,
+    given: Option<ContourRead>,
+    moving: GivenMove,
+    progress: &dyn Progress,
+) -> Result<EnvelopeSheet> {
+    let Moved { title, contour, motion, until, way, mode, source, notes } = moved(table, given, moving)?;
     let points = table.points.unwrap_or(POINTS);
     if points > MOST_POINTS {
         return Err(Finding::error(Code::JOB_VALUE, "there are too many sample points")
@@ -159,6 +188,7 @@ fn sheet(
         source,
         length,
         turn,
+        until,
         tolerance,
         trimmed,
         envelope,
@@ -219,7 +249,7 @@ impl EnvelopeSheet {
     }
 }
 
-fn entering_at(chain: &ProfileChain, motion: &ToolMotion, t: f64) -> EnteringAt {
+pub(super) fn entering_at(chain: &ProfileChain, motion: &ToolMotion, t: f64) -> EnteringAt {
     let twist = motion.at(t).twist;
     let grazing = chain.grazing(&twist);
     let areas = chain.entered_areas(&twist, &grazing);
@@ -228,7 +258,7 @@ fn entering_at(chain: &ProfileChain, motion: &ToolMotion, t: f64) -> EnteringAt 
 }
 
 /// Length of the tip's way and the angle that the axis sweeps, by Simpson's rule: exact for every move at constant rates.
-fn way_and_turn(motion: &ToolMotion) -> [f64; 2] {
+pub(super) fn way_and_turn(motion: &ToolMotion) -> [f64; 2] {
     /// Panels: a smooth move over many turns is followed to eight digits.
     const PANELS: u32 = 256;
     let mut sums = [0.0; 2];

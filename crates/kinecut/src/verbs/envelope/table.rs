@@ -34,6 +34,9 @@ pub struct EnvelopeTable {
     /// A line of a job's program.
     #[serde(default)]
     pub of: Option<ProgramLineTable>,
+    /// Share of the move up to which it is swept, above 0 to 1; default 1.
+    #[serde(default)]
+    pub until: Option<f64>,
     /// Largest distance of the mesh from the envelope, mm; default 0.01.
     #[serde(default)]
     pub tolerance: Option<f64>,

@@ -1,12 +1,13 @@
 //! The verb `kinecut face`: an operation planned for itself, as a sheet of numbers for a person or another program.
 
 mod json;
+mod map;
 mod page;
 mod sheet;
 #[cfg(test)]
 mod tests;
 
-pub use sheet::{FaceSheet, PaperBaseline, SheetWants, plan_face_sheet};
+pub use sheet::{FaceSheet, PaperBaseline, SheetWants, SimplexWalk, plan_face_sheet};
 
 use std::borrow::Cow;
 

@@ -3,8 +3,8 @@
 use crate::base::{Code, Finding, Loader, Progress, Result};
 use crate::facing::optimum::{ObjectiveMap, Options, objective_map};
 use crate::facing::{
-    DescentStatistics, NelderMead, Objective, OffsetRule, SimplexDescent, SurveyPoint, ToothCrossing,
-    descend, descents, survey,
+    DescentStatistics, NelderMead, Objective, OffsetRule, SimplexDescent, SimplexStep, SurveyPoint,
+    ToothCrossing, descend, descend_steps, descents, survey,
 };
 use crate::job::file::{BoxTable, SetupTable, StockTable};
 use crate::job::{Job, check};
@@ -24,6 +24,10 @@ pub struct SheetWants {
     pub paper: bool,
     /// Every crossing of every tooth.
     pub events: bool,
+    /// The bad length over all placements of one straight pass.
+    pub map: bool,
+    /// The way of the paper's method from the placement that is chosen.
+    pub walk: bool,
 }
 
 /// Result of the program of Kryzhanivskyi and Kryzhanivska 2011 for the same face: kept as the baseline. As an M3
@@ -42,6 +46,15 @@ pub struct PaperBaseline {
     pub map: ObjectiveMap,
 }
 
+/// A way of the paper's method, triangle by triangle; as an M3 spindle sees it.
+#[derive(Clone, Debug)]
+pub struct SimplexWalk {
+    /// Its start and its end.
+    pub descent: SimplexDescent,
+    /// The triangles, from the first to the last.
+    pub steps: Vec<SimplexStep>,
+}
+
 /// Orientations of the survey: one for each degree.
 const ORIENTATIONS: u32 = 360;
 /// Random starts, as in the comparison of the specification.
@@ -50,6 +63,9 @@ const STARTS: u32 = 100;
 const SEED: u64 = 2011;
 /// Columns and rows of the map.
 const MAP: [usize; 2] = [240, 48];
+
+/// Columns and rows of the map that is asked for by itself.
+const OWN_MAP: [usize; 2] = [180, 41];
 
 fn baseline(face: &PlannedFace, options: &Options, progress: &dyn Progress) -> Result<PaperBaseline> {
     let case = &face.plan.guarded;
@@ -83,6 +99,10 @@ pub struct FaceSheet {
     pub events: Vec<ToothCrossing>,
     /// The way of the paper's program, if it was asked for.
     pub paper: Option<PaperBaseline>,
+    /// The bad length over all placements of one straight pass, if it was asked for; as an M3 spindle sees it.
+    pub map: Option<ObjectiveMap>,
+    /// The way of the paper's method from the chosen placement, if it was asked for and one straight pass was chosen.
+    pub walk: Option<SimplexWalk>,
     /// Findings.
     pub findings: Vec<Finding>,
     /// Control posted for.
@@ -138,6 +158,23 @@ pub fn plan_face_sheet(
         },
         false => None,
     };
+    let map = match wants.map {
+        true => {
+            let options = options(&face.of, face.plan.left_hand);
+            Some(objective_map(&face.plan.guarded, &options, OWN_MAP[0], OWN_MAP[1])?)
+        }
+        false => None,
+    };
+    let start = face.plan.ways[face.plan.chosen].placement();
+    let walk = match start.filter(|_| wants.walk) {
+        Some(start) => {
+            let margin = options(&face.of, face.plan.left_hand).margin;
+            let method = NelderMead::with_margin(margin);
+            let (descent, steps) = descend_steps(&face.plan.guarded, &Objective::Limit, &method, start)?;
+            Some(SimplexWalk { descent, steps })
+        }
+        None => None,
+    };
     let (mut program, mut post) = (one.program.clone(), job.post.clone());
     unknown_stock::left_out(&mut program, &mut post);
     let mut findings = one.findings.clone();
@@ -147,11 +184,19 @@ pub fn plan_face_sheet(
             "crossings of the teeth are listed for one straight pass: none was chosen",
         ));
     }
+    if wants.walk && start.is_none() {
+        findings.push(Finding::note(
+            Code::FACE_ADVICE,
+            "the paper's method walks from one straight pass: none was chosen",
+        ));
+    }
     Ok(FaceSheet {
         title: job.title.clone(),
         face: PlannedFace::clone(face),
         events,
         paper,
+        map,
+        walk,
         findings,
         control: job.post.control.name(),
         program: safe_height::to_fill_in(&nc::write(&program, &job.tools, &post)?.text),

@@ -8,13 +8,16 @@ use crate::verbs::hole::read_holes;
 const LOOPS: &str = "{ loops = [{ points = [[0, 0], [90, 0], [100, 20], [100, 60], [0, 60]] }, { centre = [40, 25], radius = 9 }] }";
 
 fn sheet(keys: &str) -> Value {
+    wanted(keys, SheetWants { events: true, ..SheetWants::default() })
+}
+
+fn wanted(keys: &str, wants: SheetWants) -> Value {
     let text = format!(
         "title = \"plate\"\n[tool]\nnumber = 1\ntype = \"face-mill\"\ndiameter = 100\nteeth = 5\nflute_length = 8\n\
          [operation]\ntype = \"face\"\ntool = 1\ndepth = 0.5\nspeed = 600\nfeed_per_tooth = 0.2\nguard = 0\n{keys}"
     );
     let texts = read_holes("face.toml", &text).unwrap();
     let table = texts.item(0).unwrap();
-    let wants = SheetWants { events: true, ..SheetWants::default() };
     serde_json::to_value(plan_face_sheet(&table, wants, &MemoryLoader::default(), &Silent).unwrap()).unwrap()
 }
 
@@ -106,4 +109,85 @@ fn the_certificate_is_in_the_sheet() {
     agrees(&wide);
     assert_eq!(wide["optimum"]["error"]["code"], "KC1002");
     assert!(wide["teeth_check"].is_null() && wide["as_drawn"].is_null());
+}
+
+#[test]
+fn the_map_has_the_values_of_its_placements_and_m4_is_the_mirror() {
+    let map = |keys: &str| wanted(keys, SheetWants { map: true, ..SheetWants::default() });
+    let right = map(&format!("outline = {LOOPS}"));
+    let map_of = &right["map"];
+    let (turns, rows) = (map_of["turns"].as_array().unwrap(), map_of["rows"].as_u64().unwrap() as usize);
+    assert_eq!((turns.len(), rows), (180, 41));
+    let [mut seen, mut shut] = [0, 0];
+    for (i, turn) in turns.iter().enumerate().step_by(7) {
+        let (range, values) = (&map_of["beside"][i], &map_of["values"][i]);
+        assert_eq!(range.is_null(), values.is_null());
+        if values.is_null() {
+            shut += 1;
+            continue;
+        }
+        for j in [0, rows / 2, rows - 1] {
+            let share = j as f64 / (rows - 1) as f64;
+            let beside = number(&range[0]) + share * (number(&range[1]) - number(&range[0]));
+            let (sin, cos) = number(turn).to_radians().sin_cos();
+            let across = [[0.0, 0.0], [90.0, 0.0], [100.0, 20.0], [100.0, 60.0], [0.0, 60.0]];
+            let across = across.map(|[x, y]: [f64; 2]| x * sin + y * cos);
+            let low = across.iter().fold(f64::INFINITY, |a, &b| a.min(b));
+            let high = across.iter().fold(f64::NEG_INFINITY, |a, &b| a.max(b));
+            // Inside the bound, which the rounding of the map can miss.
+            let offset = 0.5 * (low + high) + 0.999 * beside;
+            let one = sheet(&format!(
+                "placement = {{ angle = {}, offset = {offset} }}\npasses = \"one\"\noutline = {LOOPS}",
+                number(turn)
+            ));
+            let value = number(&one["ways"][one["chosen"].as_u64().unwrap() as usize]["guarded"]);
+            if let Some(shown) = values[j].as_f64() {
+                seen += 1;
+                assert!((shown - value).abs() < 0.2, "{turn} {j}: {shown}, the plan has {value}");
+            }
+        }
+    }
+    assert!(seen > 20 && shut > 0, "{seen} {shut}");
+    let mirrored = LOOPS.replace("20]", "-20]").replace("60]", "-60]").replace("25]", "-25]");
+    let left = map(&format!("left_hand = true\noutline = {mirrored}"));
+    for i in 0..180 {
+        let other = (180 - i) % 180;
+        let (a, b) = (&map_of["values"][i], &left["map"]["values"][other]);
+        assert_eq!(a.is_null(), b.is_null(), "{i}");
+        if !a.is_null() {
+            for j in 0..41 {
+                let (a, b) = (a[j].as_f64(), b[40 - j].as_f64());
+                let near = a.zip(b).map_or(a == b, |(a, b)| (a - b).abs() < 2e-3);
+                assert!(near, "{i} {j}: {a:?} {b:?}");
+            }
+        }
+    }
+}
+
+#[test]
+fn the_walk_is_the_descent_triangle_by_triangle() {
+    let wants = SheetWants { walk: true, paper: true, ..SheetWants::default() };
+    let drawn = wanted(&format!("outline = {LOOPS}"), wants);
+    let place = &drawn["as_drawn"]["placement"];
+    let json = wanted(
+        &format!(
+            "placement = {{ angle = 0, offset = {} }}\npasses = \"one\"\noutline = {LOOPS}",
+            place["offset"]
+        ),
+        wants,
+    );
+    let (walk, own) = (&json["walk"], &json["paper"]["descent_from_as_drawn"]);
+    for key in ["start", "end", "value", "evaluations"] {
+        assert_eq!(walk[key], own[key], "{key}");
+    }
+    let steps = walk["steps"].as_array().unwrap();
+    let value = |s: &Value, i: usize| number(&s["corners"][i]["value"]);
+    assert!(steps.len() > 20 && steps[0]["evaluations"] == 3);
+    assert!(steps.windows(2).all(|s| value(&s[1], 0) <= value(&s[0], 0)));
+    assert!(steps.iter().all(|s| value(s, 0) <= value(s, 1) && value(s, 1) <= value(s, 2)));
+    let last = steps.last().unwrap();
+    assert_eq!(value(last, 0), number(&walk["value"]));
+    assert_eq!(last["evaluations"], walk["evaluations"]);
+    let rows = wanted(&format!("passes = {{ rows = 2 }}\noutline = {LOOPS}"), wants);
+    assert!(rows["walk"].is_null() && rows["findings"].to_string().contains("walks from one straight pass"));
 }

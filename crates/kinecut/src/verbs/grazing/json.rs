@@ -1,12 +1,15 @@
 //! The sheet as JSON: mm, degrees, mm/min, degrees/min; parameters of arcs in degrees.
 
+use glam::DVec3;
 use serde::{Serialize, Serializer};
 
-use super::{GrazingSheet, MotionSource, piece_words};
+use super::show::{Band, extent, strips};
+use super::{GrazingSheet, MotionSource, PieceOutcome, SpanSheet, piece_words};
 use crate::base::Finding;
 use crate::geom::Rigid;
 use crate::sweep::{
-    ChainPiece, EnteredArea, GrazingBranch, GrazingPoint, PieceKind, PieceShape, ProfileChain, SegmentKind,
+    ChainPiece, EnteredArea, Grazing, GrazingBranch, GrazingPoint, PieceKind, PieceShape, ProfileChain,
+    SegmentKind,
 };
 use crate::tool::ElementRole;
 
@@ -16,9 +19,12 @@ const MINUTE: f64 = 60.0;
 /// The fields of all tables stand in the order of their names.
 #[derive(Serialize)]
 struct SheetJson<'a> {
+    bands: Vec<BandJson>,
     circles: Vec<CircleJson>,
+    ends: [EndJson; 2],
     entering: EnteringJson,
     findings: &'a [Finding],
+    folds: Vec<FoldJson>,
     loops: Vec<LoopJson>,
     motion: &'static str,
     notes: &'a [String],
@@ -30,6 +36,34 @@ struct SheetJson<'a> {
     touching: &'a [usize],
     twist: TwistJson,
     whole: &'a [usize],
+}
+
+/// A band of the surface between two parallel circles; `enters`: angles about the axis from which to which it enters, at both
+/// circles; null: it leaves all round.
+#[derive(Serialize)]
+struct BandJson {
+    enters: Option<[[f64; 2]; 2]>,
+    normals: [[f64; 2]; 2],
+    piece: usize,
+    places: [[f64; 2]; 2],
+    u: [f64; 2],
+}
+
+/// An end of the tool's axis.
+#[derive(Serialize)]
+struct EndJson {
+    velocity: [f64; 3],
+    z: f64,
+}
+
+/// A place at which both branches meet.
+#[derive(Serialize)]
+struct FoldJson {
+    piece: usize,
+    point: [f64; 3],
+    span: usize,
+    theta: f64,
+    u: f64,
 }
 
 #[derive(Serialize)]
@@ -63,6 +97,7 @@ struct PointJson {
     normal: [f64; 3],
     piece: u32,
     point: [f64; 3],
+    span: usize,
     theta: f64,
     u: f64,
 }
@@ -90,6 +125,8 @@ pub(crate) struct PieceJson {
     #[serde(skip_serializing_if = "Option::is_none")]
     area: Option<f64>,
     body: u16,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    centre: Option<[f64; 2]>,
     end: [f64; 2],
     #[serde(skip_serializing_if = "Option::is_none")]
     entering_area: Option<f64>,
@@ -101,7 +138,11 @@ pub(crate) struct PieceJson {
     gained: Option<f64>,
     #[serde(skip_serializing_if = "Option::is_none")]
     lost: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    outcome: Option<&'static str>,
     parameter: &'static str,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    radius: Option<f64>,
     role: ElementRole,
     start: [f64; 2],
     to: f64,
@@ -110,11 +151,21 @@ pub(crate) struct PieceJson {
 
 impl PieceJson {
     /// A piece of a chain, and what of it enters where that is known.
-    pub(crate) fn of(chain: &ProfileChain, index: usize, entered: Option<&EnteredArea>) -> PieceJson {
+    pub(crate) fn of(
+        chain: &ProfileChain,
+        index: usize,
+        at_moment: Option<(&EnteredArea, &Grazing)>,
+    ) -> PieceJson {
         let p = &chain.pieces()[index];
+        let entered = at_moment.map(|(entered, _)| entered);
+        let (centre, radius) = match p.shape {
+            PieceShape::Arc { centre, radius } => (Some(centre.to_array()), Some(radius)),
+            PieceShape::Line { .. } => (None, None),
+        };
         PieceJson {
             area: entered.map(|e| e.area),
             body: p.body,
+            centre,
             end: p.point(p.to).to_array(),
             entering_area: entered.map(|e| e.entering),
             entering_share: entered.map(|e| e.share),
@@ -122,7 +173,9 @@ impl PieceJson {
             from: parameter(p, p.from),
             gained: entered.map(|e| e.gained * MINUTE),
             lost: entered.map(|e| e.lost * MINUTE),
+            outcome: at_moment.map(|(_, grazing)| PieceOutcome::of(grazing, index).words()),
             parameter: if matches!(p.shape, PieceShape::Line { .. }) { "mm" } else { "deg" },
+            radius,
             role: p.role,
             start: p.point(p.from).to_array(),
             to: parameter(p, p.to),
@@ -168,10 +221,15 @@ impl Serialize for GrazingSheet {
         };
         let loops = self.loops.iter().zip(&self.grazing.loops).map(|(l, of)| {
             let points = self.chain.curve(&self.grazing, of, self.tolerance);
+            // The spans of one curve are on pieces of their own.
+            let span = |p: &GrazingPoint| {
+                let on = |s: &SpanSheet| s.span.piece == p.piece as usize;
+                l.spans.start + self.spans[l.spans.clone()].iter().position(on).unwrap_or(0)
+            };
             LoopJson {
                 closed: l.closed,
                 length: l.length,
-                points: points.iter().map(|p| point(&pieces[p.piece as usize], p)).collect(),
+                points: points.iter().map(|p| point(&pieces[p.piece as usize], p, span(p))).collect(),
                 spans: [l.spans.start, l.spans.end],
                 winding: l.winding,
             }
@@ -188,13 +246,20 @@ impl Serialize for GrazingSheet {
                 to: parameter(of, s.span.to),
             }
         });
-        let entered = |(i, e): (usize, &EnteredArea)| PieceJson::of(&self.chain, i, Some(e));
+        let entered = |(i, e): (usize, &EnteredArea)| PieceJson::of(&self.chain, i, Some((e, &self.grazing)));
         let [area, entering_area] = self.areas();
         let [gained, lost] = self.rates().map(|rate| rate * MINUTE);
         let sheet = SheetJson {
+            bands: (0..pieces.len()).flat_map(|i| bands(self, i)).collect(),
             circles: self.grazing.circles.iter().map(circle).collect(),
+            ends: {
+                let [_, low, high] = extent(self);
+                let velocity = |z: f64| (self.twist.velocity(DVec3::new(0.0, 0.0, z)) * MINUTE).to_array();
+                [low, high].map(|z| EndJson { velocity: velocity(z), z })
+            },
             entering: EnteringJson { area, entering_area, gained, lost },
             findings: &self.findings,
+            folds: self.spans.iter().enumerate().flat_map(|(i, s)| folds(self, i, s)).collect(),
             loops: loops.collect(),
             motion: self.motion_words(),
             notes: &self.notes,
@@ -214,12 +279,46 @@ impl Serialize for GrazingSheet {
     }
 }
 
-fn point(piece: &ChainPiece, p: &GrazingPoint) -> PointJson {
+/// The bands of a piece; their borders are curves to the tolerance, or to [`FINENESS`] of the tool.
+fn bands(sheet: &GrazingSheet, index: usize) -> impl Iterator<Item = BandJson> {
+    /// Distance of borders from the curve by the size of the tool: below what a screen shows.
+    const FINENESS: f64 = 1e-3;
+    let piece = sheet.chain.pieces()[index];
+    let fine = sheet.tolerance.max(FINENESS * sheet.chain.reach());
+    strips(sheet, index, fine).into_iter().map(move |strip| BandJson {
+        enters: match strip.band {
+            Band::Leaves => None,
+            Band::Enters => Some([[0.0, 360.0]; 2]),
+            Band::Part(part) => Some(part.map(|ends| ends.map(f64::to_degrees))),
+        },
+        normals: strip.u.map(|u| piece.normal(u).to_array()),
+        piece: index,
+        places: strip.u.map(|u| piece.point(u).to_array()),
+        u: strip.u.map(|u| parameter(&piece, u)),
+    })
+}
+
+/// The folds of a span.
+fn folds(sheet: &GrazingSheet, index: usize, of: &SpanSheet) -> impl Iterator<Item = FoldJson> {
+    let piece = sheet.chain.pieces()[of.span.piece];
+    let at = [0.0, 1.0].map(|t| sheet.chain.grazing_points(&of.span, t)[0]);
+    let folds = of.span.folds;
+    (0..2).filter(move |&k| folds[k]).map(move |k| FoldJson {
+        piece: at[k].piece as usize,
+        point: at[k].point.to_array(),
+        span: index,
+        theta: turned(at[k].theta()),
+        u: parameter(&piece, at[k].u),
+    })
+}
+
+fn point(piece: &ChainPiece, p: &GrazingPoint, span: usize) -> PointJson {
     PointJson {
         branch: sign(p.branch),
         normal: p.normal.to_array(),
         piece: p.piece,
         point: p.point.to_array(),
+        span,
         theta: turned(p.theta()),
         u: parameter(piece, p.u),
     }

@@ -108,7 +108,24 @@ fn terms(spec: &BoreSpec, job: &Job, table: &HoleTable) -> Result<Terms> {
         Entry::Helix { radius, .. } => (radius, None),
         Entry::Plunge => (0.0, None),
     };
-    let usual = Limits::usual(rough.feed);
+    machine_terms(
+        table,
+        Terms {
+            entry,
+            drilled,
+            engagement: rough.engagement.unwrap_or(TAU / 6.0),
+            allowance: rough.allowance,
+            lead_turns: spec.finish.as_ref().map_or(2, |f| f.turns),
+            decimals: job.post.decimals,
+            control: job.post.control,
+            ..Terms::new(wall, cutter, step, rough.feed)
+        },
+    )
+}
+
+/// Terms with the limits of the axes and the control of a table.
+pub(super) fn machine_terms(table: &HoleTable, terms: Terms) -> Result<Terms> {
+    let usual = Limits::usual(terms.limits.feed);
     let dynamics = table.dynamics.clone().unwrap_or_default();
     let given = linear_axes(&dynamics)?;
     let control = control(&dynamics)?;
@@ -120,18 +137,11 @@ fn terms(spec: &BoreSpec, job: &Job, table: &HoleTable) -> Result<Terms> {
         ..usual
     };
     Ok(Terms {
-        entry,
-        drilled,
-        engagement: rough.engagement.unwrap_or(TAU / 6.0),
-        allowance: rough.allowance,
-        lead_turns: spec.finish.as_ref().map_or(2, |f| f.turns),
         limits,
         interpolator: control.interpolator.unwrap_or(Interpolator::JerkLimited),
         tolerance: control.tolerance,
         junction_deviation: control.junction_deviation,
         servo: Servo::new(control.servo_bandwidth.unwrap_or(Terms::USUAL_BANDWIDTH))?,
-        decimals: job.post.decimals,
-        control: job.post.control,
-        ..Terms::new(wall, cutter, step, rough.feed)
+        ..terms
     })
 }

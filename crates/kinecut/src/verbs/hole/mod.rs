@@ -8,10 +8,12 @@ mod compare_page;
 mod comparison;
 mod job;
 mod page;
+mod passes;
 mod plan;
 mod table;
 
 pub use comparison::{HoleComparison, compare_hole};
 pub(super) use job::{job_file, own_key};
-pub use plan::{HoleEntry, HolePass, HolePlan, plan_hole};
+pub use passes::HoleCurve;
+pub use plan::{HoleEntry, HoleLimits, HolePass, HolePlan, HoleSamples, plan_hole, plan_hole_sheet};
 pub use table::{HoleTable, PartTable, hole_schema, read_holes};

@@ -1,18 +1,20 @@
 //! A planned hole: its ways down, its passes, its times.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use super::HoleTable;
 use super::compare::number;
 use super::job::{job, own_key};
 use super::page::hole_html;
+use super::passes::{HoleCurve, curves, run};
 use crate::base::{Finding, Result, Silent};
-use crate::holes::{PassFigures, ToolpathPace, ToolpathRole};
+use crate::holes::compare::PassRun;
+use crate::holes::{PassFigures, Sense, ToolpathPace, ToolpathRole};
 use crate::job::Outputs;
 use crate::job::plan::plan;
 use crate::nc;
 use crate::operations::OperationPlan;
-use crate::operations::wall::lead_drawings;
+use crate::operations::wall::{LeadFigure, lead_drawings, lead_figure};
 use crate::page::{Block, Cell, Drawing, Fact, Row, Section, Table, duration, length};
 use crate::verbs::Answer;
 
@@ -40,6 +42,8 @@ pub struct HolePass {
     pub path_radius: f64,
     /// Turns.
     pub turns: f64,
+    /// Turns from the bore's centre to the wall, the paper's n; of a clearing those of its path.
+    pub whole_turns: f64,
     /// Normal step [mm].
     pub step: f64,
     /// Radius of the circle on which the path starts [mm].
@@ -58,6 +62,55 @@ pub struct HolePass {
     pub touch_angle_deg: f64,
     /// Radius of curvature at the start [mm], the paper's Rn.
     pub start_curvature_radius: f64,
+    /// Length of the circle at the wall [mm].
+    pub circle_length: f64,
+    /// Number of curves of the path, its circle among them.
+    pub curve_count: usize,
+    /// The first of them.
+    pub curves: Vec<HoleCurve>,
+    /// The involute with its base circle and turn by psi; only with samples.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub figure: Option<LeadFigure>,
+    /// The pass of the last level as it is run; only with samples.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub run: Option<PassRun>,
+}
+
+/// Limits of the axes that the runs keep, in the units of their table.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct HoleLimits {
+    /// Rapid of an axis [mm/min].
+    pub rapid: f64,
+    /// Acceleration of an axis [m/s2].
+    pub acceleration: f64,
+    /// Jerk of an axis [m/s3].
+    pub jerk: f64,
+}
+
+/// Passes that are given as they are run, in samples, with the figures of their involutes.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum HoleSamples {
+    /// None.
+    #[default]
+    None,
+    /// Roughing.
+    Rough,
+    /// Finishing.
+    Finish,
+    /// Both.
+    All,
+}
+
+impl HoleSamples {
+    fn of(self, finishing: bool) -> bool {
+        match self {
+            HoleSamples::None => false,
+            HoleSamples::Rough => !finishing,
+            HoleSamples::Finish => finishing,
+            HoleSamples::All => true,
+        }
+    }
 }
 
 /// A planned hole, in the units of the shop.
@@ -65,6 +118,19 @@ pub struct HolePass {
 pub struct HolePlan {
     /// Title.
     pub title: String,
+    /// Centre of the bore [mm].
+    pub at: [f64; 2],
+    /// Its diameter at the last level [mm].
+    pub diameter: f64,
+    /// Diameter of the cutter [mm].
+    pub cutter_diameter: f64,
+    /// Strategy of roughing.
+    pub strategy: String,
+    /// Whether the path runs clockwise.
+    pub clockwise: bool,
+    /// Limits of the axes; only with samples.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub limits: Option<HoleLimits>,
     /// The ways down.
     pub entries: Vec<HoleEntry>,
     /// Roughing and finishing.
@@ -135,10 +201,24 @@ fn touch_angle(pass: &PassFigures) -> f64 {
 /// # Errors
 /// Those of the job's checks, the planner and the writer, with the key in the hole's own table.
 pub fn plan_hole(table: &HoleTable) -> Result<HolePlan> {
+    plan_hole_sheet(table, HoleSamples::None)
+}
+
+/// Plans a hole, with passes in samples.
+///
+/// # Errors
+/// As [`plan_hole`]; with samples those of the limits of the axes.
+pub fn plan_hole_sheet(table: &HoleTable, samples: HoleSamples) -> Result<HolePlan> {
     let job = job(table)?;
     let planned = plan(&job, &Silent).map_err(own_key)?;
     let mut result = HolePlan {
         title: job.title.clone(),
+        at: [0.0; 2],
+        diameter: 0.0,
+        cutter_diameter: 0.0,
+        strategy: String::new(),
+        clockwise: false,
+        limits: None,
         entries: Vec::new(),
         passes: Vec::new(),
         feed_length: 0.0,
@@ -154,6 +234,12 @@ pub fn plan_hole(table: &HoleTable) -> Result<HolePlan> {
         for operation in &setup.operations {
             let OperationPlan::Bore(planned) = &operation.plan else { continue };
             let bore = &planned.plan;
+            let of = &planned.of;
+            result.at = of.table.at;
+            result.diameter = of.table.bottom_diameter.unwrap_or(of.table.diameter);
+            result.cutter_diameter = of.milling.tool.cutter.diameter(of.milling.tool.flute_length);
+            result.strategy = of.table.strategy.name();
+            result.clockwise = of.table.direction == Sense::Conventional;
             for m in &bore.moves {
                 if let ToolpathPace::Feed(feed) = m.pace {
                     let length = m.curve.length();
@@ -166,20 +252,13 @@ pub fn plan_hole(table: &HoleTable) -> Result<HolePlan> {
                 }
             }
             for (name, pass) in [("rough", &bore.rough), ("finish", &bore.finish)] {
-                result.passes.extend(pass.iter().map(|p| HolePass {
-                    pass: name,
-                    path_radius: p.path_radius,
-                    turns: p.visible_turns,
-                    step: p.step,
-                    entry_radius: p.inner_radius,
-                    engagement_deg: p.engagement.map(f64::to_degrees),
-                    length: p.length,
-                    floors: p.floors.clone(),
-                    base_radius: p.base_radius,
-                    roll: p.roll,
-                    touch_angle_deg: touch_angle(p).to_degrees(),
-                    start_curvature_radius: p.curves.first().map_or(0.0, |c| 1.0 / c.at(0.0).curvature.abs()),
-                }));
+                let Some(pass) = pass else { continue };
+                let finishing = name == "finish";
+                let wanted = samples.of(finishing);
+                let run = if wanted { Some(run(table, bore, of, finishing)?) } else { None };
+                let (run, limits) = run.unzip();
+                result.limits = limits.or(result.limits);
+                result.passes.push(hole_pass(name, pass, wanted, run.flatten()));
             }
             result.drawings.extend(bore.finish.iter().flat_map(lead_drawings));
             result.entries.extend(bore.ways.iter().map(|w| HoleEntry {
@@ -193,4 +272,29 @@ pub fn plan_hole(table: &HoleTable) -> Result<HolePlan> {
         }
     }
     Ok(result)
+}
+
+fn hole_pass(name: &'static str, pass: &PassFigures, drawn: bool, run: Option<PassRun>) -> HolePass {
+    // A clearing of several curves is no single involute.
+    let is_involute = name == "finish" || (pass.base_radius > 0.0 && pass.curves.len() == 2);
+    HolePass {
+        pass: name,
+        path_radius: pass.path_radius,
+        turns: pass.visible_turns,
+        whole_turns: pass.turns,
+        step: pass.step,
+        entry_radius: pass.inner_radius,
+        engagement_deg: pass.engagement.map(f64::to_degrees),
+        length: pass.length,
+        floors: pass.floors.clone(),
+        base_radius: pass.base_radius,
+        roll: pass.roll,
+        touch_angle_deg: touch_angle(pass).to_degrees(),
+        start_curvature_radius: pass.curves.first().map_or(0.0, |c| 1.0 / c.at(0.0).curvature.abs()),
+        circle_length: pass.curves.last().map_or(0.0, |c| c.length()),
+        curve_count: pass.curves.len(),
+        curves: curves(pass),
+        figure: (drawn && is_involute).then(|| lead_figure(pass)).flatten(),
+        run,
+    }
 }

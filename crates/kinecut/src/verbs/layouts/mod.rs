@@ -3,12 +3,15 @@
 
 mod page;
 pub(crate) mod show;
+mod wants;
 
 pub use page::layouts_html;
 pub use show::{
-    layout_drawing, layout_figure, layout_scheme, layout_sheet as layouts_drawing, machine_drawing,
-    machine_drawing_at,
+    layout_drawing, layout_figure, layout_machine, layout_scheme, layout_sheet as layouts_drawing,
+    machine_drawing, machine_drawing_at, with_usual_bodies,
 };
+
+pub use wants::{LISTED, LayoutWants};
 
 use serde::Serialize;
 
@@ -34,6 +37,8 @@ pub struct LayoutSheet {
     pub classes: usize,
     /// The best of them, in order.
     pub layouts: Vec<Layout>,
+    /// Weights of the scores; 0 for one that does not count.
+    pub weights: Vec<(&'static str, f64)>,
     /// Findings.
     pub findings: Vec<Finding>,
     /// Sizes that they were asked with.
@@ -56,6 +61,10 @@ pub fn layout_sheet(of: &str, query: &Query) -> Result<LayoutSheet> {
         left,
         classes,
         layouts: found.layouts.into_iter().take(query.listed).collect(),
+        weights: Criterion::ALL
+            .iter()
+            .map(|c| (c.name(), query.weights.iter().find(|(own, _)| own == c).map_or(0.0, |(_, w)| *w)))
+            .collect(),
         findings: found.findings,
         sizes: query.sizes.clone(),
     })

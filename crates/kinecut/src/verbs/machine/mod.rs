@@ -1,18 +1,25 @@
 //! A machine in words: its code, its axes at home, what of a configuration was used.
 
+mod drawn;
+mod wants;
+
 use std::borrow::Cow;
 
 use serde::Serialize;
 
 use super::Answer;
 use super::poses::{number, triple};
-use crate::base::Result;
+use crate::base::{Finding, Result};
 use crate::geom::{Rigid, Solid};
 use crate::job::machine::Loaded;
 use crate::job::machine::write::link_name;
 use crate::machine::linuxcnc::{Fate, Import, ImportedLine};
 use crate::machine::{Body, Joint, Machine, Preset, presets};
 use crate::page::{Block, Cell, Fact, Row, Section, Table};
+
+pub(crate) use drawn::rows;
+pub use drawn::{Drawn, DrawnBody, LinkMotion, MachinePose, drawn, pose};
+pub use wants::MachineWants;
 
 /// An axis in the units of the shop.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -185,6 +192,12 @@ pub struct MachineAnswer {
     /// Use of the lines of a configuration of LinuxCNC.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub import: Option<Import>,
+    /// The machine at positions of its axes, if they are given.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub pose: Option<MachinePose>,
+    /// Its bodies with their faces, if they are wanted.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub drawn: Option<Drawn>,
     /// A drawing, if it is wanted.
     #[serde(skip)]
     pub svg: String,
@@ -193,13 +206,29 @@ pub struct MachineAnswer {
 impl MachineAnswer {
     /// The answer about a machine as it was loaded.
     pub fn of(loaded: Loaded) -> MachineAnswer {
-        MachineAnswer { sheet: MachineSheet::of(&loaded.machine), import: loaded.import, svg: String::new() }
+        MachineAnswer {
+            sheet: MachineSheet::of(&loaded.machine),
+            import: loaded.import,
+            pose: None,
+            drawn: None,
+            svg: String::new(),
+        }
     }
 }
 
 impl Answer for MachineAnswer {
     fn sections(&self) -> Vec<Section> {
-        std::iter::once(self.sheet.section()).chain(self.import.as_ref().map(imported)).collect()
+        let sheet = std::iter::once(self.sheet.section());
+        sheet.chain(self.import.as_ref().map(imported)).chain(self.pose.as_ref().map(posed)).collect()
+    }
+
+    fn findings(&self) -> Vec<&Finding> {
+        self.pose.iter().flat_map(|pose| &pose.findings).collect()
+    }
+
+    /// A position beyond its travel is an answer that says no.
+    fn is_no(&self) -> bool {
+        !self.findings().is_empty()
     }
 
     fn svg(&self) -> Result<String> {
@@ -257,6 +286,11 @@ impl Answer for KnownMachines {
         let one = |m: &KnownMachine| row([m.name, m.code, m.note].map(str::to_owned));
         vec![Section::default().with(Table::new("", "Name; Code; Machine").rows(self.0.iter().map(one)))]
     }
+}
+
+fn posed(pose: &MachinePose) -> Section {
+    let facts = vec![Fact::new("tip", triple(pose.tip)), Fact::new("axis", triple(pose.axis))];
+    Section::new(pose.joints.words()).with(Block::Facts(facts))
 }
 
 /// Use of each line of a configuration: the used ones first, the others last.

@@ -5,11 +5,13 @@ mod mesh;
 mod on_machine;
 mod on_machine_rows;
 pub(crate) mod page;
+mod place;
 mod read;
 mod sheet;
 mod sketches;
 mod split;
 mod split_row;
+mod wants;
 
 use serde::Serialize;
 
@@ -17,7 +19,8 @@ use super::Answer;
 use crate::base::{Finding, Result};
 use crate::job::Outputs;
 use crate::machine::surface::{GeneratedSurface, catalogue};
-use crate::page::{Row, Section, Table};
+use crate::page::{Block, Fact, Row, Section, Table};
+use crate::verbs::poses::triple;
 
 pub use mesh::{FaceRow, MeshSheet, mesh_sheet};
 pub use on_machine::{OnMachineWants, on_machine};
@@ -26,6 +29,7 @@ pub use on_machine_rows::{
 };
 pub(crate) use on_machine_rows::{NEARNESS, NOT_VERIFIED};
 pub use page::surface_html;
+pub use place::{LineThrough, MotionAt, MotionPoints, SketchPoints, SurfacePlace, SurfaceSketch, place_of};
 pub use read::{load_surface, set_parameter, surface};
 pub use sheet::{EnvelopeRow, MethodProcesses, SurfaceSheet, surface_sheet};
 pub use sketches::{split_sketches, surface_drawing};
@@ -33,6 +37,7 @@ pub use split::{
     MotionRole, SketchMotion, SketchTool, SplitSketch, split_drawing, split_figure, split_sheet,
 };
 pub use split_row::{LinkRow, SetupRow, SplitRow};
+pub use wants::{SurfaceWants, axis_errors};
 
 /// A surface, and what a machine says to it.
 #[derive(Clone, Debug, Serialize)]
@@ -40,6 +45,12 @@ pub struct SurfaceAnswer {
     /// The surface.
     #[serde(flatten)]
     pub sheet: SurfaceSheet,
+    /// A place on it, if one is asked about.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub place: Option<SurfacePlace>,
+    /// Points of the sketches, if they are asked for.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub sketch: Option<SurfaceSketch>,
     /// Answers of the machine.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub on_machine: Option<OnMachine>,
@@ -47,7 +58,9 @@ pub struct SurfaceAnswer {
 
 impl Answer for SurfaceAnswer {
     fn sections(&self) -> Vec<Section> {
-        page::sections(&self.sheet, self.on_machine.as_ref())
+        let mut sections = page::sections(&self.sheet, self.on_machine.as_ref());
+        sections.extend(self.place.as_ref().map(place));
+        sections
     }
 
     fn findings(&self) -> Vec<&Finding> {
@@ -59,7 +72,8 @@ impl Answer for SurfaceAnswer {
     }
 
     fn svg(&self) -> Result<String> {
-        surface_drawing(&self.sheet)
+        let at = self.place.as_ref().map(|place| [0, 1].map(|i| place.variables[i].1));
+        surface_drawing(&self.sheet, at)
     }
 
     fn files(answers: &[&SurfaceAnswer]) -> Result<Outputs> {
@@ -69,6 +83,14 @@ impl Answer for SurfaceAnswer {
         }
         Ok(outputs)
     }
+}
+
+/// A place in words.
+fn place(place: &SurfacePlace) -> Section {
+    let at: Vec<String> = place.variables.iter().map(|(name, value)| format!("{name} = {value}")).collect();
+    let mut facts = vec![Fact::new("Point", triple(place.point))];
+    facts.extend(place.normal.map(|normal| Fact::new("Normal", triple(normal))));
+    Section::new(format!("At {}", at.join(", "))).with(Block::Facts(facts))
 }
 
 /// The surfaces of the catalogue.

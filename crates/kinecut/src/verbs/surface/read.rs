@@ -64,13 +64,19 @@ pub fn set_parameter(surface: GeneratedSurface, name: &str, value: &str) -> Resu
             format!("surface `{}` has no parameter `{name}`", surface.name),
         )
         .help(format!("its parameters are {}", known.join(", ")))
+        .key(name)
         .into());
     }
-    let value = Expression::parse(value)?.bind(&[])?.value(&[]);
+    let number = || Expression::parse(value)?.bind(&[]).map(|law| law.value(&[]));
+    let value = number().map_err(|mut e| {
+        e.0.key = Some(name.to_owned());
+        e
+    })?;
     if !value.is_finite() {
         return Err(Finding::error(Code::JOB_VALUE, format!("the value of `{name}` is not finite"))
             .value(value, "")
             .help("give a number, or a formula of numbers")
+            .key(name)
             .into());
     }
     Ok(surface.with(name, value))

@@ -15,6 +15,8 @@ use crate::machine::surface::{
 
 /// Lines of the mesh along each variable.
 const LINES: usize = 17;
+/// Lines of the mesh along each variable in numbers: closer, because places are found on it.
+pub(super) const MESH: usize = 33;
 /// Points of an edge.
 const EDGE: usize = 49;
 
@@ -23,34 +25,52 @@ const EDGE: usize = 49;
 /// # Errors
 /// `KC1102` for a name in a law that is neither a parameter nor a variable.
 pub fn split_sketches(sheet: &SurfaceSheet) -> Result<Vec<SplitSketch>> {
-    let shape = sheet.surface.compiled()?;
-    let valid = sheet.found.iter().filter(|split| split.is_valid());
-    valid.map(|split| sketch(&sheet.surface, &shape, split)).collect()
+    let at = sheet.surface.variables.each_ref().map(|v| v.middle());
+    split_sketches_at(sheet, at)
 }
 
-/// The sketches on one sheet, as an SVG file.
+/// The same at other values of the variables.
+fn split_sketches_at(sheet: &SurfaceSheet, at: [f64; 2]) -> Result<Vec<SplitSketch>> {
+    let shape = sheet.surface.compiled()?;
+    let valid = sheet.found.iter().filter(|split| split.is_valid());
+    valid.map(|split| sketch(&sheet.surface, &shape, split, at)).collect()
+}
+
+/// The sketches on one sheet, as an SVG file, at values of the variables or in the middle of their domains.
 ///
 /// # Errors
 /// As [`split_sketches`].
-pub fn surface_drawing(sheet: &SurfaceSheet) -> Result<String> {
-    let sketches = split_sketches(sheet)?;
+pub fn surface_drawing(sheet: &SurfaceSheet, at: Option<[f64; 2]>) -> Result<String> {
+    let sketches = at.map_or_else(|| split_sketches(sheet), |at| split_sketches_at(sheet, at))?;
     let columns = if sketches.len() > 4 { 3 } else { 2 };
     let title = format!("{} {}", sheet.name, sheet.code);
     Ok(split_sheet(&title, &sketches, columns))
 }
 
-fn sketch(surface: &GeneratedSurface, shape: &ShapeFunction, split: &Split) -> Result<SplitSketch> {
+fn step(i: usize, n: usize) -> f64 {
+    i as f64 / (n - 1) as f64
+}
+
+/// Points of a surface over its domain: `n` rows for values of the first variable.
+pub(super) fn mesh(surface: &GeneratedSurface, shape: &ShapeFunction, n: usize) -> Vec<Vec<[f64; 3]>> {
     let [u, v] = &surface.variables;
-    let step = |i: usize, n: usize| i as f64 / (n - 1) as f64;
+    let row = |i: usize| (0..n).map(|j| shape.point(u.at(step(i, n)), v.at(step(j, n))).to_array()).collect();
+    (0..n).map(row).collect()
+}
+
+/// The sketch of a redistribution at values of the two variables.
+pub(super) fn sketch(
+    surface: &GeneratedSurface,
+    shape: &ShapeFunction,
+    split: &Split,
+    [a, b]: [f64; 2],
+) -> Result<SplitSketch> {
+    let [u, v] = &surface.variables;
     let point = |a: f64, b: f64| shape.point(a, b).to_array();
-    let mesh = |m: usize, n: usize| -> Vec<Vec<[f64; 3]>> {
-        (0..m).map(|i| (0..n).map(|j| point(u.at(step(i, m)), v.at(step(j, n)))).collect()).collect()
-    };
-    let [a, b] = [u.middle(), v.middle()];
     let tool = match split.tool_kind {
         None => SketchTool::None,
         Some(ToolKind::Point) => SketchTool::Point(point(a, b)),
-        Some(ToolKind::Surface) => SketchTool::Patch(mesh(LINES, LINES)),
+        Some(ToolKind::Surface) => SketchTool::Patch(mesh(surface, shape, LINES)),
         Some(_) => {
             let first = split.tool_variables.contains(&u.name);
             let along = |i: usize| {
@@ -122,14 +142,14 @@ fn sketch(surface: &GeneratedSurface, shape: &ShapeFunction, split: &Split) -> R
         ),
         // The words in brackets are in the table; a cell of the sheet has no room for them.
         about: split.process.split(" (").next().unwrap_or_default().to_owned(),
-        surface: mesh(LINES, LINES),
+        surface: mesh(surface, shape, LINES),
         tool,
         motions,
     })
 }
 
 /// The value of an element's law [mm or rad].
-fn value(surface: &GeneratedSurface, element: &ChainElement, at: [f64; 2]) -> Result<f64> {
+pub(super) fn value(surface: &GeneratedSurface, element: &ChainElement, at: [f64; 2]) -> Result<f64> {
     let names = surface.variables.each_ref().map(|v| v.name.as_str());
     Ok(surface.with_numbers(&element.law).bind(&names)?.value(&at))
 }

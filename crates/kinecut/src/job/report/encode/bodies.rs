@@ -62,9 +62,13 @@ pub(super) fn machine<'a>(machine: &'a MachineView, streams: &mut Streams) -> Ma
 }
 
 fn stream<'a>(id: &'static str, bodies: impl Iterator<Item = &'a BodyView> + Clone, streams: &mut Streams) {
-    if bodies.clone().next().is_none() {
-        return;
+    if bodies.clone().next().is_some() {
+        streams.push((id, numbers(bodies).0));
     }
+}
+
+/// Corners and triangles of bodies, one after the other.
+pub(super) fn numbers<'a>(bodies: impl Iterator<Item = &'a BodyView> + Clone) -> Numbers {
     let mut numbers = Numbers::default();
     for k in 0..3 {
         let all = bodies.clone().flat_map(|body| &body.vertices);
@@ -74,7 +78,7 @@ fn stream<'a>(id: &'static str, bodies: impl Iterator<Item = &'a BodyView> + Clo
         let all = bodies.clone().flat_map(|body| &body.triangles);
         numbers.column(&all.map(|t| i64::from(t[k])).collect::<Vec<_>>());
     }
-    streams.push((id, numbers.0));
+    numbers
 }
 
 #[cfg(test)]

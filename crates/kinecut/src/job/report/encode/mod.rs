@@ -115,6 +115,11 @@ pub fn scene(report: &Report) -> Scene {
     Scene { head, streams: streams.par_iter().map(|(id, bytes)| (*id, packed(bytes))).collect(), thinned }
 }
 
+/// Corners [mm] and triangles of one body, as those of fixtures are packed.
+pub(crate) fn packed_body(body: &super::BodyView) -> String {
+    packed(&bodies::numbers(std::iter::once(body)).0)
+}
+
 fn shown_part(report: &Report) -> (Option<f64>, Option<PartHead>, Streams) {
     let Some(part) = &report.part else { return Default::default() };
     let mut streams = Streams::default();

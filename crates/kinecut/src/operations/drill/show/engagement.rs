@@ -1,5 +1,7 @@
 //! The chart of the point's share in material over the way or over the program's time, with the feed next to it.
 
+use serde::Serialize;
+
 use super::DrilledHole;
 use super::share_grid::Share;
 use crate::drilling::Zone;
@@ -28,6 +30,38 @@ pub fn share_in_material(hole: &DrilledHole, z: f64) -> f64 {
     Share::of(hole.spec, hole.plan).at(z)
 }
 
+/// The load of the drill along its way, as far as it is known without forces: the share of the point in material.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct LoadCurve {
+    /// Whether the share is computed everywhere; false: only where surfaces begin and end, straight in between.
+    pub complete: bool,
+    /// The way at feed from the start [mm], never falling.
+    pub way: Vec<f64>,
+    /// The share of the cutting disc in material at each place of the way [1].
+    pub share: Vec<f64>,
+}
+
+impl LoadCurve {
+    /// The curve of a hole; its numbers are rounded to four decimals.
+    pub fn of(hole: &DrilledHole) -> LoadCurve {
+        let share = Share::of(hole.spec, hole.plan);
+        let start = hole.plan.zones.first().map_or(0.0, |z| z.from);
+        let rounded = |v: f64| (v * 1e4).round() / 1e4 + 0.0;
+        let [mut way, mut part] = [Vec::new(), Vec::new()];
+        for z in hole.plan.zones.iter().filter(|z| z.length() > 0.0).flat_map(places) {
+            way.push(rounded(start - z));
+            part.push(rounded(share.at(z)));
+        }
+        LoadCurve { complete: share.is_complete(), way, share: part }
+    }
+}
+
+/// Evenly spread Z of a zone, from its start to its end [mm].
+fn places(zone: &Zone) -> impl Iterator<Item = f64> + use<> {
+    let (from, length) = (zone.from, zone.length());
+    (0..=PLACES).map(move |i| from - length * f64::from(i) / f64::from(PLACES))
+}
+
 /// The chart; x is the program's time where the start is known, otherwise the way at feed.
 pub(super) fn chart(hole: &DrilledHole) -> Chart {
     let plan = hole.plan;
@@ -35,10 +69,6 @@ pub(super) fn chart(hole: &DrilledHole) -> Chart {
     let x =
         if along.by_time { ("time from the start of the hole", "s") } else { ("way from the start", "mm") };
     let mut chart = Chart::new("Share of the point in material, and feed", x, ("share", ""));
-    let places = |z: &Zone| {
-        let (from, length) = (z.from, z.length());
-        (0..=PLACES).map(move |i| from - length * f64::from(i) / f64::from(PLACES))
-    };
     let zs = plan.zones.iter().flat_map(places);
     let share = Share::of(hole.spec, plan);
     let computed = zs.map(|z| [along.x(z), share.at(z)]).collect();

@@ -13,7 +13,7 @@ mod share_grid;
 mod tables;
 mod view;
 
-pub use engagement::share_in_material;
+pub use engagement::{LoadCurve, share_in_material};
 pub use page::{drill_html, drill_list, drill_section, drill_sections, drill_table, drill_words};
 pub use point::point_drawing;
 pub use section::section_drawings;

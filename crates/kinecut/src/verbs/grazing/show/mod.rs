@@ -15,10 +15,11 @@ pub(crate) use claims::gallery_sections;
 pub use claims::{gallery_html, gallery_svgs};
 pub use page::{grazing_html, grazing_svg};
 
+pub(crate) use bands::{Band, strips};
 pub(crate) use page::{section, sentence};
 pub(crate) use tables::{role_name, vector};
 pub(crate) use tool::stretches;
-pub(crate) use view::view_of;
+pub(crate) use view::{extent, view_of};
 
 use crate::sweep::SegmentKind;
 

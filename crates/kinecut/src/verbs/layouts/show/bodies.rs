@@ -9,7 +9,7 @@
 use super::looks;
 use super::solid::{Hub, Point3, Solid, unit};
 use crate::machine::layouts::{Attitude, Sizes};
-use crate::machine::{CoordinateCode, Elementary};
+use crate::machine::{CoordinateCode, Elementary, Link as Carrier};
 use crate::page::Tint;
 
 /// Size of the part where none is given, as a share of the strokes.
@@ -41,6 +41,8 @@ pub(crate) struct Link {
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Bodies {
     pub(crate) solids: Vec<Solid>,
+    /// The link of the machine that carries each of them; empty where the bodies are those of a file.
+    pub(crate) carriers: Vec<Carrier>,
     pub(crate) links: Vec<Link>,
     /// Bodies that stand on the ground.
     pub(crate) ground: Vec<usize>,
@@ -97,7 +99,8 @@ impl Builder<'_> {
         self.sizes.stroke[usize::from(motion.digit()).clamp(1, 3) - 1]
     }
 
-    fn add(&mut self, solid: Solid) -> usize {
+    fn add(&mut self, carrier: Carrier, solid: Solid) -> usize {
+        self.out.carriers.push(carrier);
         self.out.solids.push(solid);
         self.out.solids.len() - 1
     }
@@ -107,9 +110,14 @@ impl Builder<'_> {
         self.out.links.push(Link { motion, work, axis, body, end, hub: None });
     }
 
-    /// The body that carries the one of link `i` on the work side: the next link, or the bed.
-    fn below(&self, i: usize) -> Tint {
-        if i + 1 < self.code.bed() { looks::WORK } else { looks::BED }
+    /// What carries the body of link `i` on the work side: the next link, or the bed.
+    fn below(&self, i: usize) -> (Carrier, Tint) {
+        if i + 1 < self.code.bed() { (Carrier::Axis(i + 1), looks::WORK) } else { (Carrier::Bed, looks::BED) }
+    }
+
+    /// The link of the motion `i` of the tool side; without one the bed.
+    fn tool_link(&self, i: Option<usize>) -> (Carrier, Tint) {
+        i.map_or((Carrier::Bed, looks::BED), |i| (Carrier::Axis(self.code.bed() + i), looks::TOOL))
     }
 
     fn work_side(&mut self) -> WorkEnd {
@@ -120,7 +128,8 @@ impl Builder<'_> {
             Attitude::Horizontal => [0.0, -gap - 0.5 * part[1], 0.0],
         };
         let middle = [centre[0], centre[1]];
-        self.add(Solid::block(looks::PART, centre, part));
+        let table = if self.code.bed() > 0 { Carrier::Axis(0) } else { Carrier::Bed };
+        self.add(table, Solid::block(looks::PART, centre, part));
         let mut top = centre[2] - 0.5 * part[2];
         let mut foot = [part[0] * (1.0 + BORDER), part[1] * (1.0 + BORDER)];
         let slab = SLAB * size;
@@ -128,14 +137,15 @@ impl Builder<'_> {
             let motion = self.code.word().0[i];
             let axis = self.axis(motion);
             let at = |height: f64, top: f64| [middle[0], middle[1], top - 0.5 * height];
-            let mut end = 0.0;
+            let (mut end, own) = (0.0, Carrier::Axis(i));
             let body = if !motion.is_rotation() {
-                let body = self.add(Solid::block(looks::WORK, at(slab, top), [foot[0], foot[1], slab]));
+                let body = self.add(own, Solid::block(looks::WORK, at(slab, top), [foot[0], foot[1], slab]));
                 top -= slab;
                 if axis[2].abs() > 0.5 {
                     // A lifting post: half of the stroke is out.
-                    let (height, look) = (0.5 * self.stroke(motion), self.below(i));
-                    self.add(Solid::block(look, at(height, top), [0.45 * foot[0], 0.45 * foot[1], height]));
+                    let (height, (link, look)) = (0.5 * self.stroke(motion), self.below(i));
+                    let size = [0.45 * foot[0], 0.45 * foot[1], height];
+                    self.add(link, Solid::block(look, at(height, top), size));
                     top -= height;
                 } else {
                     let along = usize::from(axis[1].abs() > 0.5);
@@ -144,7 +154,7 @@ impl Builder<'_> {
                 body
             } else if axis[2].abs() > 0.9 {
                 let radius = 0.5 * foot[0].max(foot[1]);
-                let body = self.add(Solid::drum(looks::WORK, at(slab, top), axis, radius, 0.5 * slab));
+                let body = self.add(own, Solid::drum(looks::WORK, at(slab, top), axis, radius, 0.5 * slab));
                 top -= slab;
                 foot = [2.0 * radius; 2];
                 body
@@ -170,25 +180,25 @@ impl Builder<'_> {
         middle: [f64; 2],
     ) -> (usize, [f64; 2], f64) {
         let diameter = DRUM * self.unit;
-        let look = self.below(i);
+        let ((holder, look), own) = (self.below(i), Carrier::Axis(i));
         if axis[2].abs() > 0.3 {
             // Inclined: a disc on a wedge.
             let radius = 0.5 * foot[0].max(foot[1]);
             let half = 0.3 * SLAB * self.unit;
             let reach = half * axis[2].abs() + radius * (1.0 - axis[2] * axis[2]).sqrt();
-            let body =
-                self.add(Solid::drum(looks::WORK, [middle[0], middle[1], top - reach], axis, radius, half));
+            let centre = [middle[0], middle[1], top - reach];
+            let body = self.add(own, Solid::drum(looks::WORK, centre, axis, radius, half));
             return (body, [2.0 * radius; 2], 2.0 * reach);
         }
         let along = usize::from(axis[1].abs() > 0.5);
         let (length, cheek) = (foot[along], 0.14 * self.unit);
         let centre = [middle[0], middle[1], top - 0.5 * diameter];
-        let body = self.add(Solid::drum(looks::WORK, centre, axis, 0.5 * diameter, 0.5 * length));
+        let body = self.add(own, Solid::drum(looks::WORK, centre, axis, 0.5 * diameter, 0.5 * length));
         for side in [-0.5, 0.5] {
             let (mut at, mut size) = (centre, [0.8 * diameter; 3]);
             at[along] += side * (length + cheek);
             (size[along], size[2]) = (cheek, diameter);
-            self.add(Solid::block(look, at, size));
+            self.add(holder, Solid::block(look, at, size));
         }
         let mut below = foot;
         below[along] = length + 2.0 * cheek;
@@ -213,11 +223,12 @@ impl Builder<'_> {
         spindle[dir] = 1.0;
         // Along the spindle from the tip: cutter, spindle, rotary axes.
         let mut reach = 0.0;
+        let (nose, _) = self.tool_link(motions.len().checked_sub(1));
         let mut along = |this: &mut Self, length: f64, radius: f64, look: Tint| {
             let mut centre = [0.0; 3];
             centre[dir] = reach + 0.5 * length;
             reach += length;
-            this.add(Solid::drum(look, centre, spindle, radius, 0.5 * length))
+            this.add(nose, Solid::drum(look, centre, spindle, radius, 0.5 * length))
         };
         along(self, 0.32 * size, 0.06 * size, looks::STEEL);
         along(self, 0.3 * size, 0.17 * size, looks::STEEL);
@@ -225,13 +236,13 @@ impl Builder<'_> {
         for i in (first_turn..motions.len()).rev() {
             let mut centre = [0.0; 3];
             let axis = axes[i];
-            let mut end = 0.0;
+            let (mut end, (own, _)) = (0.0, self.tool_link(Some(i)));
             let body = if !motions[i].is_rotation() {
                 let mut block = [side; 3];
                 block[dir] = SLAB * size;
                 centre[dir] = reach + 0.5 * block[dir];
                 reach += block[dir];
-                self.add(Solid::block(looks::TOOL, centre, block))
+                self.add(own, Solid::block(looks::TOOL, centre, block))
             } else {
                 let lean = axis[dir].abs();
                 let (radius, half) =
@@ -239,18 +250,18 @@ impl Builder<'_> {
                 let depth = half * lean + radius * (1.0 - lean * lean).max(0.0).sqrt();
                 centre[dir] = reach + depth;
                 reach += 2.0 * depth;
-                let body = self.add(Solid::drum(looks::TOOL, centre, axis, radius, half));
+                let body = self.add(own, Solid::drum(looks::TOOL, centre, axis, radius, half));
                 if lean <= 0.3 {
                     end = half + 0.12 * size;
                     // The fork that holds the drum.
                     let level = if axis[0].abs() > 0.5 { 0 } else { across };
-                    let look = if i == 0 { looks::BED } else { looks::TOOL };
+                    let (holder, look) = self.tool_link(i.checked_sub(1));
                     for side_sign in [-1.0, 1.0] {
                         let (mut at, mut block) = (centre, [1.5 * radius; 3]);
                         at[level] += side_sign * (half + 0.06 * size);
                         block[level] = 0.12 * size;
                         block[dir] = 2.0 * radius;
-                        self.add(Solid::block(look, at, block));
+                        self.add(holder, Solid::block(look, at, block));
                     }
                 }
                 body
@@ -275,7 +286,6 @@ impl Builder<'_> {
         let size = self.unit;
         let slab = SLAB * size;
         let side = 0.62 * size;
-        let look = |i: Option<usize>| if i.is_some() { looks::TOOL } else { looks::BED };
         // The head: the body of the last translation that hangs at the column.
         let mut front = match self.attitude {
             Attitude::Vertical => -0.5 * side,
@@ -321,13 +331,14 @@ impl Builder<'_> {
         for (n, &(i, w, h, depth)) in chain.iter().enumerate() {
             let depth = if n == 0 { depth + slack } else { depth };
             let centre = [0.0, front + 0.5 * depth, height];
-            let body = self.add(Solid::block(looks::TOOL, centre, [w, depth, h]));
+            let body = self.add(self.tool_link(Some(i)).0, Solid::block(looks::TOOL, centre, [w, depth, h]));
             front += depth;
             self.link(motions[i], false, axes[i], body, 0.0);
         }
         let depth = if chain.is_empty() { fixed + slack } else { fixed };
-        let body =
-            self.add(Solid::block(look(holder), [0.0, front + 0.5 * depth, height], [width, depth, tall]));
+        let (link, look) = self.tool_link(holder);
+        let centre = [0.0, front + 0.5 * depth, height];
+        let body = self.add(link, Solid::block(look, centre, [width, depth, tall]));
         front += depth;
         if let Some(i) = carriage {
             self.link(motions[i], false, axes[i], body, 0.0);
@@ -339,26 +350,26 @@ impl Builder<'_> {
         let below = if lifted { head.checked_sub(1) } else { holder };
         let column_width = width.min(0.9 * size).max(0.7 * size);
         let middle = front + 0.5 * column_depth;
-        self.add(Solid::block(
-            look(below),
-            [0.0, middle, 0.5 * (top + bottom)],
-            [column_width, column_depth, top - bottom],
-        ));
+        let (link, look) = self.tool_link(below);
+        let column = [column_width, column_depth, top - bottom];
+        self.add(link, Solid::block(look, [0.0, middle, 0.5 * (top + bottom)], column));
         self.feet(feet, [middle, bottom], motions, axes);
         let base = bed_top.min(work.top) - 1.3 * slab;
         let rear_front = (middle - 0.5 * foot[1]).min(middle - 0.5 * column_depth).max(work_back);
         let rear_back = middle + 0.5 * foot[1].max(column_depth);
-        let rear = self.add(Solid::block(
+        let rear = Solid::block(
             looks::BED,
             [0.0, 0.5 * (rear_front + rear_back), 0.5 * (base + bed_top)],
             [foot[0].max(column_width), rear_back - rear_front, bed_top - base],
-        ));
+        );
+        let rear = self.add(Carrier::Bed, rear);
         let front_length = rear_front - (work.middle[1] - 0.5 * work.foot[1]);
-        let front_bed = self.add(Solid::block(
+        let front_bed = Solid::block(
             looks::BED,
             [work.middle[0], rear_front - 0.5 * front_length, 0.5 * (base + work.top)],
             [work.foot[0], front_length, work.top - base],
-        ));
+        );
+        let front_bed = self.add(Carrier::Bed, front_bed);
         self.out.ground = vec![front_bed, rear];
     }
 
@@ -374,9 +385,9 @@ impl Builder<'_> {
         for (i, f, thick) in feet {
             let centre = [0.0, middle, level - 0.5 * thick];
             level -= thick;
-            let axis = axes[i];
+            let (axis, (own, _)) = (axes[i], self.tool_link(Some(i)));
             let body = if !motions[i].is_rotation() {
-                self.add(Solid::block(looks::TOOL, centre, [f[0], f[1], thick]))
+                self.add(own, Solid::block(looks::TOOL, centre, [f[0], f[1], thick]))
             } else {
                 let upright = axis[2].abs() > 0.5;
                 let (radius, half) = if upright {
@@ -384,7 +395,7 @@ impl Builder<'_> {
                 } else {
                     (0.5 * thick, 0.5 * f[usize::from(axis[1].abs() > 0.5)])
                 };
-                self.add(Solid::drum(looks::TOOL, centre, axis, radius, half))
+                self.add(own, Solid::drum(looks::TOOL, centre, axis, radius, half))
             };
             self.link(motions[i], false, axis, body, 0.0);
         }

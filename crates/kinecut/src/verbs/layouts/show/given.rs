@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use super::bodies::{Bodies, Link, turned};
 use super::looks;
-use super::solid::{Hub, Point3, Solid, unit};
+use super::solid::{Hub, Point3, Shape, Solid, unit};
 use crate::machine::layouts::Attitude;
 use crate::machine::{self, Machine};
 use crate::page::draw::Facets;
@@ -26,7 +26,7 @@ pub(crate) fn given_bodies(machine: &Machine, attitude: Attitude, q: &[f64]) -> 
     for (body, moved) in machine.bodies.iter().zip(&motions) {
         let mut facets = Facets::of(&body.solid, &moved.after(&body.place));
         facets.corners.iter_mut().for_each(|c| *c = to_picture(c.to_array()).into());
-        out.solids.push(Solid { facets, tint: tint(body.link), hub: None });
+        out.solids.push(Solid { shape: Shape::Given, facets, tint: tint(body.link), hub: None });
     }
     let size = |i: usize| {
         let [low, high] = out.solids[i].bounds();

@@ -11,7 +11,10 @@ mod looks;
 mod scheme;
 mod sheet;
 mod solid;
+mod usual;
 
 pub use sheet::{
     layout_drawing, layout_figure, layout_scheme, layout_sheet, machine_drawing, machine_drawing_at,
 };
+pub(crate) use usual::{CUTTER, PART, side, usual, usual_sizes};
+pub use usual::{layout_machine, with_usual_bodies};

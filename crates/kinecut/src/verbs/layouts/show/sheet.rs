@@ -1,8 +1,10 @@
 //! Files and figures: one layout, a chain in one line, a sheet of many layouts.
 
+use super::bodies::Bodies;
 use super::figure::{put, put_layout};
 use super::given::given_bodies;
 use super::scheme::{HEIGHT, put_scheme, scheme_width};
+use super::usual::{usual, usual_sizes};
 use crate::machine::layouts::{Attitude, Layout, Sizes};
 use crate::machine::{CoordinateCode, Machine};
 use crate::page::{Picture, draw};
@@ -37,24 +39,22 @@ pub fn machine_drawing(machine: &Machine, attitude: Attitude) -> String {
     machine_drawing_at(machine, attitude, &[])
 }
 
-/// A machine with its bodies at joint positions `q` [mm or rad], as an SVG file; one without bodies as
-/// [`machine_drawing`] shows it.
+/// A machine with its bodies at joint positions `q` [mm or rad], as an SVG file; one without bodies with the usual ones,
+/// which turn about their own middles.
 pub fn machine_drawing_at(machine: &Machine, attitude: Attitude, q: &[f64]) -> String {
+    let picture =
+        |made: &Bodies| alone(with_scheme(&machine.code, attitude, |picture, at| put(picture, made, at)));
     if let Some(made) = given_bodies(machine, attitude, q) {
-        return alone(with_scheme(&machine.code, attitude, |picture, at| put(picture, &made, at)));
+        return picture(&made);
     }
-    let mut sizes = Sizes::default();
-    for joint in &machine.joints {
-        let digit = usize::from(joint.motion.digit());
-        match joint.travel {
-            Some([low, high]) if digit <= 3 && high - low > 0.0 => sizes.stroke[digit - 1] = high - low,
-            _ => {}
-        }
-        if digit > 6 {
-            sizes.inclined[digit - 7] = joint.direction;
-        }
+    let sizes = usual_sizes(machine);
+    if q.iter().all(|q| *q == 0.0) {
+        return layout_drawing(&machine.code, attitude, &sizes);
     }
-    layout_drawing(&machine.code, attitude, &sizes)
+    let (moving, home) = usual(machine, attitude, &sizes);
+    let mut made = given_bodies(&moving, attitude, q).unwrap_or_default();
+    made.solids.iter_mut().zip(&home.solids).for_each(|(moved, own)| moved.tint = own.tint);
+    picture(&made)
 }
 
 /// The chain of a code in one line as an SVG file.

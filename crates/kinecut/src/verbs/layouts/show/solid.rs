@@ -20,9 +20,20 @@ pub(crate) struct Hub {
     pub(crate) half: f64,
 }
 
+/// The form of a body as a machine file could give it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Shape {
+    Block(Aabb),
+    /// About this axis, of the size of the hub.
+    Drum(DVec3),
+    /// Any other.
+    Given,
+}
+
 /// A body of a picture.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Solid {
+    pub(crate) shape: Shape,
     pub(crate) facets: Facets,
     pub(crate) tint: Tint,
     /// Of a drum: what an arrow goes round.
@@ -33,8 +44,9 @@ impl Solid {
     /// A block by centre and size.
     pub(crate) fn block(tint: Tint, centre: Point3, size: Point3) -> Solid {
         let (centre, half) = (DVec3::from(centre), 0.5 * DVec3::from(size).abs());
-        let form = Form::Box(Aabb { min: centre - half, max: centre + half });
-        Solid { facets: Facets::of(&form, &Rigid::IDENTITY), tint, hub: None }
+        let bounds = Aabb { min: centre - half, max: centre + half };
+        let form = Form::Box(bounds);
+        Solid { shape: Shape::Block(bounds), facets: Facets::of(&form, &Rigid::IDENTITY), tint, hub: None }
     }
 
     /// A drum about an axis of length one.
@@ -43,7 +55,8 @@ impl Solid {
         let (u, v) = direction.any_orthonormal_pair();
         let place = Rigid { rotation: DMat3::from_cols(u, v, direction), translation: DVec3::from(centre) };
         let form = Form::Cylinder { base: DVec3::new(0.0, 0.0, -half), radius, height: 2.0 * half };
-        Solid { facets: Facets::of(&form, &place), tint, hub: Some(Hub { centre, radius, half }) }
+        let facets = Facets::of(&form, &place);
+        Solid { shape: Shape::Drum(direction), facets, tint, hub: Some(Hub { centre, radius, half }) }
     }
 
     /// The box about it.
