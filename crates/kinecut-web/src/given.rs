@@ -52,7 +52,7 @@ impl GivenWants {
     pub(crate) fn files(self, app: &App) -> std::result::Result<GivenFiles, Refusal> {
         let named = |id: &Option<String>| id.as_ref().map(|id| app.file(id).map(|f| f.name)).transpose();
         let (job, tools, design) = (named(&self.job)?, named(&self.tools)?, named(&self.design)?);
-        let machine = self.machine.as_ref().map(|id| app.file(id).map_or_else(|_| id.clone(), |f| f.name));
+        let machine = self.machine.as_ref().map(|id| machine_named(app, id)).transpose()?;
         Ok(GivenFiles { wants: self, job, machine, tools, design })
     }
 }
@@ -131,6 +131,15 @@ impl GivenFiles {
         wants.design =
             Some(DesignWants { name: name.clone(), bytes, tolerance: self.wants.design_tolerance });
         Ok(())
+    }
+}
+
+/// The path below the folder of a machine file, or the name of a machine that kinecut may know: no path.
+fn machine_named(app: &App, id: &str) -> std::result::Result<String, Refusal> {
+    match app.file(id) {
+        Ok(file) => Ok(file.name),
+        Err(_) if !id.contains(['/', '\\', ':', '.']) => Ok(id.to_owned()),
+        Err(refusal) => Err(refusal),
     }
 }
 

@@ -16,6 +16,8 @@ pub(crate) enum Kind {
     Cutting,
     /// Input of a planner: a hole, a drilling, a face, a moving tool.
     Question,
+    /// A surface by its generating lines.
+    Surface,
     /// A program of a machine.
     Program,
     /// A mesh.
@@ -59,9 +61,27 @@ impl Kind {
         let is_json = text.trim_start().starts_with(['{', '[']) && !text.trim_start().starts_with("[[");
         let json = |key: &str| is_json && text.contains(&format!("\"{key}\""));
         // Words of the planners, and of tools that move.
-        let asks = ["operation", "hole", "drill", "face", "motion", "moment", "move", "moves"];
+        let asks = [
+            "operation",
+            "hole",
+            "drill",
+            "face",
+            "motion",
+            "moment",
+            "move",
+            "moves",
+            "twist",
+            "pose",
+            "screw",
+            "joints",
+            "of",
+            "grazing",
+            "envelope",
+        ];
         if has("setup") || (has("stock") && has("post")) {
             Kind::Job
+        } else if ["directrix", "like"].into_iter().any(|key| has(key) || json(key)) {
+            Kind::Surface
         } else if asks.into_iter().any(|key| has(key) || json(key)) {
             Kind::Question
         } else if has("code") || has("joint") || has("axes") {
@@ -108,8 +128,16 @@ mod tests {
             ("04_gear_pump_cover/face.toml", Kind::Question),
             ("03_drill_through_shaft/figure_7.toml", Kind::Question),
             ("06_five_axis_sweep/envelope.toml", Kind::Question),
+            ("06_five_axis_sweep/envelopes.toml", Kind::Question),
+            ("06_five_axis_sweep/tool.toml", Kind::Question),
+            ("06_five_axis_sweep/motions.toml", Kind::Question),
+            ("06_five_axis_sweep/barrel.toml", Kind::Text),
             ("18_head_and_table/vertical_mill.toml", Kind::Machine),
             ("21_plate_by_sizes/tools.toml", Kind::Tools),
+            ("05_machine_from_code/cone.toml", Kind::Surface),
+            ("05_machine_from_code/thread.toml", Kind::Surface),
+            ("05_machine_from_code/gear_flank.toml", Kind::Surface),
+            ("05_machine_from_code/trunnion.toml", Kind::Machine),
         ] {
             let text = std::fs::read_to_string(format!("{examples}/{file}")).unwrap();
             assert_eq!(Kind::of_name(file), Some(None));

@@ -27,6 +27,7 @@ mod given;
 mod guess;
 mod inspect;
 mod kind;
+mod kinematics;
 mod lanes;
 mod limits;
 mod look;

@@ -24,7 +24,7 @@ use crate::gate::Passed;
 use crate::lanes::Work;
 use crate::refusal::{Refusal, bytes, json};
 use crate::work::is_client;
-use crate::{files, guess, inspect, page, plan, simulate, verb, write};
+use crate::{files, guess, inspect, kinematics, page, plan, simulate, verb, write};
 
 /// The router of the server.
 pub(crate) fn router(app: Arc<App>) -> Router {
@@ -48,6 +48,7 @@ pub(crate) fn router(app: Arc<App>) -> Router {
         .route("/api/write", post(write::write))
         .route("/api/verb/{name}", post(verb::verb))
         .route("/api/page/{name}", post(verb::page))
+        .merge(kinematics::routes())
         .fallback(nothing)
         .method_not_allowed_fallback(wrong_method)
         // Bodies are bounded where they are read.

@@ -60,15 +60,34 @@ impl About {
         if self.new.is_some() && self.text.is_none() {
             return Err(Refusal::request("a file that is not on disk needs its text"));
         }
-        let mut edits = BTreeMap::new();
-        for Edit { file, text } in self.edits {
-            edits.insert(app.file(&file)?.name, text);
-        }
+        let edits = edited(app, self.edits)?;
         let of_text =
             |text: &String| Kind::of_name(split(&name).1).flatten().unwrap_or_else(|| Kind::of_text(text));
         let kind = self.text.as_ref().filter(|_| self.new.is_some()).map_or(kind, of_text);
         Ok(Texts { name, kind, text: self.text, edits })
     }
+
+    /// The same for a question that may be about no file: then only the other texts are there.
+    ///
+    /// # Errors
+    /// As [`About::texts`].
+    pub(crate) fn texts_or_none(self, app: &App) -> Result<Option<Texts>, Refusal> {
+        if self.file.is_none() && self.new.is_none() { Ok(None) } else { self.texts(app).map(Some) }
+    }
+
+    /// The texts of the other files alone.
+    ///
+    /// # Errors
+    /// One of them is not there.
+    pub(crate) fn others(&self, app: &App) -> Result<Texts, Refusal> {
+        let edits = edited(app, self.edits.clone())?;
+        Ok(Texts { name: String::new(), kind: Kind::Text, text: None, edits })
+    }
+}
+
+/// Texts that are being edited, by path below the folder.
+fn edited(app: &App, edits: Vec<Edit>) -> Result<BTreeMap<String, String>, Refusal> {
+    edits.into_iter().map(|Edit { file, text }| Ok((app.file(&file)?.name, text))).collect()
 }
 
 /// The path below the folder of a new file.

@@ -7,11 +7,13 @@ use axum::extract::{Path, State};
 use axum::http::{Response, StatusCode};
 use kinecut::base::{Error, Finding, Loader, Result as Found, Severity};
 use kinecut::job::TextItems;
-use kinecut::verbs::drill::plan_drill_sheet;
-use kinecut::verbs::envelope::{ENVELOPE_LIST, EnvelopeTable, Envelopes, envelope_sheets};
+use kinecut::verbs::drill::{DrillSheet, plan_drill_sheet};
+use kinecut::verbs::envelope::{
+    ENVELOPE_LIST, EnvelopeTable, Envelopes, MOST_INTERVALS, envelope_sheets, growths,
+};
 use kinecut::verbs::face::{SheetWants, plan_face_sheet};
-use kinecut::verbs::grazing::{GRAZING_LIST, GrazingTable, grazing_sheet};
-use kinecut::verbs::hole::{compare_hole, plan_hole, read_holes};
+use kinecut::verbs::grazing::{GRAZING_LIST, Gallery, GrazingTable, gallery, grazing_sheet};
+use kinecut::verbs::hole::{HoleSamples, compare_hole, plan_hole_sheet, read_holes};
 use kinecut::verbs::{Answer, Answers};
 use serde::Deserialize;
 use serde::de::DeserializeOwned;
@@ -56,6 +58,24 @@ struct Flags {
     paper: bool,
     #[serde(default)]
     events: bool,
+    /// Of a face: the bad length over all placements.
+    #[serde(default)]
+    map: bool,
+    /// Of a face: the way of the paper's method from the chosen placement.
+    #[serde(default)]
+    walk: bool,
+    /// Of a drilling: the load along the way of each hole.
+    #[serde(default)]
+    load: bool,
+    /// Of a hole: the paths whose samples are wanted.
+    #[serde(default)]
+    samples: HoleSamples,
+    /// Of grazing curves: the cases of the paper.
+    #[serde(default)]
+    gallery: bool,
+    /// Intervals of a move.
+    #[serde(default)]
+    moments: Option<u32>,
 }
 
 /// Form of the answer.
@@ -118,11 +138,21 @@ fn of_verb(
     let holes = || read_holes(&texts.name, text.clone());
     match name {
         Name::Hole if flags.compare => answers(&holes()?, form, watch, compare_hole),
-        Name::Hole => answers(&holes()?, form, watch, plan_hole),
-        Name::Drill => answers(&holes()?, form, watch, |table| plan_drill_sheet(table, flags.paper, loader)),
+        Name::Hole => answers(&holes()?, form, watch, |table| plan_hole_sheet(table, flags.samples)),
+        Name::Drill => answers(&holes()?, form, watch, |table| {
+            let sheet = plan_drill_sheet(table, flags.paper, loader)?;
+            Ok(DrillSheet { load: flags.load, ..sheet })
+        }),
         Name::Face => {
-            let wants = SheetWants { compare: flags.compare, paper: flags.paper, events: flags.events };
+            let Flags { compare, paper, events, map, walk, .. } = flags;
+            let wants = SheetWants { compare, paper, events, map, walk };
             answers(&holes()?, form, watch, |table| plan_face_sheet(table, wants, loader, watch))
+        }
+        Name::Grazing if flags.gallery => {
+            let cases = gallery().map(Gallery);
+            let mut answers = Answers::new(false, Severity::Doubt);
+            let text = answers.json(cases.as_ref());
+            Ok(verb_answer(text, answers.exit_code()))
         }
         Name::Grazing => {
             let tools = TextItems::<GrazingTable>::read(&texts.name, text, GRAZING_LIST)?;
@@ -130,6 +160,10 @@ fn of_verb(
         }
         Name::Envelope => {
             let moves = TextItems::<EnvelopeTable>::read(&texts.name, text, ENVELOPE_LIST)?;
+            if let (Some(moments), Form::Json) = (flags.moments, form) {
+                let moments = moments.clamp(1, MOST_INTERVALS);
+                return answers(&moves, form, watch, |table| growths(table, moments, loader, watch));
+            }
             answers(&moves, form, watch, |table| envelope_sheets(table, loader, watch).map(Envelopes))
         }
     }

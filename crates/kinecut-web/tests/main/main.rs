@@ -6,4 +6,5 @@ mod attack;
 mod common;
 mod events;
 mod files;
+mod kinematics;
 mod work;

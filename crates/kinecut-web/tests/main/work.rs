@@ -356,3 +356,29 @@ fn a_program_by_others_is_followed_and_cut() {
         .json();
     assert_eq!(given["plan"]["stock_volume"], 4000.0);
 }
+
+#[test]
+fn a_moving_tool_is_asked_with_the_flags_of_the_command_line() {
+    let folder = Folder::new();
+    let tool = "tool.shape.ball-nose = { diameter = 10, flute_length = 30 }\n";
+    folder.write("curve.toml", &format!("{tool}twist = {{ velocity = [60, 0, -20] }}\n"));
+    folder.write(
+        "move.toml",
+        &format!("{tool}tolerance = 0.1\nmove = {{ from = [0, 0, 0], to = [20, 0, 0] }}\n"),
+    );
+    let running = Running::of(&folder);
+    let kinds = running.get("/api/project").json();
+    let questions = kinds["files"].as_array().unwrap().iter().filter(|f| f["kind"] == "question").count();
+    assert_eq!(questions, 2, "{kinds}");
+    let ask = |verb: &str, name: &str, flags: Value| {
+        let mut asked = json!({ "client": "c", "file": running.id(name) });
+        asked.as_object_mut().unwrap().extend(flags.as_object().unwrap().clone());
+        running.post(&format!("/api/verb/{verb}"), &asked).json()
+    };
+    let curve = ask("grazing", "curve.toml", json!({}));
+    assert!(curve["bands"].as_array().unwrap().len() > 10, "{curve}");
+    let growth = ask("envelope", "move.toml", json!({ "moments": 8 }));
+    assert_eq!(growth["moments"].as_array().unwrap().len(), 9);
+    let gallery = ask("grazing", "curve.toml", json!({ "gallery": true }));
+    assert!(gallery.as_array().unwrap().iter().any(|g| g["title"] == "Sphere"));
+}
