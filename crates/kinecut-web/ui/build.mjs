@@ -15,6 +15,8 @@ const viewer = join(crates, "kinecut/viewer/src");
 
 /** Files of a library, by the beginnings of the names that are imported. */
 const VENDORS = { preact: ["preact", "@preact/"], codemirror: ["@codemirror/", "@lezer/"], three: ["three"] };
+/** Languages beside English. */
+const LANGUAGES = ["uk", "ru", "de"];
 const common = { absWorkingDir: here, bundle: true, minify: true, format: "esm", target: "es2022", charset: "utf8", legalComments: "eof", write: false };
 
 function walk(folder) {
@@ -60,6 +62,12 @@ function tokens() {
   return `:root{${of(2)};${scale.join(";")}}:root[data-theme=dark]{${of(3)}}\n`;
 }
 
+/** Light colours in print. */
+function paper() {
+  const light = /^:root\{([^}]*)\}/.exec(tokens())[1];
+  return `@media print{:root[data-theme=dark]{color-scheme:light;${light}}}\n`;
+}
+
 const sources = walk(join(here, "src"));
 const shared = walk(viewer).filter((file) => file.endsWith(".ts"));
 const wanted = imports([...sources, ...shared]);
@@ -89,7 +97,7 @@ function entry(vendor) {
 }
 
 rmSync(dist, { recursive: true, force: true });
-mkdirSync(join(dist, "assets/vendor"), { recursive: true });
+for (const folder of ["vendor", "words"]) mkdirSync(join(dist, "assets", folder), { recursive: true });
 const written = [];
 function write(name, text) {
   writeFileSync(join(dist, name), text);
@@ -109,8 +117,21 @@ const app = await build({
   loader: { ".toml": "text" },
 });
 write("assets/app.js", `${app.outputFiles[0].text.trimEnd()}\n`);
+// Catalogues of other languages, each loaded when it is chosen.
+for (const tag of LANGUAGES) {
+  const words = await build({ ...common, entryPoints: [join(here, `src/words/${tag}/index.ts`)] });
+  write(`assets/words/${tag}.js`, `${words.outputFiles[0].text.trimEnd()}\n`);
+}
 const style = await build({ ...common, entryPoints: [join(here, "src/app/style.css")], outdir: join(dist, "assets") });
 write("assets/app.css", tokens() + style.outputFiles[0].text);
+// Teaching pages: one script with all that it needs, so that a page that is saved works alone.
+const teaching = await build({ ...common, entryPoints: [join(here, "src/teaching/main.tsx")], jsx: "automatic", jsxImportSource: "preact", legalComments: "none" });
+write("assets/teaching.js", `${teaching.outputFiles[0].text.trimEnd()}\n`);
+for (const [name, entry] of [["teaching", "style"], ["teaching-alone", "alone"]]) {
+  const sheet = await build({ ...common, entryPoints: [join(here, `src/teaching/${entry}.css`)], outdir: join(dist, "assets") });
+  // Paper is white, whatever the screen is.
+  write(`assets/${name}.css`, (entry === "alone" ? tokens() : "") + sheet.outputFiles[0].text + paper());
+}
 write("assets/icon.svg", readFileSync(join(here, "src/icon.svg"), "utf8"));
 write("index.html", readFileSync(join(here, "index.html"), "utf8"));
 

@@ -9,6 +9,10 @@ import { holder } from "../windows/job/change";
 import { JobWindow } from "../windows/job/window";
 import { face, facing, saveFace } from "../windows/face/open";
 import { FaceWindow } from "../windows/face/window";
+import { figuresShown, showFigures } from "../windows/teaching/open";
+import { FiguresWindow } from "../windows/teaching/window";
+import { surfacing } from "../windows/surface/open";
+import { SurfaceWindow } from "../windows/surface/window";
 import { t } from "../words";
 import { Bar } from "./bar";
 import { dialog, offer, run } from "./commands";
@@ -32,9 +36,11 @@ offer(
   { id: "command.theme", keys: [], run: turnTheme },
   { id: "command.report", keys: [], run: () => void saveReport() },
   ...beginnings().map((kind) => ({ id: kind.begin.command, keys: [], run: () => begin(kind.begin) })),
+  { id: "command.figures", keys: [], run: showFigures },
 );
 
 function saveShown(): void {
+  if (figuresShown.value || surfacing.value) return;
   if (facing.value) face.value && void saveFace(face.value);
   else if (active.value) void save(active.value);
 }
@@ -63,7 +69,8 @@ async function saveReport(): Promise<void> {
 }
 
 export function App() {
-  const doc = facing.value ? null : active.value;
+  const figures = figuresShown.value;
+  const doc = facing.value || figures || surfacing.value ? null : active.value;
   const Asked = doc?.question?.Window;
   return (
     <div class={`wb${Asked ? " long" : ""}`}>
@@ -74,7 +81,19 @@ export function App() {
       {notice.value && <Notice />}
       <Offered />
       {doc && !Asked && <Tabs />}
-      {facing.value ? <FaceWindow /> : !doc ? <Empty /> : Asked ? <Asked key={doc.id} doc={doc} /> : <JobWindow doc={doc} />}
+      {figures ? (
+        <FiguresWindow />
+      ) : surfacing.value ? (
+        <SurfaceWindow />
+      ) : facing.value ? (
+        <FaceWindow />
+      ) : !doc ? (
+        <Empty />
+      ) : Asked ? (
+        <Asked key={doc.id} doc={doc} />
+      ) : (
+        <JobWindow doc={doc} />
+      )}
       <Dialogs />
       <DropZone />
       <p class="sr" aria-hidden="true" data-outcome={Asked ? "" : (outcome.value?.word ?? "")} />

@@ -7,15 +7,19 @@ import { beginnings } from "../store/questions";
 import { active, begin, close, documents, project, save, worker } from "../store/session";
 import { closeFace, face, facing, leave, saveFace, showFacing } from "../windows/face/open";
 import { FaceStatus } from "../windows/face/window";
+import { FiguresItem, FiguresTab } from "../windows/teaching/bar";
+import { figuresShown } from "../windows/teaching/open";
+import { leaveSurfaces, showSurfaces, surfacing } from "../windows/surface/open";
 import { t } from "../words";
 import { dialog } from "./commands";
+import { Languages } from "./languages";
 import { Menu } from "./menu";
 import { take } from "./take";
 import { turnTheme } from "./theme";
 import { Name } from "./verbatim";
 
 export function Bar() {
-  const doc = facing.value ? null : active.value;
+  const doc = facing.value || figuresShown.value || surfacing.value ? null : active.value;
   return (
     <header class="top">
       <span class="mark">
@@ -30,12 +34,14 @@ export function Bar() {
           <Tab key={d.id} doc={d} on={d === doc} />
         ))}
         <FaceTab />
+        <FiguresTab />
+        <SurfaceTab />
       </nav>
       <Files />
       <New />
       <span class="sp" />
       {doc && <Status doc={doc} />}
-      {facing.value && face.value && (
+      {facing.value && !figuresShown.value && face.value && (
         <div class="status">
           <FaceStatus of={face.value} />
         </div>
@@ -44,6 +50,7 @@ export function Bar() {
         <button class="ghost icon desk" aria-label={t("bar.keys")} title={t("bar.keys")} onClick={() => (dialog.value = "keys")}>
           <span aria-hidden="true">?</span>
         </button>
+        <Languages />
         <button class="ghost icon" aria-label={t("bar.theme")} title={t("bar.theme")} onClick={turnTheme}>
           <span aria-hidden="true">◐</span>
         </button>
@@ -52,7 +59,7 @@ export function Bar() {
             {t("bar.save")}
           </button>
         )}
-        {facing.value && face.value && (
+        {facing.value && !figuresShown.value && face.value && (
           <button class="primary" disabled={!face.value.dirty.value} title={t("bar.saveName", { name: face.value.name })} onClick={() => face.value && void saveFace(face.value)}>
             {t("bar.save")}
           </button>
@@ -62,13 +69,19 @@ export function Bar() {
   );
 }
 
+/** Leaves the windows that are no files for a file. */
+function to(id: string): void {
+  leaveSurfaces();
+  void leave(id);
+}
+
 function Tab({ doc, on }: { doc: Document; on: boolean }) {
   const last = (of: Document) => of.name.split("/").at(-1) ?? of.name;
   // Two files of one name are told apart by their folders.
   const name = documents.value.some((d) => d !== doc && last(d) === last(doc)) ? doc.name : last(doc);
   return (
     <span class={`tab${on ? " on" : ""}`}>
-      <button aria-current={on ? "page" : undefined} title={doc.name} onClick={() => void leave(doc.id)}>
+      <button aria-current={on ? "page" : undefined} title={doc.name} onClick={() => to(doc.id)}>
         <Name>{name}</Name>
         {doc.dirty.value && <i class="dot" title={t("bar.unsaved")} />}
         {doc.dirty.value && <span class="sr">{t("bar.unsaved")}</span>}
@@ -82,11 +95,11 @@ function Tab({ doc, on }: { doc: Document; on: boolean }) {
 
 /** The window of face milling. */
 function FaceTab() {
-  const on = facing.value;
+  const on = facing.value && !figuresShown.value;
   const open = face.value;
   return (
     <span class={`tab window${on ? " on" : ""}`}>
-      <button aria-current={on ? "page" : undefined} title={t("face.title")} onClick={() => void showFacing()} data-open="facing">
+      <button aria-current={on ? "page" : undefined} title={t("face.title")} onClick={() => showFacing()} data-open="facing">
         {t("face.tab")}
         {open?.dirty.value && <i class="dot" title={t("bar.unsaved")} />}
         {open?.dirty.value && <span class="sr">{t("bar.unsaved")}</span>}
@@ -96,6 +109,18 @@ function FaceTab() {
           <span aria-hidden="true">×</span>
         </button>
       )}
+    </span>
+  );
+}
+
+/** The window of surfaces and machines. */
+function SurfaceTab() {
+  const on = surfacing.value;
+  return (
+    <span class={`tab window${on ? " on" : ""}`}>
+      <button aria-current={on ? "page" : undefined} title={t("surface.title")} onClick={showSurfaces} data-open="surfaces">
+        {t("surface.tab")}
+      </button>
     </span>
   );
 }
@@ -131,7 +156,7 @@ function New() {
 function Files() {
   const shown = useSignal(false);
   const chooser = useRef<HTMLInputElement>(null);
-  const files = project.value?.files.filter((f) => f.kind === "job" || f.kind === "program" || f.kind === "question") ?? [];
+  const files = project.value?.files.filter((f) => ["job", "program", "question", "surface"].includes(f.kind)) ?? [];
   return (
     <span class="holdsMenu">
       <button class="ghost" aria-haspopup="menu" aria-expanded={shown.value} onClick={() => (shown.value = !shown.value)} data-open="files">
@@ -150,6 +175,7 @@ function Files() {
             {t(first.command)}
           </button>
         ))}
+        <FiguresItem menu={shown} />
         <h2>{t("file.kinds", { name: project.value?.folder ?? "" })}</h2>
         {files.map((f) => (
           <button
@@ -157,7 +183,7 @@ function Files() {
             role="menuitem"
             onClick={() => {
               shown.value = false;
-              void leave(f.id);
+              to(f.id);
             }}
           >
             <Name>{f.name}</Name>

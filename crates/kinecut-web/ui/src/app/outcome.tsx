@@ -5,7 +5,7 @@ import { short, timeOfDay } from "../base/format";
 import { type Document, differences, sameFile } from "../store/document";
 import { active, worker } from "../store/session";
 import { plain, parse } from "../toml/parse";
-import { t } from "../words";
+import { foreign, t } from "../words";
 import { goTo } from "./go";
 import { Said } from "./verbatim";
 
@@ -174,7 +174,7 @@ export function Outcome() {
   const now = outcome.value;
   if (!now) return null;
   return (
-    <section class={`outcome ${now.state}${now.stale ? " stale" : ""}`} aria-label={t("outcome.name")} data-state={now.stale ? "stale" : now.state}>
+    <section class={`outcome ${now.state}${now.stale ? " stale" : ""}`} aria-label={t("outcome.name")} lang={foreign("outcome.name")} data-state={now.stale ? "stale" : now.state}>
       <Sign state={now.state} />
       <p class="word" role="status">
         {spoken.value}

@@ -48,7 +48,7 @@ async function one(file: File): Promise<void> {
   const id = await placed(name, bytes, opened || !doc ? null : doc.id);
   const known = project.value?.files.find((f) => f.id === id);
   if (!known) return;
-  if (known.kind === "job" || known.kind === "program" || known.kind === "question") await open(id);
+  if (["job", "program", "question", "surface"].includes(known.kind)) await open(id);
   else if (known.kind === "outline" && (facing.value || !doc)) openDrawing(id);
   else if ((known.kind === "mesh" || known.kind === "outline") && doc?.kind === "job") offered.value = known;
   else tell(t("drop.kept", { name: known.name }));

@@ -17,7 +17,7 @@ export interface Finding {
   bound?: Quantity;
 }
 
-export type FileKind = "job" | "machine" | "tools" | "cutting" | "question" | "program" | "mesh" | "outline" | "text" | "result";
+export type FileKind = "job" | "machine" | "tools" | "cutting" | "question" | "program" | "mesh" | "outline" | "text" | "result" | "surface";
 
 export interface FileName {
   id: string;
@@ -226,6 +226,12 @@ export interface VerbQuestion {
   text: string;
   compare?: boolean;
   paper?: boolean;
+  map?: boolean;
+  walk?: boolean;
+  load?: boolean;
+  samples?: "rough" | "finish" | "all";
+  gallery?: boolean;
+  moments?: number;
 }
 
 /** The answer that a verb prints with `--json`; a finding where it could not do it. */
@@ -234,6 +240,19 @@ export const verb = <T>(name: string, question: VerbQuestion, signal: AbortSigna
 /** The page that a verb writes. */
 export async function verbPage(name: string, question: VerbQuestion, signal: AbortSignal): Promise<string> {
   return (await answer(`/api/page/${name}`, "POST", { client, ...question }, signal)).text();
+}
+
+/** A verb that is asked by its flags, without a text of its own. */
+export const ask = <T>(name: string, flags: object, signal: AbortSignal) => json<T | Finding>(`/api/verb/${name}`, "POST", { client, ...flags }, signal);
+
+/** The drawing that a verb writes with `--svg`. */
+export async function drawing(name: string, flags: object, signal: AbortSignal): Promise<string> {
+  return (await answer(`/api/drawing/${name}`, "POST", { client, ...flags }, signal)).text();
+}
+
+/** The page that a verb writes with `--out`. */
+export async function pageOf(name: string, flags: object, signal: AbortSignal): Promise<string> {
+  return (await answer(`/api/page/${name}`, "POST", { client, ...flags }, signal)).text();
 }
 
 /** What the workbench reads of `inspection.json`. */

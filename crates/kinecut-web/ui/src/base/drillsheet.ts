@@ -50,6 +50,13 @@ export interface Paper {
   printed_times: [number, number, number, number];
 }
 
+/** The share of the point in material along the way from the start [mm]; `complete`: computed everywhere, not only where surfaces begin and end. */
+export interface Load {
+  complete: boolean;
+  way: number[];
+  share: number[];
+}
+
 /** A hole that is planned. */
 export interface Hole {
   number: number;
@@ -68,6 +75,7 @@ export interface Hole {
   lip_eccentricity: number | null;
   lip_difference: number;
   findings: Finding[];
+  load?: Load;
   paper?: Paper;
 }
 

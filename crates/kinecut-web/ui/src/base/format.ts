@@ -1,14 +1,20 @@
-// Numbers as a person reads them: a real minus, only the digits that are known.
+// Numbers as a person reads them: a real minus, only the digits that are known, in the form of the language.
+import { numeral } from "../words";
 
 /** A number with so many decimals, and a real minus. */
 export function fixed(n: number, decimals: number): string {
   const text = n.toFixed(decimals);
-  return /^-0\.?0*$/.test(text) ? text.slice(1) : text.replace("-", "\u2212");
+  return numeral(/^-0\.?0*$/.test(text) ? text.slice(1) : text.replace("-", "\u2212"));
 }
 
 /** A number with so many digits and no zeros at its end. */
 export function short(n: number, digits = 4): string {
-  return String(Number(n.toPrecision(digits))).replace("-", "\u2212");
+  return numeral(digitsOf(n, digits).replace("-", "\u2212"));
+}
+
+/** The same as it is written in a file. */
+export function digitsOf(n: number, digits = 4): string {
+  return String(Number(n.toPrecision(digits)));
 }
 
 /** A time as minutes and seconds, from an hour on with hours. */

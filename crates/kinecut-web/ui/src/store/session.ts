@@ -48,7 +48,7 @@ export async function open(id: string): Promise<void> {
     const read = await api.file(id);
     const doc = new Document(read.id, read.name, read.kind);
     doc.text.value = read.text ?? "";
-    if (doc.kind === "question" && !doc.question) {
+    if ((doc.kind === "question" && !doc.question) || doc.kind === "surface") {
       if (!others.some((opens) => opens(id, doc.text.value))) tell(t("file.noWindow", { name: doc.name }));
       return;
     }

@@ -9,7 +9,7 @@ export const drilling: QuestionKind = {
   name: "drilling",
   isOf: ({ operation }) => typeof operation === "object" && operation !== null && (operation as Record<string, unknown>).type === "drill",
   async ask(question, signal) {
-    const answer = await api.verb<DrillSheet>("drill", { paper: true, ...question }, signal);
+    const answer = await api.verb<DrillSheet>("drill", { paper: true, load: true, ...question }, signal);
     return "holes" in answer ? { answer } : { wrong: answer };
   },
   page: (question, signal) => api.verbPage("drill", { paper: true, ...question }, signal),

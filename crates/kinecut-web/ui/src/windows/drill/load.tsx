@@ -2,25 +2,25 @@
 import type { Signal } from "@preact/signals";
 import { useRef } from "preact/hooks";
 import { untranslated } from "../../app/verbatim";
-import type { Hole } from "../../base/drillsheet";
+import type { Hole, Load as Curve } from "../../base/drillsheet";
 import { fixed, short, ticks } from "../../base/format";
-import { t } from "../../words";
-import type { Curve } from "./page";
+import { t, unit } from "../../words";
 import { useWidth } from "./room";
 import { atWay, zoneClass } from "./stages";
 
 const [TOP, PLOT, BELOW, RIGHT] = [12, 120, 40, 14];
 
 /** The share at a place of the way, between two of its known places. */
-function shareAt(curve: Curve, part: number): number {
-  const { share } = curve;
-  const next = share.findIndex(([x]) => x >= part);
-  if (next <= 0) return share[next < 0 ? share.length - 1 : 0][1];
-  const [[x0, y0], [x1, y1]] = [share[next - 1], share[next]];
-  return x1 > x0 ? y0 + ((y1 - y0) * (part - x0)) / (x1 - x0) : y1;
+function shareAt({ way, share }: Curve, at: number): number {
+  const next = way.findIndex((x) => x >= at);
+  if (next <= 0) return share[next < 0 ? share.length - 1 : 0];
+  const [x0, x1] = [way[next - 1], way[next]];
+  const [y0, y1] = [share[next - 1], share[next]];
+  return x1 > x0 ? y0 + ((y1 - y0) * (at - x0)) / (x1 - x0) : y1;
 }
 
-export function Load({ hole, curve, way }: { hole: Hole; curve: Curve | null; way: Signal<number | null> }) {
+export function Load({ hole, way }: { hole: Hole; way: Signal<number | null> }) {
+  const curve = hole.load && hole.load.way.length > 1 ? hole.load : null;
   const box = useRef<HTMLDivElement>(null);
   const width = useWidth(box, 560);
   const whole = hole.lengths.L_rx;
@@ -35,7 +35,7 @@ export function Load({ hole, curve, way }: { hole: Hole; curve: Curve | null; wa
     return { ...z, start: from, stop: gone };
   });
   const feed = zones.map((z, i) => `${i ? "L" : "M"}${x(z.start).toFixed(1)} ${y(z.feed / most).toFixed(1)}H${x(z.stop).toFixed(1)}`).join("");
-  const line = curve?.share.map(([part, share], i) => `${i ? "L" : "M"}${x(part * whole).toFixed(1)} ${y(share).toFixed(1)}`).join("");
+  const line = curve?.way.map((mm, i) => `${i ? "L" : "M"}${x(mm).toFixed(1)} ${y(curve.share[i]).toFixed(1)}`).join("");
   const now = way.value === null ? null : atWay(hole.zones, way.value);
   const at = way.value ?? 0;
   const move = (e: PointerEvent) => {
@@ -43,7 +43,7 @@ export function Load({ hole, curve, way }: { hole: Hole; curve: Curve | null; wa
     const mm = ((e.clientX - bounds.left - left) / (width - left - RIGHT)) * whole;
     way.value = Math.min(whole, Math.max(0, mm));
   };
-  const told = now && curve ? [t("drill.inMaterial", { share: fixed(shareAt(curve, at / whole), 2) }), `${short(hole.zones[now.index].feed)} mm/rev`] : [];
+  const told = now && curve ? [t("drill.inMaterial", { share: fixed(shareAt(curve, at), 2) }), `${short(hole.zones[now.index].feed)} ${unit("mm/rev")}`] : [];
   const plate = x(at) > width / 2 ? x(at) - 168 : x(at) + 8;
   return (
     <section class="panel" aria-label={t("drill.load")} tabIndex={-1} data-panel="load">
@@ -79,7 +79,7 @@ export function Load({ hole, curve, way }: { hole: Hole; curve: Curve | null; wa
               <g key={share}>
                 <path class="grid" d={`M${left} ${y(share)}H${width - RIGHT}`} />
                 <text x={left - 6} y={y(share) + 4} text-anchor="end">
-                  {share}
+                  {short(share)}
                 </text>
               </g>
             ))}

@@ -1,4 +1,4 @@
-// The page that the library makes of the same text: its drawings, and the curve of the load, which the numbers have not.
+// The page that the library makes of the same text: its drawings.
 
 export interface Figure {
   title: string;
@@ -10,18 +10,8 @@ export interface Figure {
   height: [number, number];
 }
 
-export interface Curve {
-  /** Way from the start [mm] and share of the point in material. */
-  share: [number, number][];
-}
-
-export interface Read {
-  drawings: Figure[];
-  curve: Curve | null;
-}
-
-/** Reads a page. */
-export function read(html: string): Read {
+/** The drawings of a page; its charts are numbers of the answer. */
+export function drawingsOf(html: string): Figure[] {
   // The style goes into the drawings alone: read as part of a page it would be one of this page, which refuses it.
   const style = /<style>([\s\S]*?)<\/style>/.exec(html)?.[1] ?? "";
   const page = new DOMParser().parseFromString(html.replace(/<style>[\s\S]*?<\/style>/g, ""), "text/html");
@@ -40,9 +30,7 @@ export function read(html: string): Read {
     };
   };
   const all = [...page.querySelectorAll("figure")];
-  const drawings = all.filter((f) => !f.classList.contains("chart")).flatMap((f) => figure(f) ?? []);
-  const chart = all.find((f) => f.classList.contains("chart"));
-  return { drawings, curve: chart ? curveOf(chart) : null };
+  return all.filter((f) => !f.classList.contains("chart")).flatMap((f) => figure(f) ?? []);
 }
 
 /** A drawing with the style of its page, as data of an image. */
@@ -53,22 +41,4 @@ function image(svg: Element, style: string, theme: string): string {
   copy.removeAttribute("class");
   const text = copy.outerHTML.replace(/^(<svg[^>]*>)/, (head) => `${head}<style>${style.replaceAll("&", "&amp;").replaceAll("<", "&lt;")}</style>`);
   return `data:image/svg+xml;charset=utf-8,${encodeURIComponent(text)}`;
-}
-
-/** The curve of the share, read from its drawing: its numbers are not printed. Null where the drawing is not as expected. */
-function curveOf(chart: Element): Curve | null {
-  const places = (path: Element | undefined): [number, number][] =>
-    (path?.getAttribute("d") ?? "")
-      .split(/[ML]/)
-      .filter((part) => part.trim() !== "")
-      .map((part) => part.trim().split(/[ ,]+/).map(Number) as [number, number]);
-  const curves = [...chart.querySelectorAll("svg.wide path.curve")];
-  const share = places(curves.find((c) => c.getAttribute("data-name")?.startsWith("in material")));
-  const feed = places(curves.find((c) => c.getAttribute("data-name")?.startsWith("feed")));
-  if (share.length < 2 || feed.length < 2) return null;
-  // The way begins at 0 and ends with the curve; nothing is in material at the start, and the greatest feed is 1.
-  const [left, right] = [share[0][0], share[share.length - 1][0]];
-  const [zero, one] = [share[0][1], Math.min(...feed.map(([, y]) => y))];
-  if (!(right > left) || !(zero > one) || share.some(([, y]) => !Number.isFinite(y) || y < one - 1 || y > zero + 1)) return null;
-  return { share: share.map(([x, y]) => [(x - left) / (right - left), Math.min(1, Math.max(0, (zero - y) / (zero - one)))]) };
 }

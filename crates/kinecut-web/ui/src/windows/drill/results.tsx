@@ -7,17 +7,17 @@ import { fixed, short } from "../../base/format";
 import type { Schema } from "../../schema/schema";
 import type { Document } from "../../store/document";
 import { tell } from "../../store/session";
-import { t } from "../../words";
+import { t, unit } from "../../words";
 import { Control } from "./strip";
 
 export function Facts({ hole, old, speed, diameter }: { hole: Hole; old: boolean; speed: number | undefined; diameter: number }) {
   const share = hole.constant_feed_time > 0 ? hole.saved_time / hole.constant_feed_time : 0;
   const { coordinates: c } = hole;
   const facts: [string, string, string, string][] = [
-    ["time", t("drill.fact.time"), `${fixed(hole.time, 2)} s`, t("drill.fact.constant", { feed: short(hole.constant_feed), time: fixed(hole.constant_feed_time, 2) })],
-    ["saved", t("drill.fact.saved"), `${fixed(hole.saved_time, 2)} s`, t("drill.fact.share", { percent: fixed(100 * share, 0) })],
-    ["way", t("drill.fact.way"), `${fixed(hole.lengths.L_rx, 3)} mm`, t("drill.fact.fromTo", { from: fixed(c.Z_nvr1, 3), to: fixed(c.Z_end, 3) })],
-    ["speed", t("drill.fact.speed"), `${fixed(hole.spindle_speed, 1)} rev/min`, speed === undefined ? "" : t("drill.fact.cutting", { speed: short(speed), diameter: short(diameter, 6) })],
+    ["time", t("drill.fact.time"), `${fixed(hole.time, 2)} ${unit("s")}`, t("drill.fact.constant", { feed: short(hole.constant_feed), time: fixed(hole.constant_feed_time, 2) })],
+    ["saved", t("drill.fact.saved"), `${fixed(hole.saved_time, 2)} ${unit("s")}`, t("drill.fact.share", { percent: fixed(100 * share, 0) })],
+    ["way", t("drill.fact.way"), `${fixed(hole.lengths.L_rx, 3)} ${unit("mm")}`, t("drill.fact.fromTo", { from: fixed(c.Z_nvr1, 3), to: fixed(c.Z_end, 3) })],
+    ["speed", t("drill.fact.speed"), `${fixed(hole.spindle_speed, 1)} ${unit("rev/min")}`, speed === undefined ? "" : t("drill.fact.cutting", { speed: short(speed), diameter: short(diameter, 6) })],
   ];
   // Without a number all of the load is on one lip.
   if (hole.lip_eccentricity === null || hole.lip_eccentricity > 0) {

@@ -5,7 +5,8 @@ import { useRef } from "preact/hooks";
 import { untranslated } from "../../app/verbatim";
 import type { Hole } from "../../base/drillsheet";
 import { fixed, short } from "../../base/format";
-import { t } from "../../words";
+import { widthOf } from "../../base/measure";
+import { t, unit } from "../../words";
 import { type Line, lineOf } from "./faces";
 import { heightOf, outline, silhouette } from "./points";
 import { type Question, exitFace } from "./question";
@@ -24,6 +25,8 @@ interface Props {
 const WIDE = 2;
 /** Greatest height of a drawing with its breaks [px]. */
 const TALL = 640;
+/** Least width of the part that is drawn [px]. */
+const LEAST = 88;
 /** Lengths that differ by less are the same on the drawing [mm]. */
 const SAME = 1e-3;
 
@@ -80,8 +83,12 @@ function Drawing({ question, hole, way, width }: Props & { width: number }) {
   const narrow = width < 500;
   const all = levels(question, hole, narrow);
 
-  const [bar, words] = narrow ? [104, 128] : [112, 238];
-  const room = Math.max(90, width - bar - words);
+  // Room at the left for the names of the stretches, at the right for those of the heights: as much as the words need and the part leaves.
+  const names = Math.max(...hole.zones.map((z) => Math.max(widthOf(stageName(z.stage), true), widthOf(`${short(z.feed)} ${unit("mm/rev")}`))));
+  const told = Math.max(...all.map((l) => Math.max(widthOf(l.what), l.more ? widthOf(l.more) : 0)));
+  const bar = Math.max(narrow ? 104 : 112, 33 + names + 8);
+  const words = Math.max(narrow ? 128 : 238, Math.min((narrow ? 14 : 92) + told + 8, width - bar - LEAST));
+  const room = Math.max(LEAST, width - bar - words);
   const shown = [start, start + point, ...all.map((l) => l.z), ...all.map((l) => l.z + point), ...hole.zones.map((z) => z.to)];
   for (const line of [above, below]) {
     if (line) shown.push(...[-WIDE * radius, -radius, 0, radius, WIDE * radius].map((u) => line.height(clamp(u, line))));
@@ -119,8 +126,8 @@ function Drawing({ question, hole, way, width }: Props & { width: number }) {
   const zoneRows = apart(zones.map((z) => (y(z.from) + y(z.to)) / 2), zones.map(() => 46), header - 12, height - 6);
   const travelled = way.value;
   const now = travelled === null ? null : start - travelled;
-  const unit = 10 ** Math.floor(Math.log10((room * 0.3) / scale));
-  const ruler = [5, 2, 1].map((n) => n * unit).find((n) => n * scale <= room * 0.34) ?? unit;
+  const decade = 10 ** Math.floor(Math.log10((room * 0.3) / scale));
+  const ruler = [5, 2, 1].map((n) => n * decade).find((n) => n * scale <= room * 0.34) ?? decade;
 
   const drag = (e: PointerEvent) => {
     const svg = drawing.current;
@@ -192,10 +199,10 @@ function Drawing({ question, hole, way, width }: Props & { width: number }) {
             {stageName(z.stage)}
           </text>
           <text x="33" y={zoneRows[i] + 4} {...untranslated}>
-            {short(z.feed)} mm/rev
+            {short(z.feed)} {unit("mm/rev")}
           </text>
           <text x="33" y={zoneRows[i] + 17} {...untranslated}>
-            {fixed(z.time, 2)} s
+            {fixed(z.time, 2)} {unit("s")}
           </text>
         </g>
       ))}
@@ -218,7 +225,7 @@ function Drawing({ question, hole, way, width }: Props & { width: number }) {
       <g class="size">
         <path d={`M${bar} ${height - 12}v6h${ruler * scale}v-6`} />
         <text x={bar + ruler * scale + 6} y={height - 4} {...untranslated}>
-          {ruler} mm
+          {short(ruler)} {unit("mm")}
         </text>
       </g>
     </svg>

@@ -5,7 +5,7 @@ import { theme } from "../../app/theme";
 import { Name } from "../../app/verbatim";
 import type { Hole } from "../../base/drillsheet";
 import { fixed, short } from "../../base/format";
-import { t } from "../../words";
+import { t, unit } from "../../words";
 import type { Figure } from "./page";
 import type { Question } from "./question";
 import { Section } from "./section";
@@ -96,7 +96,7 @@ export function SectionPanel({ question, hole, way, drawings, waits }: Props) {
             <>
               <Name>Z {fixed(now.z, 3)}</Name> {stageName(hole.zones[now.index].stage)}{" "}
               <Name>
-                {short(hole.zones[now.index].feed)} mm/rev, {fixed(now.time, 2)} s
+                {short(hole.zones[now.index].feed)} {unit("mm/rev")}, {fixed(now.time, 2)} {unit("s")}
               </Name>
             </>
           ) : (

@@ -3,7 +3,7 @@ import type { Signal } from "@preact/signals";
 import { Name } from "../../app/verbatim";
 import type { Coordinates, Hole, Lengths } from "../../base/drillsheet";
 import { fixed, short } from "../../base/format";
-import { t } from "../../words";
+import { symbol, t, unit } from "../../words";
 import { atWay, stageName } from "./stages";
 
 /** A length as it is printed: three decimals, a minus, and no more. */
@@ -118,6 +118,16 @@ const HEIGHTS: (keyof Coordinates)[] = ["Z_nvr1", "Z_nvr2", "Z_nvyh1", "Z_nvyh2"
 /** Lengths that differ by less are the same to the digits shown [mm]. */
 const SAME = 5e-4;
 
+function Symbol({ of }: { of: string }) {
+  const [letters, below] = symbol(of);
+  return (
+    <Name class="q">
+      {letters}
+      {below && <sub>{below}</sub>}
+    </Name>
+  );
+}
+
 /** Beside the exact numbers: those of the paper's formulas, and those that its program prints. */
 export function PaperTable({ hole }: { hole: Hole }) {
   const { paper } = hole;
@@ -164,7 +174,7 @@ export function PaperTable({ hole }: { hole: Hole }) {
             </tr>
           </thead>
           <tbody>
-            {rows.filter(([, , value]) => value !== null).map(([key, name, value, formula, printed, unit]) => {
+            {rows.filter(([, , value]) => value !== null).map(([key, name, value, formula, printed, symbol]) => {
               const differs = (n: number | null | undefined) => n !== null && n !== undefined && value !== null && Math.abs(n - value) >= SAME;
               const cell = (n: number | null | undefined) => (
                 <td class={`r${differs(n) ? " differs" : ""}`}>
@@ -175,13 +185,13 @@ export function PaperTable({ hole }: { hole: Hole }) {
               return (
                 <tr key={key} data-row={key}>
                   <th scope="row">
-                    {name} <Name class="q">{key.startsWith("T_") ? "" : key}</Name>
+                    {name} {!key.startsWith("T_") && <Symbol of={key} />}
                   </th>
                   <td class="r">{mm(value)}</td>
                   {cell(formula)}
                   {cell(printed)}
                   <td translate={false} class="q">
-                    {unit}
+                    {unit(symbol)}
                   </td>
                 </tr>
               );

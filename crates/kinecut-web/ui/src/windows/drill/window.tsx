@@ -2,7 +2,7 @@
 import { effect, signal, useSignal } from "@preact/signals";
 import { useEffect, useMemo } from "preact/hooks";
 import { offer } from "../../app/commands";
-import { Name } from "../../app/verbatim";
+import { Name, Said } from "../../app/verbatim";
 import * as api from "../../base/api";
 import { isHole } from "../../base/drillsheet";
 import { short, timeOfDay } from "../../base/format";
@@ -17,7 +17,7 @@ import { kindOf } from "./faces";
 import { Load } from "./load";
 import { Matrix } from "./matrix";
 import { Wrong } from "./mistake";
-import { read } from "./page";
+import { drawingsOf } from "./page";
 import { PointGrid } from "./pointgrid";
 import { exitFace, questionOf } from "./question";
 import { Rest } from "./rest";
@@ -71,7 +71,7 @@ export function DrillWindow({ doc }: { doc: Document }) {
   const state = doc.planning.value ? "planning" : wrong || doc.refused.value ? "wrong" : known?.text === doc.text.value ? "done" : "planning";
   const place: [number, number] = hole?.at ?? [0, 0];
   const question = questionOf(doc.values.value);
-  const page = useMemo(() => (known?.page ? read(known.page) : null), [known?.page]);
+  const drawings = useMemo(() => (known?.page ? drawingsOf(known.page) : []), [known?.page]);
   // The drawing is of the text that was planned.
   const drawn = useMemo(() => (known ? questionOf(planned(known.text)) : question), [known?.text]);
 
@@ -98,7 +98,7 @@ export function DrillWindow({ doc }: { doc: Document }) {
         </div>
       </div>
       {wrong && <Wrong doc={doc} place={place} />}
-      {doc.refused.value && <p class="across" role="alert">{doc.refused.value}</p>}
+      {doc.refused.value && <p class="across" role="alert"><Said text={doc.refused.value} /></p>}
       {isOld && known && (
         <p class="oldness" role="status">
           {t("drill.old", { time: timeOfDay(known.at) })}
@@ -115,8 +115,8 @@ export function DrillWindow({ doc }: { doc: Document }) {
         {hole && known ? (
           <>
             <div class={`stack${isOld ? " older" : ""}`}>
-              <SectionPanel question={drawn} hole={hole} way={way} drawings={holes.length > 1 ? [] : (page?.drawings ?? [])} waits={late.value} />
-              <Load hole={hole} curve={holes.length > 1 ? null : (page?.curve ?? null)} way={way} />
+              <SectionPanel question={drawn} hole={hole} way={way} drawings={holes.length > 1 ? [] : drawings} waits={late.value} />
+              <Load hole={hole} way={way} />
               <PaperTable hole={hole} />
             </div>
             <div class={`stack${isOld ? " older" : ""}`}>

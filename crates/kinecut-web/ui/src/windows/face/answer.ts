@@ -73,6 +73,25 @@ export interface Descent {
   evaluations: number;
 }
 
+/** A triangle of Nelder and Mead's method, its best corner first, and the evaluations so far. */
+export interface Step {
+  corners: (Placement & { value: number })[];
+  evaluations: number;
+}
+
+/** A way of the paper's method. */
+export interface WalkAnswer extends Descent {
+  steps: Step[];
+}
+
+/** The bad length with the guard [mm] over turns [deg] and offsets from the middle of the turned part's width [mm], evenly from the least to the greatest. */
+export interface MapAnswer {
+  beside: ([number, number] | null)[];
+  rows: number;
+  turns: number[];
+  values: ((number | null)[] | null)[];
+}
+
 export interface Paper {
   descent_from_as_drawn: Descent | null;
   descents: Descent[];
@@ -94,7 +113,9 @@ export interface FaceAnswer {
   stretches: Stretch[];
   ways: Way[];
   findings: Finding[];
+  map?: MapAnswer;
   paper?: Paper;
+  walk?: WalkAnswer;
 }
 
 export function isOptimum(o: FaceAnswer["optimum"]): o is Optimum {

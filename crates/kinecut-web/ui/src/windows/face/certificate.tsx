@@ -1,5 +1,5 @@
 // The least placement, and the proof that none has less: of all turns at once, or sector by sector, so that it is seen to come.
-import { fixed, ticks } from "../../base/format";
+import { fixed, short, ticks } from "../../base/format";
 import { Said, untranslated } from "../../app/verbatim";
 import { t } from "../../words";
 import { isOptimum } from "./answer";
@@ -134,7 +134,7 @@ function Chart({ sectors }: { sectors: Sectors }) {
           <g key={mm} {...untranslated}>
             <path class="grid" d={`M${LEFT} ${y(mm)}H${right}`} />
             <text x={LEFT - 7} y={y(mm) + 4} text-anchor="end">
-              {mm}
+              {short(mm)}
             </text>
           </g>
         ))}

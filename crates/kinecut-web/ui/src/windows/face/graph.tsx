@@ -1,7 +1,8 @@
-// The bad length over all placements: the cells are those of the verb's page, the number under the pointer is an answer of the verb.
+// The bad length over all placements: the cells and the number under the pointer are the verb's.
 import { useSignal } from "@preact/signals";
 import { useEffect, useMemo } from "preact/hooks";
-import { fixed, ticks } from "../../base/format";
+import { fixed, short, ticks } from "../../base/format";
+import { widthOf } from "../../base/measure";
 import { untranslated } from "../../app/verbatim";
 import { t } from "../../words";
 import type { Descent, Placement } from "./answer";
@@ -37,7 +38,7 @@ export function Graph({ face }: { face: Face }) {
       {map ? (
         <Plot face={face} map={map} width={width.value} stale={stale} />
       ) : (
-        <p class="q hint">{face.mapWrong.value ? t("face.noGraph") : face.comparing.value || face.searching.value ? t("face.graphComes") : face.leastWrong.value ? t("face.noPicture") : t("face.graphNone")}</p>
+        <p class="q hint">{face.comparing.value || face.searching.value ? t("face.graphComes") : face.leastWrong.value ? t("face.noPicture") : t("face.graphNone")}</p>
       )}
     </div>
   );
@@ -159,9 +160,9 @@ function Numbers({ map, axes, width, height }: { map: Map; axes: Axes; width: nu
       {Array.from({ length: 16 }, (_, i) => (
         <rect key={i} x={right + 14} y={bottom - (i + 1) * step} width={12} height={step + 0.4} style={{ fill: `var(--scale${i})` }} />
       ))}
-      {map.ticks.map(({ text, share }) => (
-        <text key={text} {...untranslated} x={right + 30} y={bottom - share * (bottom - TOP) + 4}>
-          {text}
+      {map.ticks.map(({ value, share }) => (
+        <text key={value} {...untranslated} x={right + 30} y={bottom - share * (bottom - TOP) + 4}>
+          {short(value)}
         </text>
       ))}
       <text x={width - 2} y={height - 6} text-anchor="end">
@@ -233,21 +234,22 @@ function Walked({ face, axes }: { face: Face; axes: Axes }) {
   const at = (p: Placement): [number, number] => [axes.x(p.turn), Math.min(axes.bottom, Math.max(TOP, axes.y(p.offset - middle(shape, p.turn))))];
   let d = "";
   let before = 0;
-  for (const p of walked.path) {
+  const path = walked.steps.map((s) => s.corners[0]).filter((p, i, all) => i === 0 || p.turn !== all[i - 1].turn || p.offset !== all[i - 1].offset);
+  for (const p of path) {
     const [x, y] = at(p);
     // Over the border it goes on at the other side.
     d += `${d === "" || Math.abs(x - before) > (axes.right - LEFT) / 2 ? "M" : "L"}${x.toFixed(1)} ${y.toFixed(1)}`;
     before = x;
   }
-  const corners = walked.triangle.map(({ x }) => at({ turn: (x[0] * 180) / Math.PI, offset: x[1] }));
+  const corners = walked.steps[walked.steps.length - 1].corners.map(at);
   const spread = Math.max(...corners.map(([x]) => x)) - Math.min(...corners.map(([x]) => x));
   return (
-    <g class="walk" data-steps={walked.path.length}>
+    <g class="walk" data-steps={path.length}>
       {spread < (axes.right - LEFT) / 2 && <path class="triangle" d={`M${corners.map((c) => c.join(" ")).join("L")}Z`} />}
       <path class="way out" d={d} />
       <path class="way" d={d} />
-      {walked.path.map((p, i) => (
-        <circle key={i} class="step" cx={at(p)[0]} cy={at(p)[1]} r={i === walked.path.length - 1 ? 4 : 2} />
+      {path.map((p, i) => (
+        <circle key={i} class="step" cx={at(p)[0]} cy={at(p)[1]} r={i === path.length - 1 ? 4 : 2} />
       ))}
     </g>
   );
@@ -261,7 +263,7 @@ function Under({ face, axes, at }: { face: Face; axes: Axes; at: Hand | null }) 
   const where = t("face.underWhere", { turn: fixed(at.turn, 1), mm: fixed(at.beside, 2) });
   const what = !known ? "…" : known.answer ? t("face.underBad", { bad: fixed(known.answer.ways[known.answer.chosen].guarded, 1) }) : t("face.underNot");
   const [x, y] = [axes.x(at.turn), axes.y(at.beside)];
-  const wide = 12 + 6.4 * Math.max(where.length, what.length);
+  const wide = 14 + Math.max(widthOf(where), widthOf(what, true));
   const left = x + 14 + wide > axes.right ? x - 14 - wide : x + 14;
   const top = Math.min(Math.max(TOP, y - 20), axes.bottom - 40);
   return (

@@ -4,6 +4,7 @@ import * as api from "../../base/api";
 import { activeId, changedFile, documents, open as openFile, openedElsewhere, project, serverGone, show, tell } from "../../store/session";
 import { placed } from "../../store/placed";
 import { t } from "../../words";
+import { figuresShown } from "../teaching/open";
 import { asksFace, fresh, given, used, without } from "./question";
 import { middle } from "./shape";
 import { Face } from "./state";
@@ -24,16 +25,21 @@ function told(error: unknown): void {
 const MOST = 40;
 
 /** Shows the window. */
-export async function showFacing(): Promise<void> {
+export function showFacing(): void {
+  figuresShown.value = false;
   facing.value = true;
-  try {
-    const files = project.value?.files.filter((f) => f.kind === "question" && f.name.endsWith(".toml")).slice(0, MOST) ?? [];
-    const texts = await Promise.all(files.map((f) => api.file(f.id)));
-    questions.value = files.filter((_, i) => asksFace(texts[i].text ?? ""));
-  } catch (error) {
-    told(error);
-  }
 }
+
+async function listed(known: api.Project): Promise<void> {
+  const files = known.files.filter((f) => f.kind === "question" && f.name.endsWith(".toml")).slice(0, MOST);
+  const texts = await Promise.all(files.map((f) => api.file(f.id)));
+  if (project.peek() === known) questions.value = files.filter((_, i) => asksFace(texts[i].text ?? ""));
+}
+
+// The window can be shown before the folder is known.
+effect(() => {
+  if (facing.value && project.value) listed(project.value).catch(told);
+});
 
 function taken(next: Face, text: string, sha256: string | null, saved: string): void {
   face.value?.close();
@@ -41,6 +47,7 @@ function taken(next: Face, text: string, sha256: string | null, saved: string): 
     next.saved.value = { text: saved, sha256 };
     face.value = next;
     facing.value = true;
+    figuresShown.value = false;
   });
   next.edited(text);
 }
@@ -139,6 +146,7 @@ export async function saveFace(of: Face): Promise<void> {
 
 /** Leaves the window for a file. */
 export async function leave(id?: string): Promise<void> {
+  figuresShown.value = false;
   facing.value = false;
   if (id && documents.value.some((d) => d.id === id)) show(id);
   else if (id) await openFile(id);

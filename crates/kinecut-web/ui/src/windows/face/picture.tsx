@@ -1,8 +1,8 @@
 // The part under the cutter: dragged to shift, turned by its ring; where teeth leave badly, well, and where they enter is the verb's answer.
 import { useRef } from "preact/hooks";
-import { fixed } from "../../base/format";
+import { fixed, short } from "../../base/format";
 import { untranslated } from "../../app/verbatim";
-import { t } from "../../words";
+import { t, unit } from "../../words";
 import type { Edge, FaceAnswer, Stretch } from "./answer";
 import { type Frame, type Point, faceOf, middle, pointOn, round, round360, strokeOf, turned } from "./shape";
 import { useWidth } from "./size";
@@ -137,10 +137,10 @@ function Held({ face, least, hand, width }: { face: Face; least: FaceAnswer; han
         <svg width={l.width} height={l.height} aria-hidden="true">
           <path class="body" d={faceOf(least.outline, l.frame, l.scale)} />
           <Cutter answer={least} l={l} />
-          <path class="feedline" d={`M8 ${l.centre[1]}H${l.width - 52}`} />
-          <path class="tip" d={`M${l.width - 52} ${l.centre[1] - 5}l10 5-10 5Z`} />
-          <text class="b accent" x={l.width - 38} y={l.centre[1] + 4}>
-            {t("face.feed")}
+          <path class="feedline" d={`M8 ${l.centre[1]}H${l.width - 18}`} />
+          <path class="tip" d={`M${l.width - 18} ${l.centre[1] - 5}l10 5-10 5Z`} />
+          <text class="b accent" x={l.width - 12} y={20} text-anchor="end">
+            {t("face.feed")} →
           </text>
           <Exits face={face} l={l} />
           <Marked face={face} l={l} />
@@ -253,7 +253,7 @@ function Scale({ l }: { l: Layout }) {
     <g class="scale" transform={`translate(14 ${l.height - 12})`}>
       <path d={`M0-5v5h${long}v-5`} />
       <text {...untranslated} x={long + 6} y={1}>
-        {mm} mm
+        {short(mm)} {unit("mm")}
       </text>
     </g>
   );

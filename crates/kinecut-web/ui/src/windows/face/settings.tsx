@@ -1,5 +1,5 @@
 // Typed numbers: the placement, the bad exits, the cutter; and the weights of edges by their names.
-import { fixed, short } from "../../base/format";
+import { digitsOf, fixed } from "../../base/format";
 import { Name } from "../../app/verbatim";
 import { t } from "../../words";
 import { Num } from "./number";
@@ -15,7 +15,7 @@ export function Settings({ face }: { face: Face }) {
   const wrong = face.leastWrong.value;
   const text = (path: (string | number)[]) => ({ value: of(path), wrong: wrong && wrong.key === path.join(".") ? wrong.message : null, set: (n: number) => change(face, path, n), clear: () => change(face, path, null) });
   const [first] = answer?.bad_exit_angles ?? [];
-  const bad = answer?.bad_exit_angles.length === 1 && first.from === 0 ? short(first.to) : null;
+  const bad = answer?.bad_exit_angles.length === 1 && first.from === 0 ? digitsOf(first.to) : null;
   return (
     <section class="panel" aria-label={t("face.settings")}>
       <h2 class="sr">{t("face.settings")}</h2>
@@ -23,11 +23,11 @@ export function Settings({ face }: { face: Face }) {
         <Num name="turn" label={t("face.turn")} unit="°" value={hand ? Number(hand.turn.toFixed(2)) : null} set={(n) => hand && face.move({ ...hand, turn: n })} />
         <Num name="offset" label={t("face.offset")} unit="mm" value={hand ? Number(hand.beside.toFixed(3)) : null} set={(n) => hand && face.move({ ...hand, beside: n })} />
         <Num name="bad" label={t("face.badUpTo")} unit="°" standard={bad} {...text(op("exit_angle_min"))} />
-        <Num name="guard" label={t("face.guard")} unit="°" standard={answer ? short(answer.guard) : null} {...text(op("guard"))} />
+        <Num name="guard" label={t("face.guard")} unit="°" standard={answer ? digitsOf(answer.guard) : null} {...text(op("guard"))} />
         <Num name="diameter" label={t("face.diameter")} unit="mm" {...text(["tool", "diameter"])} clear={null} />
         <Num name="teeth" label={t("face.teeth")} unit="" whole {...text(["tool", "teeth"])} clear={null} />
         <Num name="depth" label={t("face.depth")} unit="mm" {...text(op("depth"))} clear={null} />
-        <Num name="margin" label={t("face.margin")} unit="mm" standard={answer ? short(answer.margin) : null} {...text(op("margin"))} />
+        <Num name="margin" label={t("face.margin")} unit="mm" standard={answer ? digitsOf(answer.margin) : null} {...text(op("margin"))} />
       </div>
     </section>
   );
@@ -78,7 +78,7 @@ export function Weights({ face }: { face: Face }) {
                     {fixed(length, 1)}
                   </td>
                   <td class="n">
-                    <Num name={`weight-${label}`} label={t("face.weightOf", { name: label })} unit="" value={face.number(path)} standard={short(weight)} set={(n) => change(face, path, n)} clear={() => change(face, path, null)} />
+                    <Num name={`weight-${label}`} label={t("face.weightOf", { name: label })} unit="" value={face.number(path)} standard={digitsOf(weight)} set={(n) => change(face, path, n)} clear={() => change(face, path, null)} />
                   </td>
                 </tr>
               );

@@ -1,11 +1,10 @@
 // One face: its text, the placement under the hand, and what the verb says of both. Every number that is shown as a result is the verb's.
 import { batch, computed, signal } from "@preact/signals";
 import * as api from "../../base/api";
-import { type FaceAnswer, type Optimum, type Placement, isOptimum } from "./answer";
-import { type Map, mapOf } from "./map";
+import { type FaceAnswer, type Optimum, type Placement, type Step, isOptimum } from "./answer";
+import { type Map, cellsOf } from "./map";
 import { atPlace, forLeast, given, placementOf, sector, valueOf } from "./question";
 import { middle, round360 } from "./shape";
-import { type Triangle, walk } from "./walk";
 
 /** A placement as the window has it: the part's turn [deg], and the cutter's centre line beside the middle of its width [mm]. */
 export interface Hand {
@@ -28,12 +27,8 @@ export interface Placed {
 export interface Walk {
   text: string;
   start: Hand;
-  triangle: Triangle;
-  /** The best corner of each triangle. */
-  path: Placement[];
-  evaluations: number;
-  /** The best value so far [mm]. */
-  value: number;
+  /** Its triangles so far. */
+  steps: Step[];
   state: "walks" | "ended" | "stopped";
 }
 
@@ -56,6 +51,8 @@ export const SECTORS = 24;
 
 /** An answer that is older than this has its place said [ms]. */
 const LATE = 100;
+/** A walk is shown at a step for so long [ms]. */
+const STRIDE = 30;
 /** Work that takes longer than a moment is asked for when the text has rested for so long [ms]. */
 const REST = 200;
 
@@ -73,16 +70,10 @@ class Line {
     private readonly name: string,
   ) {}
 
-  async ask(text: string, flags: { compare?: boolean; paper?: boolean } = {}): Promise<FaceAnswer | api.Finding | null> {
+  async ask(text: string, flags: { compare?: boolean; paper?: boolean; map?: boolean; walk?: boolean } = {}): Promise<FaceAnswer | api.Finding | null> {
     const [question, signal] = this.next(text);
     const told = await api.verb<FaceAnswer>("face", { ...question, ...flags }, signal);
     return signal.aborted || (!isAnswer(told) && told.code === "KC0009") ? null : told;
-  }
-
-  async page(text: string): Promise<string | null> {
-    const [question, signal] = this.next(text);
-    const told = await api.verbPage("face", question, signal);
-    return signal.aborted ? null : told;
   }
 
   stop(): void {
@@ -117,7 +108,6 @@ export class Face {
   /** Other ways and the paper's method. */
   readonly ways = signal<{ text: string; answer: FaceAnswer } | null>(null);
   readonly map = signal<{ text: string; map: Map } | null>(null);
-  readonly mapWrong = signal<string | null>(null);
   readonly comparing = signal(false);
   readonly refused = signal<string | null>(null);
   /** The label of edges that was clicked. */
@@ -136,7 +126,7 @@ export class Face {
     return optimum && isOptimum(optimum) ? optimum : null;
   });
 
-  private readonly lines = { live: new Line(this, "live"), least: new Line(this, "least"), ways: new Line(this, "ways"), page: new Line(this, "page"), under: new Line(this, "under"), walk: new Line(this, "walk"), sector: new Line(this, "sector") };
+  private readonly lines = { live: new Line(this, "live"), least: new Line(this, "least"), ways: new Line(this, "ways"), map: new Line(this, "map"), under: new Line(this, "under"), walk: new Line(this, "walk"), sector: new Line(this, "sector") };
   private asking = false;
   private movedAt = 0;
   private timer = 0;
@@ -174,7 +164,7 @@ export class Face {
   private begun(): void {
     clearTimeout(this.timer);
     this.lines.ways.stop();
-    this.lines.page.stop();
+    this.lines.map.stop();
     void this.searched().then((found) => {
       if (found) this.timer = window.setTimeout(() => void this.compared(), REST);
     });
@@ -221,10 +211,10 @@ export class Face {
     const old = () => text !== this.text.value;
     this.comparing.value = true;
     try {
-      const page = await this.lines.page.page(forLeast(text));
-      if (page === null || old()) return;
-      const least = this.least.value?.answer;
-      if (least) this.drawn(page, least, text);
+      const mapped = await this.lines.map.ask(forLeast(text), { map: true });
+      if (mapped === null || old()) return;
+      const map = isAnswer(mapped) && mapped.map ? cellsOf(mapped.map) : null;
+      this.map.value = map && { text, map };
       const told = await this.lines.ways.ask(forLeast(text), { compare: true, paper: true });
       if (told === null || old()) return;
       if (isAnswer(told)) this.ways.value = { text, answer: told };
@@ -232,21 +222,6 @@ export class Face {
       if (!old()) this.failed(error);
     } finally {
       if (!old()) this.comparing.value = false;
-    }
-  }
-
-  private drawn(page: string, least: FaceAnswer, text: string): void {
-    try {
-      const map = mapOf(page, least);
-      batch(() => {
-        this.map.value = map && { text, map };
-        this.mapWrong.value = null;
-      });
-    } catch (error) {
-      batch(() => {
-        this.map.value = null;
-        this.mapWrong.value = String(error);
-      });
     }
   }
 
@@ -340,38 +315,26 @@ export class Face {
     }
   }
 
-  /** Walks by the paper's method from the placement under the hand. */
+  /** Walks by the paper's method from the placement under the hand: the verb tells all steps at once, they are shown one by one. */
   async walkFrom(): Promise<void> {
     const hand = this.hand.value;
     const answer = this.least.value?.answer;
     const text = this.text.value;
     if (!hand || !answer || this.least.value?.text !== text) return;
-    const start = { turn: hand.turn, offset: middle(answer.outline, hand.turn) + hand.beside };
-    const path: Placement[] = [];
-    const put = (state: Walk["state"], triangle: Triangle, evaluations: number) => {
-      this.walk.value = { text, start: hand, triangle, path: [...path], evaluations, value: triangle[0].value, state };
-    };
-    const ask = async (turn: number, offset: number): Promise<number | null> => {
-      const told = await this.lines.walk.ask(atPlace(text, turn, offset));
-      if (told === null || this.text.value !== text || this.walk.value?.state === "stopped") return null;
-      if (!isAnswer(told)) throw new Error(told.message);
-      return told.ways[told.chosen].guarded;
-    };
     this.walk.value = null;
     try {
-      const end = await walk(answer, start, {
-        ask,
-        step: (triangle, evaluations) => {
-          const [turn, offset] = [(triangle[0].x[0] * 180) / Math.PI, triangle[0].x[1]];
-          const last = path[path.length - 1];
-          if (!last || last.turn !== turn || last.offset !== offset) path.push({ turn, offset });
-          put("walks", triangle, evaluations);
-        },
-      });
-      const now = this.walk.peek();
-      if (now) this.walk.value = { ...now, state: end ? "ended" : "stopped", evaluations: end?.evaluations ?? now.evaluations };
+      const told = await this.lines.walk.ask(atPlace(text, hand.turn, middle(answer.outline, hand.turn) + hand.beside), { walk: true });
+      if (told === null || this.text.value !== text) return;
+      if (!isAnswer(told)) throw new Error(told.message);
+      const steps = told.walk?.steps ?? [];
+      if (steps.length === 0) return;
+      const still = matchMedia("(prefers-reduced-motion: reduce)").matches;
+      for (let n = still ? steps.length : 1; n <= steps.length; n++) {
+        if (n > 1 && !still) await new Promise((done) => setTimeout(done, STRIDE));
+        if (this.text.value !== text || this.walk.peek()?.state === "stopped") return;
+        this.walk.value = { text, start: hand, steps: steps.slice(0, n), state: n < steps.length ? "walks" : "ended" };
+      }
     } catch (error) {
-      if (this.walk.value) this.walk.value = { ...this.walk.value, state: "stopped" };
       this.failed(error);
     }
   }

@@ -47,7 +47,7 @@ export function Ways({ face }: { face: Face }) {
             <tbody>
               {shown.map((w, i) => (
                 <tr key={i} class={w.unbeaten ? "" : "beaten"}>
-                  <th scope="row">
+                  <th scope="row" id={`way-${i}`}>
                     {isLeast(w) && <span aria-hidden="true">★ </span>}
                     <Said text={w.name} />
                     {!w.unbeaten && <span class="sr">{t("face.beaten")}</span>}
@@ -59,7 +59,7 @@ export function Ways({ face }: { face: Face }) {
                   <td class="n" translate={false}>{fixed(w.feed_length, 1)}</td>
                   <td>
                     {w.offset !== null && w.turn !== null && (
-                      <button class="small" onClick={() => go(w)} aria-label={t("face.goWay", { name: w.name })}>
+                      <button class="small" id={`go-${i}`} onClick={() => go(w)} aria-labelledby={`go-${i} way-${i}`}>
                         {t("face.goThere")}
                       </button>
                     )}
@@ -76,20 +76,13 @@ export function Ways({ face }: { face: Face }) {
   );
 }
 
-/** The walk in words; begun at the part as drawn it is held against the verb's own run. */
+/** The walk in words. */
 function Walked({ face }: { face: Face }) {
   const walked = face.walk.value;
   if (!walked || walked.text !== face.text.value) return null;
-  const said = { mm: fixed(walked.value, 3), n: walked.evaluations, turn: fixed(walked.start.turn, 1), beside: fixed(walked.start.beside, 2) };
-  const own = face.ways.value?.answer.paper?.descent_from_as_drawn;
-  const asDrawn = walked.start.turn === 0 && walked.start.beside === 0 && own && face.ways.value?.text === walked.text;
-  const agrees = asDrawn && Math.abs(own.value - walked.value) < 1e-6;
-  return (
-    <p data-walk={walked.state}>
-      {t(walked.state === "walks" ? "face.walking" : walked.state === "ended" ? "face.walked" : "face.walkStopped", said)}{" "}
-      {asDrawn && walked.state === "ended" && (agrees ? t("face.walkAgrees", { n: own.evaluations }) : <b>{t("face.walkDiffers", { mm: fixed(own.value, 3), n: own.evaluations })}</b>)}
-    </p>
-  );
+  const { corners, evaluations } = walked.steps[walked.steps.length - 1];
+  const said = { mm: fixed(corners[0].value, 3), n: evaluations, turn: fixed(walked.start.turn, 1), beside: fixed(walked.start.beside, 2) };
+  return <p data-walk={walked.state}>{t(walked.state === "walks" ? "face.walking" : walked.state === "ended" ? "face.walked" : "face.walkStopped", said)}</p>;
 }
 
 /** The paper's own method: its walk from the placement under the hand, and where it ends from others. */

@@ -14,7 +14,7 @@ import { outlineOf } from "./question";
 import { middle, short } from "./shape";
 import { Method, Ways } from "./ways";
 
-offer({ id: "command.facing", keys: [], run: () => void showFacing() });
+offer({ id: "command.facing", keys: [], run: () => showFacing() });
 offer({ id: "command.least", keys: [], run: () => facing.value && face.value && goLeast(face.value) });
 
 function goLeast(of: Face): void {
@@ -30,7 +30,7 @@ export function FaceWindow() {
       <Head of={of} />
       {of.refused.value && (
         <p class="across" role="alert">
-          {of.refused.value}
+          <Said text={of.refused.value} />
         </p>
       )}
       {of.leastWrong.value && (

@@ -7,7 +7,7 @@ import { shown } from "../../schema/unit";
 import { type Document, keyOf, rangeOf } from "../../store/document";
 import type { Value } from "../../toml/edit";
 import { type Path, at, parse, plain } from "../../toml/parse";
-import { t } from "../../words";
+import { t, typed, unit as unitText } from "../../words";
 import { Said } from "../../app/verbatim";
 import { change, drop } from "./change";
 
@@ -84,15 +84,15 @@ export function NumberInput({ value, standard, unit, whole, id, name, set, clear
   const draft = useSignal<string | null>(null);
   const text = value === undefined ? "" : typeof value === "object" ? JSON.stringify(value) : String(value);
   const plainStandard = standard !== null && /^[-\d.]+/.test(standard) ? (/^[-\d.]*\d/.exec(standard)?.[0] ?? "") : (standard ?? "");
-  const take = (typed: string, final: boolean) => {
-    if (typed.trim() === "") {
+  const take = (entry: string, final: boolean) => {
+    if (entry.trim() === "") {
       if (clear && value !== undefined) clear();
       invalid(null);
       return;
     }
-    const simple = /^\s*[-+\u2212]?\d*[.,]?\d+\s*$/.test(typed);
+    const simple = /^\s*[-+\u2212]?\d*[.,]?\d+\s*$/.test(entry);
     if (!simple && !final) return;
-    const n = evaluate(typed);
+    const n = evaluate(entry);
     if (n === null || (whole && !Number.isInteger(n))) {
       if (final || simple) invalid(whole ? t("form.wrongWhole") : t("form.wrongNumber"));
       return;
@@ -117,9 +117,9 @@ export function NumberInput({ value, standard, unit, whole, id, name, set, clear
         inputMode="decimal"
         autocomplete="off"
         spellcheck={false}
-        placeholder={plainStandard}
+        placeholder={typed(plainStandard)}
         title={value === undefined && standard !== null ? t(standardIs, { name }) : undefined}
-        value={draft.value ?? text}
+        value={draft.value ?? typed(text)}
         onInput={(e) => {
           draft.value = e.currentTarget.value;
           take(draft.value, false);
@@ -140,7 +140,7 @@ export function NumberInput({ value, standard, unit, whole, id, name, set, clear
           step(e.key === "ArrowUp" ? by : -by);
         }}
       />
-      {unit && <u translate={false}>{unit}</u>}
+      {unit && <u translate={false}>{unitText(unit)}</u>}
     </span>
   );
 }

@@ -3,7 +3,7 @@ import { signal } from "@preact/signals";
 import type { Document } from "../../store/document";
 import { panel } from "../../app/go";
 import { Splitter } from "../../app/splitter";
-import { t } from "../../words";
+import { foreign, t } from "../../words";
 import { FindingsPanel } from "./findings";
 import { FormPanel } from "./form";
 import { PartPanel } from "./part";
@@ -23,7 +23,7 @@ export function JobWindow({ doc }: { doc: Document }) {
     "--findings": widths.findings.value > 0 ? `${widths.findings.value}px` : "fit-content(44%)",
   };
   return (
-    <main class="work" style={style} data-panel-shown={panel.value}>
+    <main class="work" lang={foreign("form.stock")} style={style} data-panel-shown={panel.value}>
       <h1 class="sr" translate={false}>
         {doc.name} {typeof doc.values.value.title === "string" ? doc.values.value.title : ""}
       </h1>

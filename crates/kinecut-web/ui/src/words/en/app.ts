@@ -10,6 +10,7 @@ export const app = {
   "bar.save": "Save",
   "bar.saveName": "Save {name}",
   "bar.theme": "Light or dark",
+  "bar.language": "Language",
   "bar.keys": "Keys",
   "bar.planned": "planned in {ms} ms",
   "bar.planning": "planning",
@@ -50,6 +51,7 @@ export const app = {
   "conflict.mineHead": "Mine",
   "conflict.theirsHead": "On disk",
   "conflict.same": "Lines that differ are marked.",
+  "language.failed": "The texts of {name} could not be loaded.",
   "notice.close": "Close the message",
   // Commands and keys.
   "keys.title": "Keys",
@@ -89,6 +91,10 @@ export const app = {
   "command.keys": "Keys",
   "command.report": "Save the report",
   "command.drilling": "New drilling",
+  "command.figures": "Figures of the papers",
+  "figures.tab": "Figures",
+  "figures.loading": "The figures are loaded.",
+  "figures.notLoaded": "The figures could not be loaded: reload the page.",
   "command.turn": "In the part: turn; Shift: pan; plus, minus: zoom",
   // Names of keys whose own words would not do.
   "key.at": "Centre",

@@ -136,7 +136,7 @@ export const drill = {
   "drill.feedShare": "feed, as a share of {most} mm/rev",
   "drill.inMaterial": "{share} in material",
   "drill.wayAxis": "way from the start [mm]",
-  "drill.noLoad": "The curve is drawn when the sheet has come, for a single hole.",
+  "drill.noLoad": "There is no curve of this hole.",
   "drill.tableOf": "Table: {name}",
   "drill.zones": "Zones",
   "drill.zone": "Zone",
