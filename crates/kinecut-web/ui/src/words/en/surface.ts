@@ -142,7 +142,7 @@ export const surface = {
   "layouts.cover": "cover",
   "layouts.moved": "moved",
   "layouts.overhang": "overhang",
-  "axes.which": "Machine",
+  "axes.which": "Choice of the machine",
   "axes.layout": "layout {code}",
   "axes.choose": "choose a machine",
   "axes.askSurface": "Ask it for the surface",
