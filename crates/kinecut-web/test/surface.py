@@ -404,7 +404,7 @@ def moves(page: Page, verb: Verb, served: Served) -> None:
     assert page.locator('[data-axis="A"] .told').inner_text() == verb("machine", "trt_xyzac", "--at", "A80")["pose"]["findings"][0]["message"]
     clean(page, "machine")
     page.locator("[data-home]").click()
-    page.locator("[data-pose]").fill("X10 Z5 J-0.7 K0.7")
+    page.locator("input[data-pose]").fill("X10 Z5 J-0.7 K0.7")
     page.locator("[data-inverse]").click()
     page.locator("[data-solution]").first.wait_for(timeout=LONG)
     solutions = verb("ik", "trt_xyzac", "--at", "X10 Z5 J-0.7 K0.7")["solutions"]

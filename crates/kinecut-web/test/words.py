@@ -283,7 +283,9 @@ def pseudo(browser: Browser, served: Served) -> None:
         drilled(page)
 
     windows = {"app": lambda page: page.locator('[data-open="languages"]').click(), "job": job, "drill": drill, "face": faced}
-    assert set(windows) == {p.stem for p in (WORDS / "en").glob("*.ts")} - {"index"}, "a window without its check"
+    # The other windows are looked at by scripts of their own.
+    own = {p.stem for p in Path(__file__).parent.glob("*.py") if "def pseudo(" in p.read_text()}
+    assert {p.stem for p in (WORDS / "en").glob("*.ts")} - {"index"} <= set(windows) | own, "a window without its check"
     found: list[str] = []
     for name, opened in windows.items():
         watched = Watched(browser, SIZES[0], "light")
