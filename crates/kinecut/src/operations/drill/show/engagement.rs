@@ -37,7 +37,7 @@ pub struct LoadCurve {
     pub complete: bool,
     /// The way at feed from the start [mm], never falling.
     pub way: Vec<f64>,
-    /// The share of the cutting disc in material at each place of the way [1].
+    /// The share of the cutting disc in material at each place of the way, from 0 to 1.
     pub share: Vec<f64>,
 }
 
