@@ -1,8 +1,12 @@
 // Questions of one kind: the newest counts, and an older one is given up.
-import type { Finding } from "../../base/api";
+import { type Finding, Refused } from "../../base/api";
 
 /** The verb's word for work that is no longer wanted. */
 const CANCELLED = "KC0009";
+
+/** Times that a question is asked again while the server is busy, and the time between [ms]. */
+const MOST = 50;
+const PAUSE = 200;
 
 /** Whether an answer is what is wrong with the question. */
 export function isFinding(answer: unknown): answer is Finding {
@@ -18,12 +22,17 @@ export class Newest {
     this.control?.abort();
     const control = new AbortController();
     this.control = control;
-    try {
-      const answer = await question(control.signal, ++this.generation);
-      return control.signal.aborted || (isFinding(answer) && answer.code === CANCELLED) ? null : answer;
-    } catch (error) {
-      if (control.signal.aborted) return null;
-      throw error;
+    for (let again = 0; ; again++) {
+      try {
+        const answer = await question(control.signal, ++this.generation);
+        return control.signal.aborted || (isFinding(answer) && answer.code === CANCELLED) ? null : answer;
+      } catch (error) {
+        if (control.signal.aborted) return null;
+        // Drawings of a gallery may fill the server's queue; the newest question waits for its turn.
+        if (!(error instanceof Refused && error.reason === "busy") || again === MOST) throw error;
+        await new Promise((done) => setTimeout(done, PAUSE));
+        if (control.signal.aborted) return null;
+      }
     }
   }
 

@@ -52,6 +52,7 @@ export function TextNumber({ id, label, name, value, standard, unit, put, wrong 
         <input
           id={`sf-${id}`}
           aria-label={name}
+          translate={false}
           inputMode="decimal"
           autocomplete="off"
           spellcheck={false}
