@@ -455,6 +455,19 @@ def looks(browser: Browser, served: Served) -> None:
             watched.close(served.address)
 
 
+def beside(browser: Browser, served: Served) -> None:
+    """A text that is no file yet lies open in another tab."""
+    watched = Watched(browser, (1400, 900), "light")
+    page = watched.opened(served.address)
+    page.locator('[data-open="new"]').click()
+    page.locator('[data-new="drilling"]').click()
+    page.locator('main.drilling[data-state="done"]').wait_for(timeout=LONG)
+    page.locator('[data-open="surfaces"]').click()
+    page.locator('[data-split="61|53"]').wait_for(timeout=30_000)
+    assert page.locator(".across").count() == 0, page.locator(".across").first.inner_text()
+    watched.close(served.address)
+
+
 def pseudo(browser: Browser, served: Served) -> None:
     watched = Watched(browser, (1400, 900), "light")
     page = opened(watched, served, "lang=pseudo")
@@ -499,6 +512,7 @@ def main() -> None:
                 "gallery": lambda: gallery(page, verb),
                 "moves": lambda: moves(page, verb, served),
                 "closes": lambda: watched.close(served.address),
+                "beside": lambda: beside(browser, served),
                 "looks": lambda: looks(browser, served),
                 "pseudo": lambda: pseudo(browser, served),
             }

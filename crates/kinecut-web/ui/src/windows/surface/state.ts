@@ -38,7 +38,7 @@ export const making = signal(false);
 
 /** Texts of files that are being edited. */
 export function edits(): { file: string; text: string }[] {
-  return documents.peek().filter((d) => d.dirty.peek()).map((d) => ({ file: d.id, text: d.text.peek() }));
+  return documents.peek().filter((d) => d.dirty.peek() && !d.isNew).map((d) => ({ file: d.id, text: d.text.peek() }));
 }
 
 const question = computed(() => ({ ...of.value, set: set.value, at: at.value, reversed: reversed.value }));
