@@ -1,9 +1,10 @@
 // The question about a surface, its answer, and what of it is chosen. It has no file: it is kept in the address of the page.
 import { batch, computed, effect, signal } from "@preact/signals";
 import * as api from "../../base/api";
-import { documents, project, serverGone, tell } from "../../store/session";
+import { project, serverGone, tell } from "../../store/session";
 import { Newest, isFinding } from "./newest";
 import type { Known, OnMachine, Split, Surface } from "./answer";
+import { edits } from "./edits";
 import { VIEWS, type View } from "./space";
 
 /** An answer that is later than this says so [ms]. */
@@ -35,11 +36,6 @@ export const late = signal(false);
 export const made = signal<{ of: string; made: OnMachine } | null>(null);
 export const madeWrong = signal<api.Finding | null>(null);
 export const making = signal(false);
-
-/** Texts of files that are being edited. */
-export function edits(): { file: string; text: string }[] {
-  return documents.peek().filter((d) => d.dirty.peek() && !d.isNew).map((d) => ({ file: d.id, text: d.text.peek() }));
-}
 
 const question = computed(() => ({ ...of.value, set: set.value, at: at.value, reversed: reversed.value }));
 /** The question in one word, to tell whether an answer is of it. */

@@ -1,7 +1,8 @@
 // One machine: a layout, a file of the folder, or one that is known; its axes where the sliders are.
 import { batch, computed, effect, signal } from "@preact/signals";
 import * as api from "../../../base/api";
-import { documents, project, serverGone, tell } from "../../../store/session";
+import { project, serverGone, tell } from "../../../store/session";
+import { edits } from "../edits";
 import { Newest, isFinding } from "../newest";
 
 export interface Source {
@@ -66,10 +67,6 @@ const which = computed(() => JSON.stringify(source.value));
 const place = computed(() => JSON.stringify([source.value, joints.value, length.value]));
 export const stale = computed(() => pose.value !== null && pose.value.of !== place.value);
 export const name = computed(() => shown.value?.machine.name ?? source.value?.layout ?? "");
-
-function edits(): { file: string; text: string }[] {
-  return documents.peek().filter((d) => d.dirty.peek()).map((d) => ({ file: d.id, text: d.text.peek() }));
-}
 
 function told(error: unknown): void {
   if (error instanceof api.Gone) serverGone.value = true;
