@@ -94,7 +94,7 @@ impl Surface {
         answer(args, to, found)
     }
 
-    /// What a machine is asked.
+    /// The question to a machine.
     fn on_machine(&self) -> OnMachineWants {
         OnMachineWants {
             length: self.length,

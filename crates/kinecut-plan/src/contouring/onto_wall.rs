@@ -176,7 +176,7 @@ fn join(before: &mut Flat, after: &mut Flat, radius: f64) -> Result<()> {
     Ok(())
 }
 
-/// Where the lines or circles of two moves meet.
+/// Meetings of the lines or circles of two moves.
 fn crossings(a: &Flat, b: &Flat) -> Vec<DVec2> {
     match (a.about, b.about) {
         (None, None) => {

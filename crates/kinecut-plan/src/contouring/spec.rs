@@ -129,8 +129,8 @@ pub struct ContourSpec {
     pub cleared: bool,
     /// Finishing.
     pub finish: Option<ContourFinish>,
-    /// Where the moves under compensation are those of the wall itself, because the register holds the cutter's radius: least length
-    /// of the entry, and of the straight way on behind it, in radii of the cutter. `None`: those of the cutter's centre.
+    /// Least length of the entry, and of the straight way on behind it, in radii of the cutter, for moves under compensation that are
+    /// those of the wall itself: the register holds the cutter's radius. `None`: moves of the cutter's centre.
     pub onto_wall: Option<[f64; 2]>,
     /// Pieces of the loops along which it is cut; `None`: along whole loops. A contour in pieces has no ramp, no finish and no tabs.
     pub pieces: Option<Vec<OutlinePiece>>,

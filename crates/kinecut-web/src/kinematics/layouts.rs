@@ -15,7 +15,7 @@ use crate::work::{Who, work};
 /// Most layouts in an answer.
 const MOST_LAYOUTS: usize = 240;
 
-/// What is asked of layouts.
+/// A question about layouts.
 #[derive(Deserialize)]
 pub(super) struct LayoutsAsked {
     #[serde(flatten)]

@@ -15,7 +15,7 @@ use crate::rest::Rest;
 use crate::texts::{About, Texts};
 use crate::work::{Who, work};
 
-/// What is asked of a machine.
+/// A question about a machine.
 #[derive(Deserialize)]
 pub(super) struct MachineAsked {
     #[serde(flatten)]

@@ -30,7 +30,7 @@ pub(super) enum Chain {
     Inverse,
 }
 
-/// What is asked of the chain of a machine.
+/// A question about the chain of a machine.
 #[derive(Deserialize)]
 pub(super) struct PosesAsked {
     #[serde(flatten)]

@@ -19,7 +19,7 @@ use crate::rest::Rest;
 use crate::texts::About;
 use crate::work::{Who, work};
 
-/// What is asked of a surface.
+/// A question about a surface.
 #[derive(Deserialize)]
 pub(super) struct SurfaceAsked {
     #[serde(flatten)]

@@ -21,7 +21,7 @@ fn cone() -> (Folder, Running) {
     (folder, running)
 }
 
-/// What `--json` prints of an answer.
+/// An answer as `--json` prints it.
 fn printed<A: Answer>(answer: &A) -> String {
     let mut answers = Answers::new(false, Severity::Doubt);
     answers.json(Ok(answer)) + answers.json_end()

@@ -243,8 +243,10 @@ impl<'a> Writer<'a> {
                 format!("two operations give D{number} different values"),
             )
             .value_mm(value)
-            .help("give each operation a register of its own, or the same value")
-            .key("finish.wear_value")
+            .help(
+                "give each operation a register of its own, or the same value; two cutters need two numbers",
+            )
+            .key(if radius > 0.0 { "finish.wear_offset" } else { "finish.wear_value" })
             .into());
         }
         self.radii.push((number, value));

@@ -49,7 +49,7 @@ pub struct Envelope {
     pub moments: Vec<f64>,
     /// Triangles of the mesh up to each moment: walls first, in the order of time, and both ends after them.
     pub walls: Vec<usize>,
-    /// Where the triangles of the tool at the start end; those of the tool at the end follow.
+    /// End of the triangles of the tool at the start, behind the walls; those of the tool at the end follow.
     pub start: usize,
     /// Places at which curves are born, join, part or end.
     pub events: Vec<EnvelopeEvent>,

@@ -72,8 +72,16 @@ pub(in crate::job) fn to_ensure(
                 list.push(ToEnsure { what, value, room: room(Some(tool.number)) });
             }
         }
-        for (register, radius) in own.program.iter().flat_map(|program| &program.radii) {
-            let value = format!("radius {} mm", millimetres(*radius));
+        let given = own.program.iter().flat_map(|program| &program.radii);
+        let mut radii: Vec<(u32, f64)> = given.chain(&done.planned.radii).copied().collect();
+        radii.sort_by_key(|(register, _)| *register);
+        radii.dedup();
+        for (register, radius) in radii {
+            // As the operator types it.
+            let value = match job.post.control.compensation_radius(1.0) {
+                1.0 => format!("radius {} mm", millimetres(radius)),
+                share => format!("diameter {} mm", millimetres(radius / share)),
+            };
             list.push(ToEnsure { what: format!("register D{register}{of}"), value, room: None });
         }
     }

@@ -8,7 +8,7 @@ use crate::machine::{CoordinateCode, Machine};
 use crate::verbs::layouts::{attitudes, layout_machine, machine_drawing_at, with_usual_bodies};
 use crate::verbs::poses::{AxisValues, PoseTexts, PoseWords};
 
-/// What is asked of a machine.
+/// A question about a machine.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct MachineWants {
     /// Positions of its axes as words.

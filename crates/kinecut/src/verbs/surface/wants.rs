@@ -8,7 +8,7 @@ use crate::machine::Machine;
 use crate::machine::generation::AxisErrors;
 use crate::machine::surface::GeneratedSurface;
 
-/// What is asked of a surface.
+/// A question about a surface.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct SurfaceWants {
     /// Parameters with their values as text.

@@ -93,7 +93,7 @@ fn place(run: &PassRun, s: f64) -> [f64; 2] {
     [&way.x, &way.y].map(|v| v[i - 1] + (v[i] - v[i - 1]) * share)
 }
 
-/// What holds of every run.
+/// Rules of every run.
 fn holds(run: &PassRun, what: &str) {
     let samples = &run.samples;
     let last = samples.s.len() - 1;

@@ -3,7 +3,7 @@
 use kinecut::base::{Code, MemoryLoader, Severity, Silent};
 use kinecut::job::{Outcome, run};
 
-fn job(control: &str, operation: &str) -> String {
+pub(super) fn job(control: &str, operation: &str) -> String {
     format!(
         r#"format = 1
 post = {{ control = "{control}" }}

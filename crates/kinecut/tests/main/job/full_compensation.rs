@@ -3,34 +3,8 @@
 use kinecut::base::{Code, MemoryLoader, Silent};
 use kinecut::job::{Outcome, run};
 
+use super::contour::job;
 use crate::common::random::Random;
-
-fn job(control: &str, operation: &str) -> String {
-    format!(
-        r#"format = 1
-post = {{ control = "{control}" }}
-stock = {{ box = {{ min = [-80, -50, -20], max = [80, 50, 0] }} }}
-simulate = {{ step = 0.5, engagement = false }}
-[[tool]]
-number = 1
-type = "end-mill"
-diameter = 10
-teeth = 4
-flute_length = 26
-stickout = 40
-gauge_length = 120
-[[setup]]
-offset = "G54"
-[[setup.operation]]
-type = "contour"
-tool = 1
-speed = 6000
-feed = 1200
-stepdown = 5
-{operation}
-"#
-    )
-}
 
 fn cut(control: &str, operation: &str) -> Outcome {
     run("job.toml", &job(control, operation), &MemoryLoader::default(), &Silent)
@@ -156,4 +130,73 @@ fn a_register_is_needed_and_the_control_must_have_one() {
     .unwrap_err();
     assert_eq!(groove.0.key.as_deref(), Some("setup[0].operation[0].finish.compensation"), "{groove}");
     assert!(groove.0.message.contains("4.000, 30.000)"), "{groove}");
+}
+
+/// Slots, pockets, open lines, tabs, conventional milling, stock to leave: walls where they are wanted, no warning but that of corners.
+#[test]
+fn all_that_has_a_wall_can_be_posted_as_the_wall() {
+    let line = "polyline = [[-80, -20], [20, -20, 0.2], [40, 10], [40, 50]]\ndepth = 8\n";
+    let cases = [
+        ("type = \"pocket\"\nrectangle = { size = [60, 40], corner = 8 }\ndepth = 8\n".to_owned(), ""),
+        ("type = \"pocket\"\nrectangle = { size = [60, 40] }\ndepth = 8\n".to_owned(), ", wear_value = 0.03"),
+        ("type = \"slot\"\nline = [[-30, 0], [30, 0]]\nwidth = 16\ndepth = 6\n".to_owned(), ""),
+        (format!("type = \"contour\"\nside = \"left\"\n{line}"), ""),
+        (format!("type = \"contour\"\nside = \"right\"\n{line}"), ""),
+        (
+            "type = \"contour\"\nrectangle = { size = [120, 70], corner = 6 }\ndepth = 20\nbreakthrough = 0.5\n\
+             tabs = { count = 4, width = 6, height = 1.5 }\n"
+                .to_owned(),
+            ", spring_passes = 1, stepdown = 10",
+        ),
+        (
+            "type = \"contour\"\nside = \"inside\"\ndirection = \"conventional\"\ncircle = { diameter = 60 }\ndepth = 8\n"
+                .to_owned(),
+            "",
+        ),
+        ("type = \"contour\"\nrectangle = { size = [100, 60] }\nstock_to_leave = 0.3\ndepth = 8\n".to_owned(), ""),
+    ];
+    for (control, register) in CONTROLS {
+        for (operation, more) in &cases {
+            let finish =
+                format!("finish = {{ wear_offset = \"{register}\", compensation = \"full\"{more} }}");
+            let text =
+                job(control, &format!("{operation}{finish}")).replacen("type = \"contour\"\ntool", "tool", 1);
+            let outcome = run("job.toml", &text, &MemoryLoader::default(), &Silent)
+                .unwrap_or_else(|e| panic!("{control} {operation}: {e}"));
+            let found = &outcome.verdict.found;
+            assert!(outcome.verdict.is_safe(), "{control} {operation}: {found:?}");
+            assert!(found.iter().all(|f| f.code == Code::CORNERS_STAY), "{control} {operation}: {found:?}");
+            let wall = &outcome.deviation.bores[0];
+            assert!(wall.ends > 300 && wall.worst() < 2e-3, "{control} {operation}: {wall:?}");
+            // The operator reads the value with which it was proven.
+            let value = 5.0 + if more.contains("wear_value") { 0.03 } else { 0.0 };
+            let told = match control {
+                "linuxcnc" => format!("diameter {} mm", 2.0 * value),
+                _ => format!("radius {value} mm"),
+            };
+            let ensured = &outcome.verdict.to_ensure;
+            let register = format!("register {register}");
+            assert!(ensured.iter().any(|e| e.what == register && e.value == told), "{control}: {ensured:?}");
+        }
+    }
+}
+
+#[test]
+fn two_cutters_need_two_registers() {
+    let second = "[[tool]]\nnumber = 2\ntype = \"end-mill\"\ndiameter = 8\nteeth = 4\nflute_length = 20\nstickout = 40\n[[setup]]";
+    let of = |register: &str| {
+        let first = format!("{BRACKET}depth = 8\n{}", finish("D1", "full", 0.0));
+        let pocket = format!(
+            "[[setup.operation]]\ntype = \"pocket\"\ntool = 2\nspeed = 6000\nfeed = 800\ncircle = {{ diameter = 24 }}\n\
+             at = [-28, 0]\ndepth = 4\n{}",
+            finish(register, "full", 0.0)
+        );
+        let text = job("sinumerik-840d", &format!("{first}{pocket}")).replace("[[setup]]", second);
+        run("job.toml", &text, &MemoryLoader::default(), &Silent)
+    };
+    let same = of("D1").unwrap_err();
+    assert_eq!(same.0.key.as_deref(), Some("setup[0].operation[1].finish.wear_offset"), "{same}");
+    let outcome = of("D2").unwrap_or_else(|e| panic!("{e}"));
+    assert!(outcome.verdict.is_safe(), "{:?}", outcome.verdict.found);
+    assert!(outcome.deviation.bores.iter().all(|wall| wall.worst() < 2e-3), "{:?}", outcome.deviation.bores);
 }

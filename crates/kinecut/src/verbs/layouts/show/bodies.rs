@@ -110,7 +110,7 @@ impl Builder<'_> {
         self.out.links.push(Link { motion, work, axis, body, end, hub: None });
     }
 
-    /// What carries the body of link `i` on the work side: the next link, or the bed.
+    /// The carrier of the body of link `i` on the work side: the next link, or the bed.
     fn below(&self, i: usize) -> (Carrier, Tint) {
         if i + 1 < self.code.bed() { (Carrier::Axis(i + 1), looks::WORK) } else { (Carrier::Bed, looks::BED) }
     }
