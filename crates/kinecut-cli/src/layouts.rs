@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use kinecut::base::Error;
+use kinecut::base::{Error, Silent};
 use kinecut::machine::layouts::Query;
 use kinecut::verbs::layouts::{LISTED, LayoutWants, layout_sheet};
 
@@ -71,7 +71,7 @@ impl Layouts {
     /// Searches for layouts.
     pub(crate) fn answer(&self, args: &Printing) -> Result<u8, Error> {
         let to = To { out: self.out.as_deref(), svg: self.svg.as_deref(), ..To::default() };
-        answer(args, to, layout_sheet(&self.of, &self.query()?)?)
+        answer(args, to, layout_sheet(&self.of, &self.query()?, &Silent)?)
     }
 
     fn query(&self) -> Result<Query, Error> {

@@ -72,14 +72,33 @@ impl About {
     /// # Errors
     /// As [`About::texts`].
     pub(crate) fn texts_or_none(self, app: &App) -> Result<Option<Texts>, Refusal> {
-        if self.file.is_none() && self.new.is_none() { Ok(None) } else { self.texts(app).map(Some) }
+        if self.file.is_some() || self.new.is_some() {
+            return self.texts(app).map(Some);
+        }
+        if self.text.is_some() || self.beside.is_some() {
+            return Err(Refusal::request("a text is of a file: name it by `file` or `new`"));
+        }
+        Ok(None)
+    }
+
+    /// The texts of the other files, of a question that is about no file of its own.
+    ///
+    /// # Errors
+    /// One of them is not there, or a file is named.
+    pub(crate) fn others(&self, app: &App) -> Result<Texts, Refusal> {
+        if self.file.is_some() || self.new.is_some() || self.text.is_some() || self.beside.is_some() {
+            return Err(Refusal::request(
+                "the question is about no file: leave out `file`, `new`, `beside`, `text`",
+            ));
+        }
+        self.edited(app)
     }
 
     /// The texts of the other files alone.
     ///
     /// # Errors
     /// One of them is not there.
-    pub(crate) fn others(&self, app: &App) -> Result<Texts, Refusal> {
+    pub(crate) fn edited(&self, app: &App) -> Result<Texts, Refusal> {
         let edits = edited(app, self.edits.clone())?;
         Ok(Texts { name: String::new(), kind: Kind::Text, text: None, edits })
     }

@@ -115,6 +115,7 @@ async fn asked_of(
     let quoted = serde_json::Value::String(name.to_owned());
     let name = Name::deserialize(quoted)
         .map_err(|_| Refusal::not_found("no verb of the workbench has this name"))?;
+    fits(name, asked.flags, form)?;
     let texts = asked.about.texts(&app)?;
     let (id, mut flags) = (texts.id(), asked.flags);
     // Its page has what the flags ask for.
@@ -126,6 +127,21 @@ async fn asked_of(
         of_verb((name, flags), (app, &texts, &loader), form, watch)
     })
     .await
+}
+
+/// Refuses what would be passed over, and what no answer has.
+fn fits(name: Name, flags: Flags, form: Form) -> Result<(), Refusal> {
+    let only_json =
+        name == Name::Grazing && flags.gallery || name == Name::Envelope && flags.moments.is_some();
+    if only_json && form == Form::Page {
+        return Err(Refusal::request("`gallery` and `moments` have no page of their own: ask the verb"));
+    }
+    match flags.moments {
+        Some(moments) if !(1..=MOST_INTERVALS).contains(&moments) => {
+            Err(Refusal::request(format!("`moments` is from 1 to {MOST_INTERVALS}")))
+        }
+        _ => Ok(()),
+    }
 }
 
 fn of_verb(
@@ -161,7 +177,17 @@ fn of_verb(
         Name::Envelope => {
             let moves = TextItems::<EnvelopeTable>::read(&texts.name, text, ENVELOPE_LIST)?;
             if let (Some(moments), Form::Json) = (flags.moments, form) {
-                let moments = moments.clamp(1, MOST_INTERVALS);
+                // An answer is built whole, and the walls of one moment are some 30 kB.
+                let all = moves.count() as u64 * u64::from(moments);
+                if all > u64::from(MOST_INTERVALS) {
+                    let what = "the moves of the text have too many moments for one answer";
+                    let finding = Finding::error(kinecut::base::Code::JOB_VALUE, what).value(all as f64, "");
+                    return Err(finding
+                        .bound(f64::from(MOST_INTERVALS), "")
+                        .help("ask for fewer moments, or about fewer moves")
+                        .key("moments")
+                        .into());
+                }
                 return answers(&moves, form, watch, |table| growths(table, moments, loader, watch));
             }
             answers(&moves, form, watch, |table| envelope_sheets(table, loader, watch).map(Envelopes))

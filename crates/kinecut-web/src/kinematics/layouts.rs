@@ -5,7 +5,7 @@ use std::sync::Arc;
 use kinecut::verbs::layouts::{LISTED, LayoutWants, layout_sheet};
 use serde::Deserialize;
 
-use super::{Answered, Form, answered, lane};
+use super::{Answered, Form, answered, lane, short};
 use crate::app::App;
 use crate::lanes::Work;
 use crate::refusal::Refusal;
@@ -31,11 +31,12 @@ pub(super) struct LayoutsAsked {
 pub(super) async fn layouts(app: Arc<App>, asked: LayoutsAsked, form: Form) -> Answered {
     let LayoutsAsked { who, of, wants, rest } = asked;
     rest.is_empty()?;
+    short("of", Some(&of))?;
     if wants.show.unwrap_or(LISTED) > MOST_LAYOUTS {
         return Err(Refusal::request(format!("at most {MOST_LAYOUTS} layouts are listed")));
     }
-    work(app, (who, Work::Verb, lane(form, &["layouts"])), move |_, _| {
-        answered(form, wants.query(&of).and_then(|query| layout_sheet(&of, &query)))
+    work(app, (who, Work::Verb, lane(form, &["layouts"])), move |_, watch| {
+        answered(form, wants.query(&of).and_then(|query| layout_sheet(&of, &query, watch)))
     })
     .await
 }

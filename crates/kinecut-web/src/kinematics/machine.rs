@@ -7,7 +7,7 @@ use kinecut::job::machine::Loaded;
 use kinecut::verbs::machine::{KnownMachines, MachineWants};
 use serde::Deserialize;
 
-use super::{Answered, Form, MachineNamed, answered, lane};
+use super::{Answered, Form, MachineNamed, answered, lane, short};
 use crate::app::App;
 use crate::lanes::Work;
 use crate::refusal::Refusal;
@@ -49,6 +49,14 @@ impl MachineAsked {
         rest.is_empty()?;
         if machine.machine.is_some() && flags.layout.is_some() {
             return Err(Refusal::request("name one machine: `machine` or `layout`"));
+        }
+        machine.is_short()?;
+        short("layout", flags.layout.as_ref())?;
+        let MachineFlags { at, bodies, stroke, spindle, .. } = &flags;
+        let of_one = at.is_some() || *bodies || stroke.is_some() || spindle.is_some();
+        if machine.machine.is_none() && flags.layout.is_none() && of_one {
+            let refused = Refusal::request("`at`, `bodies`, `stroke`, `spindle` need a machine");
+            return Err(refused.help("name one: `machine` or `layout`"));
         }
         let texts = about.others(app)?;
         Ok((who, MachineQuestion { machine, flags, texts }))

@@ -53,8 +53,11 @@ pub(crate) fn routes() -> Router<Arc<App>> {
         let machine = move |State(app), Json(asked)| machine::machine(app, asked, form);
         router = router
             .route(&format!("/api/{path}/surface"), post(surface))
-            .route(&format!("/api/{path}/layouts"), post(layouts))
-            .route(&format!("/api/{path}/machine"), post(machine));
+            .route(&format!("/api/{path}/layouts"), post(layouts));
+        // A machine has no page.
+        if form != Form::Page {
+            router = router.route(&format!("/api/{path}/machine"), post(machine));
+        }
     }
     router
 }
@@ -98,7 +101,25 @@ struct MachineNamed {
     code: Option<String>,
 }
 
+/// Longest name of a surface, a machine, a code [bytes]: errors quote it.
+const LONGEST_NAME: usize = 200;
+
+/// Refuses a name that is longer than any.
+fn short(key: &str, name: Option<&String>) -> Result<(), Refusal> {
+    match name {
+        Some(name) if name.len() > LONGEST_NAME => {
+            Err(Refusal::request(format!("`{key}` is longer than {LONGEST_NAME} bytes")))
+        }
+        _ => Ok(()),
+    }
+}
+
 impl MachineNamed {
+    fn is_short(&self) -> Result<(), Refusal> {
+        short("machine", self.machine.as_ref())?;
+        short("code", self.code.as_ref())
+    }
+
     /// The machine of a file of the folder, as it is edited; or a known one.
     ///
     /// # Errors

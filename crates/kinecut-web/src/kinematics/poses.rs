@@ -18,8 +18,9 @@ use crate::texts::About;
 use crate::watch::Watch;
 use crate::work::{Made, Who, verb_answer, work};
 
-/// Most poses of a request.
+/// Most poses of a request, and longest line of one [bytes].
 const MOST_POSES: usize = 1000;
+const LONGEST: usize = 2000;
 
 /// Way along the chain of a machine.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -53,8 +54,13 @@ pub(super) async fn poses(app: Arc<App>, asked: PosesAsked, chain: Chain) -> Ans
     let PosesAsked { who, about, machine, at, length, lock, rest } = asked;
     rest.is_empty()?;
     if at.is_empty() || at.len() > MOST_POSES {
-        return Err(Refusal::request(format!("from 1 to {MOST_POSES} poses")));
+        return Err(Refusal::request(format!("`at` has from 1 to {MOST_POSES} poses")));
     }
+    if at.iter().chain(&lock).any(|line| line.len() > LONGEST || line.contains(['\n', '\r'])) {
+        let refused = Refusal::request(format!("a pose is one line of at most {LONGEST} bytes"));
+        return Err(refused.help("write an entry of `at` for each pose, as in X10 Y-3.5 A30"));
+    }
+    machine.is_short()?;
     if lock.is_some() && chain == Chain::Forward {
         return Err(Refusal::request("there is no key `lock`"));
     }
@@ -63,25 +69,23 @@ pub(super) async fn poses(app: Arc<App>, asked: PosesAsked, chain: Chain) -> Ans
     let lane = lane(Form::Json, &[word, machine.machine.as_deref().unwrap_or("")]);
     work(app, (who, Work::Verb, lane), move |app, watch| {
         let loaded = machine.load(app, &texts)?.machine;
-        let questions = PoseTexts::read("--at", &at.join("\n"))?;
-        let held = lock.map(|words| PoseTexts::read("--lock", &words)).transpose()?;
-        let held = held.and_then(|texts| texts.items.into_iter().next()).transpose()?;
+        let held = lock.map(|words| PoseTexts::one("--lock", &words)).transpose()?;
         let wants = InverseWants { locked: held.map(|w| AxisValues(w.words)).unwrap_or_default(), length };
         match chain {
-            Chain::Forward => each(&questions, watch, |words| forward(&loaded, words, length)),
-            Chain::Inverse => each(&questions, watch, |words| inverse(&loaded, words, &wants)),
+            Chain::Forward => each(&at, watch, |words| forward(&loaded, words, length)),
+            Chain::Inverse => each(&at, watch, |words| inverse(&loaded, words, &wants)),
         }
     })
     .await
 }
 
-/// The answers to all poses of a text.
-fn each<A: Answer>(questions: &PoseTexts, watch: &Watch, ask: impl Fn(&PoseWords) -> Found<A>) -> Made {
-    let mut answers = Answers::new(questions.list, Severity::Doubt);
+/// The answers to all poses, each in its place.
+fn each<A: Answer>(poses: &[String], watch: &Watch, ask: impl Fn(&PoseWords) -> Found<A>) -> Made {
+    let mut answers = Answers::new(poses.len() > 1, Severity::Doubt);
     let mut text = String::new();
-    for (i, words) in questions.items.iter().enumerate() {
+    for pose in poses {
         watch.still_wanted()?;
-        let one = words.clone().and_then(|words| ask(&words)).map_err(|e| questions.locate(i, e));
+        let one = PoseTexts::one("--at", pose).and_then(|words| ask(&words));
         text += &answers.json(one.as_ref());
     }
     text += answers.json_end();

@@ -10,7 +10,7 @@ use kinecut::verbs::surface::{
 };
 use serde::Deserialize;
 
-use super::{Answered, Form, MachineNamed, answered, lane};
+use super::{Answered, Form, MachineNamed, answered, lane, short};
 use crate::app::App;
 use crate::kind::Kind;
 use crate::lanes::Work;
@@ -80,7 +80,16 @@ impl SurfaceFlags {
 pub(super) async fn surface(app: Arc<App>, asked: SurfaceAsked, form: Form) -> Answered {
     let SurfaceAsked { who, about, machine, flags, rest } = asked;
     rest.is_empty()?;
-    let others = about.others(&app)?;
+    machine.is_short()?;
+    short("surface", flags.surface.as_ref())?;
+    let SurfaceFlags { verify, tolerance, errors, error_of, alternatives, .. } = &flags;
+    let of_machine =
+        verify.is_some() || tolerance.is_some() || errors.is_some() || !error_of.is_empty() || *alternatives;
+    if machine.machine.is_none() && of_machine {
+        let what = "`verify`, `tolerance`, `errors`, `error-of`, `alternatives` need a machine";
+        return Err(Refusal::request(what).help("name one: `machine`"));
+    }
+    let others = about.edited(&app)?;
     let texts = about.texts_or_none(&app)?;
     if texts.is_some() && flags.surface.is_some() {
         return Err(Refusal::request("name one surface: `surface` or a file"));

@@ -127,11 +127,44 @@ fn what_is_wrong_is_told_by_the_verb_and_no_path_leads_out() {
         ("/api/verb/layouts", json!({ "client": "c", "of": "XYZ", "worklinks": 1 })),
         ("/api/verb/machine", json!({ "client": "c", "machine": "mill3_xyz", "layout": "2103" })),
         ("/api/verb/fk", json!({ "client": "c", "machine": "mill3_xyz", "at": [] })),
+        // What would be passed over, or be more than it counts as.
+        ("/api/verb/fk", json!({ "client": "c", "machine": "mill3_xyz", "at": ["X1\nX2"] })),
+        ("/api/verb/fk", json!({ "client": "c", "machine": "mill3_xyz", "at": ["X1 ".repeat(5000)] })),
+        ("/api/verb/machine", json!({ "client": "c", "machine": "x".repeat(3000) })),
+        ("/api/verb/machine", json!({ "client": "c", "at": "X1" })),
+        ("/api/verb/machine", json!({ "client": "c", "machine": "mill3_xyz", "text": "code = \"2103\"" })),
+        (surface, json!({ "client": "c", "surface": "cone", "verify": "61" })),
+        (surface, json!({ "client": "c", "text": "like = \"cone\"" })),
+        (surface, json!({ "client": "c", "surface": "z".repeat(3000) })),
     ] {
         let refused = running.post(path, &asked);
         assert_eq!((refused.status, refused.reason().as_str()), (400, "request"), "{path} {asked}");
     }
+    // Each entry of `at` has its answer, in its place.
+    let asked = json!({ "client": "c", "machine": "mill3_xyz", "at": ["X1", "Q5", "{\"X\":2}"] });
+    let answers = running.post("/api/verb/fk", &asked).json();
+    let answers = answers.as_array().unwrap();
+    assert!(answers.len() == 3 && answers[1]["error"]["code"].is_string(), "{answers:?}");
+    assert_eq!((&answers[0]["tip"][0], &answers[2]["tip"][0]), (&json!(1.0), &json!(2.0)), "{answers:?}");
+    let held = json!({ "client": "c", "machine": "trt_xyzac", "at": ["X0"], "lock": "A1\nC5" });
+    assert_eq!(code("/api/verb/ik", &held), "KC0102");
     running.still_answers();
+}
+
+#[test]
+fn a_search_for_layouts_ends_when_it_is_no_longer_wanted() {
+    let (_folder, running) = cone();
+    let sizes = json!({ "stroke": [500, 400, 300], "part": [200, 200, 200], "show": 240, "spindle": "both" });
+    let mut asked = json!({ "client": "c", "of": "XYZABCBn", "generation": 1 });
+    asked.as_object_mut().unwrap().extend(sizes.as_object().unwrap().clone());
+    std::thread::scope(|scope| {
+        let long = scope.spawn(|| running.post("/api/verb/layouts", &asked));
+        until("it is at work", || running.look.held().waiting > 0);
+        let newer = json!({ "client": "c", "of": "XYZ", "generation": 2 });
+        assert_eq!(running.post("/api/verb/layouts", &newer).status, 200);
+        assert_eq!(long.join().unwrap().json()["code"], "KC0009");
+        until("nothing is at work", || running.look.held().waiting == 0);
+    });
 }
 
 #[test]
@@ -148,7 +181,7 @@ fn layouts_are_answered_letter_by_letter() {
         show: Some(3),
         ..LayoutWants::default()
     };
-    let own = layout_sheet("XYZAC", &wants.query("XYZAC").unwrap()).unwrap();
+    let own = layout_sheet("XYZAC", &wants.query("XYZAC").unwrap(), &Silent).unwrap();
     assert_eq!(body(&reply), printed(&own));
     assert_eq!(reply.json()["layouts"].as_array().unwrap().len(), 3);
     let weights = reply.json()["weights"].as_array().unwrap().clone();

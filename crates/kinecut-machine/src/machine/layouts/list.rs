@@ -11,7 +11,7 @@ use super::reach::{Reach, reach};
 use super::strokes::needed_strokes;
 use super::workspace::workspace;
 use super::{Attitude, Layout, LayoutKind, Query, Scores};
-use crate::base::{Code, Finding, Result};
+use crate::base::{Code, Finding, Progress, Result, Silent};
 use crate::machine::{CoordinateCode, Elementary, Word};
 
 /// An answer.
@@ -47,6 +47,18 @@ impl Layouts {
 /// # Errors
 /// Those of [`Query::check`] and [`super::Search::codes`].
 pub fn layouts(query: &Query) -> Result<Layouts> {
+    layouts_watched(query, &Silent)
+}
+
+/// The same for a search that may be given up: with sizes of a part it takes seconds from seven motions on.
+///
+/// # Errors
+/// As [`layouts`]; `KC0009` when cancelled.
+pub fn layouts_watched(query: &Query, progress: &dyn Progress) -> Result<Layouts> {
+    let still_wanted = || match progress.cancelled() {
+        true => Err(Finding::error(Code::CANCELLED, "the search for layouts was cancelled")),
+        false => Ok(()),
+    };
     query.check()?;
     let codes = query.search.codes()?;
     let mut known = Known::default();
@@ -55,6 +67,7 @@ pub fn layouts(query: &Query) -> Result<Layouts> {
     let mut answer = Vec::new();
     let mut enumerated = 0;
     for code in codes {
+        still_wanted()?;
         let facts = known.of(&code, query);
         for &attitude in &query.attitudes {
             if query.quarter_turns_are_one
@@ -93,13 +106,15 @@ pub fn layouts(query: &Query) -> Result<Layouts> {
     }
     sort(&mut answer, &query.weights);
     for layout in answer.iter_mut().take(query.listed) {
+        still_wanted()?;
         layout.reach = Some(known.reach(&layout.code, query));
     }
     // Each by itself, so that the result does not hang on the number of threads.
     let listed = if query.workspaces { query.listed.min(answer.len()) } else { 0 };
-    answer[..listed]
-        .par_iter_mut()
-        .for_each(|layout| layout.workspace = Some(workspace(&layout.code, &query.sizes)));
+    answer[..listed].par_iter_mut().try_for_each(|layout| {
+        layout.workspace = Some(workspace(&layout.code, &query.sizes));
+        still_wanted()
+    })?;
     let findings = if answer.is_empty() { vec![nothing_left(enumerated, &left_out)] } else { Vec::new() };
     Ok(Layouts { enumerated, left_out, layouts: answer, findings })
 }
@@ -339,6 +354,12 @@ mod tests {
         let mut query = base();
         query.weights[0].1 = -1.0;
         wrong.push((query, "weight.tool-rotaries"));
+        let mut query = base();
+        query.sizes.stroke[1] = 1e308;
+        wrong.push((query, "stroke.y"));
+        let mut query = base();
+        query.conditions.tilt = Some(-5f64.to_radians());
+        wrong.push((query, "-5 deg"));
         for (query, said) in wrong {
             let message = layouts(&query).unwrap_err().to_string();
             assert!(message.contains(said), "{message}");

@@ -23,7 +23,7 @@ mod workspace;
 pub use criterion::Criterion;
 pub use kind::{Attitude, LayoutKind};
 pub use layout::Layout;
-pub use list::{Layouts, layouts};
+pub use list::{Layouts, layouts, layouts_watched};
 pub use mobility::{is_regular, rank_without_spin};
 pub use query::{Conditions, Query, Stacking};
 pub use reach::{Reach, reach};

@@ -1,7 +1,7 @@
 //! The question: layouts to search, conditions, sizes and criteria.
 
 use super::{Attitude, Criterion, LayoutKind, LinkErrors, Masses, Search, Sizes};
-use crate::base::{Code, Finding, Result};
+use crate::base::{Code, Finding, MAX_LENGTH, Result};
 use crate::machine::Elementary;
 
 /// A question about layouts.
@@ -30,6 +30,9 @@ pub struct Query {
     pub workspaces: bool,
 }
 
+/// Largest mass, error or weight: larger ones leave no digits of the others in a score.
+const LARGEST: f64 = 1e9;
+
 impl Query {
     /// A question without conditions, with the usual sizes and weights.
     pub fn new(search: Search) -> Query {
@@ -52,20 +55,26 @@ impl Query {
     /// # Errors
     /// `KC1122` for a number that is not finite or has the wrong sign, or a range that is reversed.
     pub fn check(&self) -> Result<()> {
-        let positive = |name: &str, value: f64, zero: bool| {
-            if value.is_finite() && (value > 0.0 || zero && value == 0.0) {
+        // The value in the unit in which it is asked for.
+        let within = |name: &str, value: f64, zero: bool, (most, unit): (f64, &str)| {
+            if value <= most && (value > 0.0 || zero && value == 0.0) {
                 return Ok(());
             }
-            let finding = Finding::error(Code::LAYOUT_QUERY, format!("{name} must be positive"));
-            Err(crate::base::Error::from(finding.value(value, "").bound(0.0, "").key(name.to_owned())))
+            let bound = if value > most { most } else { 0.0 };
+            let what = if bound > 0.0 { "is out of range" } else { "must be positive" };
+            let finding = Finding::error(Code::LAYOUT_QUERY, format!("{name} {what}"));
+            let finding = finding.value(value, unit).bound(bound, unit).key(name.to_owned());
+            Err(crate::base::Error::from(finding.help(format!("write a number from 0 to {most}"))))
         };
+        let length = |name: &str, value: f64, zero: bool| within(name, value, zero, (MAX_LENGTH, "mm"));
+        let positive = |name: &str, value: f64, zero: bool| within(name, value, zero, (LARGEST, ""));
         for (letter, stroke) in ["x", "y", "z"].iter().zip(self.sizes.stroke) {
-            positive(&format!("stroke.{letter}"), stroke, false)?;
+            length(&format!("stroke.{letter}"), stroke, false)?;
         }
         for (letter, size) in ["x", "y", "z"].iter().zip(self.sizes.part.unwrap_or([1.0; 3])) {
-            positive(&format!("part.{letter}"), size, false)?;
+            length(&format!("part.{letter}"), size, false)?;
         }
-        positive("tool_length", self.sizes.tool_length, true)?;
+        length("tool-length", self.sizes.tool_length, true)?;
         for (name, mass) in
             [("link", self.masses.link), ("work", self.masses.work), ("tool", self.masses.tool)]
         {
@@ -80,7 +89,7 @@ impl Query {
             positive(&format!("weight.{}", criterion.name()), *weight, true)?;
         }
         if let Some(tilt) = self.conditions.tilt {
-            positive("tilt", tilt, true)?;
+            within("tilt", tilt.to_degrees(), true, (180.0, "deg"))?;
         }
         for (range, letter) in self.sizes.rotary.iter().zip(["A", "B", "C", "7", "8", "9"]) {
             if let Some([low, high]) = range

@@ -15,10 +15,10 @@ pub use wants::{LISTED, LayoutWants};
 
 use serde::Serialize;
 
-use crate::base::{Code, Finding, Result};
+use crate::base::{Code, Finding, Progress, Result};
 use crate::job::Outputs;
 use crate::machine::Elementary;
-use crate::machine::layouts::{Attitude, Criterion, Layout, LayoutKind, Query, Sizes, layouts};
+use crate::machine::layouts::{Attitude, Criterion, Layout, LayoutKind, Query, Sizes, layouts_watched};
 use crate::page::Section;
 use crate::verbs::Answer;
 
@@ -49,9 +49,9 @@ pub struct LayoutSheet {
 /// All layouts that are asked for, the best first; `of` is what they are layouts of, in words.
 ///
 /// # Errors
-/// `KC1121`, `KC1122` for too many axes or a number out of range.
-pub fn layout_sheet(of: &str, query: &Query) -> Result<LayoutSheet> {
-    let found = layouts(query)?;
+/// `KC1121`, `KC1122` for too many axes or a number out of range; `KC0009` when cancelled.
+pub fn layout_sheet(of: &str, query: &Query, progress: &dyn Progress) -> Result<LayoutSheet> {
+    let found = layouts_watched(query, progress)?;
     let classes = found.classes().len();
     let left = found.layouts.len();
     Ok(LayoutSheet {

@@ -60,8 +60,7 @@ impl MachineWants {
     /// The positions of the axes.
     fn words(&self) -> Result<PoseWords> {
         let Some(words) = &self.at else { return Ok(PoseWords::default()) };
-        let first = PoseTexts::read("--at", words)?.items.into_iter().next();
-        first.unwrap_or_else(|| Ok(PoseWords::default()))
+        PoseTexts::one("--at", words)
     }
 
     /// The machine drawn at the positions; empty where no drawing is wanted.

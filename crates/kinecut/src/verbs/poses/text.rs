@@ -63,6 +63,22 @@ impl PoseTexts {
         Ok(poses)
     }
 
+    /// The one pose of a text.
+    ///
+    /// # Errors
+    /// As [`PoseTexts::read`], with the place of the error; `KC0102` for several poses.
+    pub fn one(name: &str, text: &str) -> Result<PoseWords> {
+        let mut poses = PoseTexts::read(name, text)?;
+        if poses.items.len() > 1 || poses.list {
+            return Err(Finding::error(Code::JOB_SHAPE, format!("{name} has more than one pose"))
+                .value(poses.items.len() as f64, "")
+                .bound(1.0, "")
+                .help("write one line of words, as in X10 Y-3.5 A30")
+                .into());
+        }
+        poses.items.remove(0).map_err(|e| poses.locate(0, e))
+    }
+
     fn json(text: &str) -> Result<PoseTexts> {
         let value: Value = serde_json::from_str(text)
             .map_err(|e| Finding::error(Code::JOB_SYNTAX, format!("the text is no JSON: {e}")))?;
