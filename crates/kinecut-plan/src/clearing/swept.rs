@@ -87,7 +87,7 @@ struct Piece {
 }
 
 /// The arc with which a cutter cuts.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Engagement {
     /// Angle of all of its parts [rad].
     pub total: f64,
@@ -98,6 +98,15 @@ pub struct Engagement {
     pub from_right: f64,
     /// Angle from the right normal of the travel to where its first part ends [rad]; 0 without any.
     pub to: f64,
+    /// Angle between the travel and the nearest place of all parts [rad]: the largest chip is its cosine, in feeds per tooth; a
+    /// quarter turn without any.
+    pub ahead: f64,
+}
+
+impl Engagement {
+    /// Without any part.
+    const NONE: Engagement =
+        Engagement { total: 0.0, largest: 0.0, from_right: PI, to: 0.0, ahead: FRAC_PI_2 };
 }
 
 impl Clearing {
@@ -368,10 +377,10 @@ impl Clearing {
             work.covers.push([from, PI]);
         }
         if !open {
-            return Engagement { from_right: PI, ..Engagement::default() };
+            return Engagement::NONE;
         }
         work.covers.sort_unstable_by(|a, b| a[0].total_cmp(&b[0]));
-        let mut cut = Engagement { from_right: PI, ..Engagement::default() };
+        let mut cut = Engagement::NONE;
         let mut gap = |from: f64, to: f64| {
             if to - from <= ROUNDING {
                 return;
@@ -382,6 +391,8 @@ impl Clearing {
             }
             cut.total += to - from;
             cut.largest = cut.largest.max(to - from);
+            let aside = if from > FRAC_PI_2 { from - FRAC_PI_2 } else { FRAC_PI_2 - to };
+            cut.ahead = cut.ahead.min(aside.max(0.0));
         };
         let mut reached = 0.0;
         let stocks = if has_edge { &self.stocks[..] } else { &[] };

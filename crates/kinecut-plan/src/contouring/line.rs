@@ -362,9 +362,13 @@ impl Planner<'_> {
         self.travel.route.finishing = true;
         self.keep_line(side, along, 0.0);
         let step = finish.stepdown.unwrap_or(spec.cutter.flute_length);
+        self.slow_down(track, rough.iter().map(|s| &s.track), finish)?;
         for level in &levels(spec.top, spec.depth + spec.breakthrough, step, |_| Ok(0.0))? {
             self.travel.route.level = level.index;
-            for _ in 0..=finish.spring_passes {
+            for time in 0..=finish.spring_passes {
+                if let Some(slower) = &mut self.travel.slower {
+                    slower.until = if time == 0 { f64::INFINITY } else { f64::NEG_INFINITY };
+                }
                 self.travel.route.over(start);
                 let down = if is_cut { finish.feed } else { spec.plunge_feed };
                 self.travel.route.vertically(ToolpathRole::Entry, ToolpathPace::Feed(down), level.floor);
@@ -379,6 +383,7 @@ impl Planner<'_> {
                 self.onto_wall(first)?;
             }
         }
+        self.travel.slower = None;
         Ok(())
     }
 }

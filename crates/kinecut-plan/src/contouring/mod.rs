@@ -10,11 +10,13 @@
 //! # Signs
 //! *Climb* with a clockwise spindle: the material that is kept lies on the right of the travel, so that the path runs
 //! clockwise around a part and counter-clockwise inside one. Feeds are those of the cutter's centre; where the feed at the
-//! wall is meant, that at each arc is `F (R - a) / R` inside and `F (R + a) / R` outside of a wall of radius `R`.
+//! wall is meant, that at each arc is `F (R - a) / R` inside and `F (R + a) / R` outside of a wall of radius `R`. Where it is asked
+//! for, a finish is slower in inside corners, so that its chip is not thicker there than along a straight wall.
 
 mod ball;
 mod chamfer;
 mod check;
+mod corner_feed;
 mod corners;
 mod covered;
 mod edge_break;
@@ -35,6 +37,7 @@ mod wear;
 
 pub use ball::BallBreak;
 pub use chamfer::Chamfer;
+pub use corner_feed::SlowedFeed;
 pub use corners::UncutCorner;
 pub use edge_break::EdgeBreak;
 pub use feed::centre_feed;

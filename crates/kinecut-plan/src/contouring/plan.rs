@@ -5,6 +5,7 @@ use std::f64::consts::FRAC_PI_2;
 use glam::DVec2;
 
 use super::check::{check, out_of_range};
+use super::corner_feed::{CornerFeed, SlowedFeed};
 use super::corners::{UncutCorner, remark, uncut};
 use super::lead::Lead;
 use super::line::plan_lines;
@@ -43,6 +44,8 @@ pub struct ContourPlan {
     pub levels: Vec<f64>,
     /// Corners that the cutter does not reach.
     pub uncut: Vec<UncutCorner>,
+    /// Stretches of the finish with a reduced feed; `None`: it is not reduced.
+    pub slowed: Option<SlowedFeed>,
     /// Advice and warnings.
     pub findings: Vec<Finding>,
 }
@@ -163,12 +166,20 @@ pub(super) struct Planner<'a> {
     pub(super) travel: Travel<'a>,
     pub(super) findings: Vec<Finding>,
     pub(super) loops: Vec<PlannedLoop>,
+    slowed: Option<SlowedFeed>,
 }
 
 impl<'a> Planner<'a> {
     /// Without a move.
     pub(super) fn new(spec: &'a ContourSpec, near: &'a NearestEdge) -> Planner<'a> {
-        Planner { spec, near, travel: Travel::new(spec), findings: Vec::new(), loops: Vec::new() }
+        Planner {
+            spec,
+            near,
+            travel: Travel::new(spec),
+            findings: Vec::new(),
+            loops: Vec::new(),
+            slowed: None,
+        }
     }
 }
 
@@ -178,7 +189,8 @@ impl Planner<'_> {
         let mut findings = self.findings;
         findings.extend(remark(&uncut, self.spec.radius()));
         let levels = heights[1..].to_vec();
-        ContourPlan { moves: self.travel.route.moves, loops: self.loops, levels, uncut, findings }
+        let (moves, loops, slowed) = (self.travel.route.moves, self.loops, self.slowed);
+        ContourPlan { moves, loops, levels, uncut, slowed, findings }
     }
 
     /// Whether loops of a kind are cut.
@@ -358,6 +370,10 @@ impl Planner<'_> {
         );
         let (key, help) = match spec.lead_radius.is_some() {
             true => ("lead_radius", "give a smaller lead_radius, or leave it out"),
+            false if spec.onto_wall.is_some() => (
+                "finish.compensation",
+                "an entry on to the contour itself is as long as the cutter's radius asks for: write compensation = \"wear\", give another start, or take a smaller cutter",
+            ),
             false => ("start", "give another start, or take a smaller cutter"),
         };
         Err(Finding::error(Code::LEAD_ROOM, what).point([p.x, p.y, 0.0]).help(help).key(key).into())
@@ -567,6 +583,10 @@ impl Planner<'_> {
         let (p, along) = track.at(start.at);
         let on = self.entered(start.lead.on(p, along, left));
         let laps = f64::from(finish.spring_passes + 1);
+        self.slow_down(track, rough.iter().map(|(t, _)| t), finish)?;
+        if let Some(slower) = &mut self.travel.slower {
+            slower.until = start.at + track.length();
+        }
         let mut last = p;
         for level in &floors {
             self.travel.route.level = level.index;
@@ -587,7 +607,25 @@ impl Planner<'_> {
             self.onto_wall(first)?;
             last = p;
         }
+        self.travel.slower = None;
         Ok(last)
+    }
+
+    /// Lets the feed of a finish along a track be reduced in corners, if it is to be; `rough`: the tracks that roughing has run.
+    pub(super) fn slow_down<'t>(
+        &mut self,
+        track: &Track,
+        rough: impl Iterator<Item = &'t Track>,
+        finish: &ContourFinish,
+    ) -> Result<()> {
+        self.travel.slower = None;
+        if finish.corner_feed {
+            let slowed = self.slowed.unwrap_or(SlowedFeed::NONE);
+            let found = CornerFeed::of(track, rough, finish, self.spec.radius())?;
+            self.slowed = Some(slowed.and(found.as_ref().map_or(SlowedFeed::AHEAD, |(_, more)| *more)));
+            self.travel.slower = found.map(|(feed, _)| feed);
+        }
+        Ok(())
     }
 
     /// A way on with its straight way behind the entry as an edge of its own.

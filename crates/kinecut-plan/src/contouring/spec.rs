@@ -84,6 +84,8 @@ pub struct ContourFinish {
     pub spring_passes: u32,
     /// Wear register of the control.
     pub wear: Option<Wear>,
+    /// Whether the feed is reduced where the chip would be thicker than along a straight wall: down to 0.3 of it.
+    pub corner_feed: bool,
 }
 
 /// Length of the line of a lead on which the control switches its compensation, in largest wears.

@@ -47,6 +47,12 @@ impl Track {
         self.begins[self.edges.len()]
     }
 
+    /// Least and greatest corner of the box around it [mm].
+    pub(super) fn bounds(&self) -> [DVec2; 2] {
+        let ([x0, x1], [y0, y1]) = (extent(&self.edges, DVec2::X), extent(&self.edges, DVec2::Y));
+        [DVec2::new(x0, y0), DVec2::new(x1, y1)]
+    }
+
     /// The stretch of an edge along the length [mm].
     pub(super) fn stretch(&self, edge: usize) -> [f64; 2] {
         [self.begins[edge], self.begins[edge + 1]]
@@ -101,6 +107,14 @@ impl Track {
             }
         }
     }
+}
+
+/// Least and greatest length along a direction [mm].
+fn extent(edges: &[OutlineEdge], direction: DVec2) -> [f64; 2] {
+    edges.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], edge| {
+        let [a, b] = edge.extent(direction);
+        [if a < low { a } else { low }, if b > high { b } else { high }]
+    })
 }
 
 #[cfg(test)]

@@ -1,5 +1,6 @@
 //! The moves of a contour, made one after the other: along a track at heights, over tabs, up and down.
 
+use super::corner_feed::CornerFeed;
 use super::feed::centre_feed;
 use super::spec::ContourSpec;
 use super::tabs::{PlacedTab, lifted};
@@ -16,6 +17,8 @@ const NOTHING: f64 = 1e-9;
 pub(super) struct Travel<'a> {
     spec: &'a ContourSpec,
     pub(super) route: Route,
+    /// The feed in corners of the track that is followed, where it is reduced.
+    pub(super) slower: Option<CornerFeed>,
 }
 
 /// A stretch along a track while the height changes evenly.
@@ -31,7 +34,7 @@ pub(super) struct Stretch {
 
 impl<'a> Travel<'a> {
     pub(super) fn new(spec: &'a ContourSpec) -> Travel<'a> {
-        Travel { spec, route: Route::new(spec.retract_z, spec.approach_z) }
+        Travel { spec, route: Route::new(spec.retract_z, spec.approach_z), slower: None }
     }
 
     /// Along a track, lifted over its tabs.
@@ -60,11 +63,22 @@ impl<'a> Travel<'a> {
             }
             let mut gone = from;
             for edge in track.part(from, to) {
-                let end = gone + edge.length();
-                let z = [gone, end].map(|s| z0 + (z1 - z0) * ((s - from) / (to - from)).clamp(0.0, 1.0));
-                let feed = if down { feed } else { self.feed_of(&edge, feed) };
-                self.route.edge(role, ToolpathPace::Feed(feed), &edge, z)?;
-                gone = end;
+                let (begin, length) = (gone, edge.length());
+                let end = begin + length;
+                let height = |s: f64| z0 + (z1 - z0) * ((s - from) / (to - from)).clamp(0.0, 1.0);
+                let parts = self.slower.as_ref().map(|s| s.along([begin, end])).unwrap_or_default();
+                let whole = [(end, parts.first().map_or(1.0, |(_, share)| *share))];
+                for &(last, share) in if parts.len() > 1 { &parts[..] } else { &whole } {
+                    let part = match parts.len() > 1 {
+                        true => edge.part((gone - begin) / length, (last - begin) / length),
+                        false => edge,
+                    };
+                    let usual = if down { feed } else { self.feed_of(&edge, feed) };
+                    let feed = if share < 1.0 && !down { usual.min(share * feed) } else { usual };
+                    let z = [gone, last].map(height);
+                    self.route.edge(role, ToolpathPace::Feed(feed), &part, z)?;
+                    gone = last;
+                }
             }
         }
         Ok(())

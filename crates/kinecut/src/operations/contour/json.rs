@@ -4,6 +4,7 @@ use serde::Serialize;
 
 use super::PlannedContour;
 use crate::contouring::{ContourSide, PlannedLoop};
+use crate::operations::slowed::SlowedJson;
 
 /// A contour; lengths [mm], heights in the work offset.
 #[derive(Debug, Serialize)]
@@ -16,6 +17,8 @@ pub(crate) struct ContourJson {
     feed: f64,
     plunge_feed: f64,
     loops: Vec<LoopJson>,
+    /// Stretches of the finish whose feed is reduced, if it is to be.
+    corner_feed: Option<SlowedJson>,
     /// Inside corners that the cutter does not reach.
     uncut_corners: Vec<CornerJson>,
 }
@@ -55,6 +58,12 @@ impl ContourJson {
             feed: plan.spec.feed * 60.0,
             plunge_feed: plan.spec.plunge_feed * 60.0,
             loops: plan.plan.loops.iter().map(one).collect(),
+            corner_feed: plan
+                .plan
+                .slowed
+                .as_ref()
+                .zip(plan.spec.finish)
+                .map(|(slowed, finish)| SlowedJson::new(slowed, finish.feed)),
             uncut_corners: corners
                 .map(|c| CornerJson { at: c.at.to_array(), thickness: c.thickness })
                 .collect(),

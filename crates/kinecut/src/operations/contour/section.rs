@@ -4,7 +4,7 @@ use super::PlannedContour;
 use crate::contouring::ContourSide;
 use crate::geom::OutlineEdge;
 use crate::operations::measured::BoreMeasure;
-use crate::operations::{Shown, uncut};
+use crate::operations::{Shown, slowed, uncut};
 use crate::page::{
     Cell, Circle, Colour, Column, Dash, Fact, Ink, Plan, PlanLine, Row, Section, Table, Width, fixed, trimmed,
 };
@@ -54,6 +54,9 @@ fn facts(plan: &PlannedContour, wall: Option<&BoreMeasure>) -> Vec<Fact> {
         crate::holes::FeedAt::Wall => "at the wall",
         crate::holes::FeedAt::Centre => "of the cutter\u{2019}s centre",
     }));
+    if let Some((slowed, finish)) = plan.plan.slowed.as_ref().zip(spec.finish) {
+        facts.push(slowed::fact(slowed, finish.feed));
+    }
     facts.extend(uncut::facts(&plan.plan.uncut, plan.spec.radius()));
     for note in &of.notes {
         facts.push(Fact::new("Drawing", note.clone()));

@@ -217,6 +217,10 @@ pub struct ContourFinishTable {
     /// Largest depth of a level; default: the length of the flutes.
     #[serde(default, alias = "axial_step")]
     pub stepdown: Option<f64>,
+    /// Whether the feed is reduced in inside corners, so that the chip is not thicker there than along a straight wall: to 0.3 of it
+    /// at least; default false.
+    #[serde(default)]
+    pub corner_feed: bool,
     /// Register of the control by whose value the wall is moved at the machine: "D2".
     #[serde(default)]
     pub wear_offset: Option<String>,

@@ -3,6 +3,7 @@
 use serde::Serialize;
 
 use super::PlannedPocket;
+use crate::operations::slowed::SlowedJson;
 
 /// A pocket; lengths [mm], areas [mm2], heights in the work offset, figures of one level.
 #[derive(Debug, Serialize)]
@@ -35,6 +36,8 @@ pub(crate) struct PocketJson {
     area: f64,
     /// Area left to the lap along the wall.
     left_to_lap: f64,
+    /// Stretches of the finish whose feed is reduced, if it is to be.
+    corner_feed: Option<SlowedJson>,
     /// Inside corners that the cutter does not reach.
     uncut_corners: Vec<PocketCornerJson>,
 }
@@ -85,6 +88,12 @@ impl PocketJson {
             least_length: f.bound,
             area: f.area,
             left_to_lap: f.left,
+            corner_feed: plan
+                .wall
+                .slowed
+                .as_ref()
+                .zip(plan.lap.finish)
+                .map(|(slowed, finish)| SlowedJson::new(slowed, finish.feed)),
             uncut_corners: corners
                 .map(|c| PocketCornerJson { at: c.at.to_array(), thickness: c.thickness })
                 .collect(),

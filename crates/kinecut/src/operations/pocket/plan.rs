@@ -113,6 +113,7 @@ fn specs(setting: &Setting<'_>, of: &PocketOperation) -> Result<(PocketSpec, Con
             stepdown: f.stepdown,
             spring_passes: f.spring_passes,
             wear,
+            corner_feed: f.corner_feed,
         }),
         onto_wall: t.finish.as_ref().and_then(|f| f.onto_wall(setting)),
         lead_radius: t.lead_radius.or_else(|| of.slot.as_ref()?.lead_radius(&cutter, t.stock_to_leave)),
@@ -174,7 +175,7 @@ impl kind::Plan for PlannedPocket {
         // A wear register moves the wall: positive values leave stock.
         let leave = spec.stock_to_leave + self.wear.map_or(0.0, |w| w.value);
         let mut band = Band::inside_of(&self.of.outline, leave);
-        band.corners = uncut::fillets(&self.wall.uncut, spec.radius(), self.wear.map_or(0.0, |w| w.value));
+        band.corners = uncut::fillets(&self.wall.uncut, spec.radius(), self.wear);
         // The wall is cut to size above the cutter's corner.
         band.foot = self.of.corner();
         let through = t.breakthrough > 0.0;

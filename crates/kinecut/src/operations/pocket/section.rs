@@ -8,7 +8,7 @@ use super::PlannedPocket;
 use crate::geom::OutlineEdge;
 use crate::holes::{PlannedMove, ToolpathRole};
 use crate::operations::measured::BoreMeasure;
-use crate::operations::{Shown, uncut};
+use crate::operations::{Shown, slowed, uncut};
 use crate::page::{Block, Colour, Dash, Fact, Ink, Plan, PlanLine, Section, Width, fixed, trimmed};
 
 /// Arcs are drawn as chords of this angle [rad].
@@ -62,6 +62,9 @@ fn facts(plan: &PlannedPocket, wall: Option<&BoreMeasure>) -> Vec<Fact> {
             Fact::new("Left to the lap", format!("{} mm\u{b2}", fixed(f.left, 2)))
                 .note("beside the wall, beyond its stock of 0.02 mm; cut at the engagement that comes"),
         );
+    }
+    if let Some((slowed, finish)) = plan.wall.slowed.as_ref().zip(plan.lap.finish) {
+        facts.push(slowed::fact(slowed, finish.feed));
     }
     facts.extend(uncut::facts(&plan.wall.uncut, plan.lap.radius()));
     for note in &plan.of.notes {

@@ -164,6 +164,7 @@ fn random_lines_are_cut_on_either_side() {
             stepdown: None,
             spring_passes: random.below(2) as u32,
             wear: None,
+            corner_feed: random.share() < 0.5,
         });
         let spec = ContourSpec {
             side: if random.share() < 0.5 { ContourSide::Left } else { ContourSide::Right },
@@ -250,7 +251,14 @@ fn behind_a_neck_all_of_the_wall_is_finished() {
         [40.0, 0.0],
     ];
     let outline = lines(&corners.map(|[x, y]| [x, y, 0.0]));
-    let finish = ContourFinish { allowance: 0.3, feed: 10.0, stepdown: None, spring_passes: 0, wear: None };
+    let finish = ContourFinish {
+        allowance: 0.3,
+        feed: 10.0,
+        stepdown: None,
+        spring_passes: 0,
+        wear: None,
+        corner_feed: false,
+    };
     // About the corners of the neck, the path turns by this angle on each side.
     let about = 3.0 * (2.5_f64 / 3.0).asin();
     for (side, sense) in [

@@ -1,6 +1,7 @@
 //! Contours as planned: the path against dense points, its heights, its tabs, its leads, its feeds; turned and mirrored.
 
 mod chamfer;
+mod corner_feed;
 mod lines;
 mod pieces;
 mod tabs;
@@ -160,7 +161,14 @@ fn random_outlines_are_cut_whole_and_not_gouged() {
         let Some(outline) = star(&mut random, [25.0, 50.0], (dvec2(2.0, -1.0), [6.0, 9.0])) else { continue };
         let sides = [ContourSide::Outside, ContourSide::Inside];
         let wear = (random.share() < 0.5).then_some(Wear { register: 2, largest: 0.05 });
-        let finish = ContourFinish { allowance: 0.3, feed: 15.0, stepdown: None, spring_passes: 1, wear };
+        let finish = ContourFinish {
+            allowance: 0.3,
+            feed: 15.0,
+            stepdown: None,
+            spring_passes: 1,
+            wear,
+            corner_feed: false,
+        };
         let spec = ContourSpec {
             side: sides[random.below(2)],
             sense: if random.share() < 0.5 { Sense::Climb } else { Sense::Conventional },
@@ -403,7 +411,14 @@ fn contours_among_islands_are_left_where_there_is_room() {
         Outline::new(std::iter::once(vec![ring]).chain((0..25).map(island)).collect(), vec![]).unwrap();
     for finish in [
         None,
-        Some(ContourFinish { allowance: 0.1, feed: 15.0, stepdown: None, spring_passes: 0, wear: None }),
+        Some(ContourFinish {
+            allowance: 0.1,
+            feed: 15.0,
+            stepdown: None,
+            spring_passes: 0,
+            wear: None,
+            corner_feed: false,
+        }),
     ] {
         let spec = ContourSpec { side: ContourSide::Inside, finish, ..spec(outline.clone()) };
         let plan = plan_contour(&spec).unwrap();
@@ -450,8 +465,14 @@ fn finishing_comes_on_from_where_roughing_has_run() {
             Outline::new(vec![vec![OutlineEdge::arc(DVec2::ZERO, 9.0, 0.0, TAU)]], vec![]).unwrap(),
         ] {
             for side in [ContourSide::Outside, ContourSide::Inside] {
-                let finish =
-                    ContourFinish { allowance, feed: 15.0, stepdown: None, spring_passes: 0, wear: None };
+                let finish = ContourFinish {
+                    allowance,
+                    feed: 15.0,
+                    stepdown: None,
+                    spring_passes: 0,
+                    wear: None,
+                    corner_feed: false,
+                };
                 let spec = ContourSpec { side, lead_radius, finish: Some(finish), ..spec(outline.clone()) };
                 let plan = plan_contour(&spec).unwrap();
                 sound(&spec, &plan);

@@ -11,8 +11,14 @@ fn tabs_stand_where_they_are_told_and_as_high() {
         (TabShape::Flat, false, Some(0.05)),
     ] {
         let tabs = Tabs { count: 3, width: 5.0, height: 2.0, shape, finish: true, places: vec![] };
-        let finish =
-            ContourFinish { allowance: 0.2, feed: 15.0, stepdown: None, spring_passes: 0, wear: None };
+        let finish = ContourFinish {
+            allowance: 0.2,
+            feed: 15.0,
+            stepdown: None,
+            spring_passes: 0,
+            wear: None,
+            corner_feed: false,
+        };
         let spec = ContourSpec {
             tabs: Some(tabs),
             ramp,
@@ -57,7 +63,14 @@ fn finishing_under_compensation_leaves_tabs_their_width() {
     let tabs =
         Tabs { count: 2, width: 5.0, height: 2.0, shape: TabShape::Flat, finish: true, places: vec![] };
     let wear = Some(Wear { register: 2, largest: 0.05 });
-    let finish = ContourFinish { allowance: 0.2, feed: 15.0, stepdown: None, spring_passes: 0, wear };
+    let finish = ContourFinish {
+        allowance: 0.2,
+        feed: 15.0,
+        stepdown: None,
+        spring_passes: 0,
+        wear,
+        corner_feed: false,
+    };
     let spec = ContourSpec { tabs: Some(tabs), finish: Some(finish), ..spec(rectangle(120.0, 80.0)) };
     let plan = plan_contour(&spec).unwrap();
     sound(&spec, &plan);
@@ -90,7 +103,14 @@ fn whatever_the_contour_tabs_keep_their_width_and_ways_down_their_angle() {
         let tabs =
             Tabs { count: 1 + random.below(5) as u32, width, height, shape, finish: true, places: vec![] };
         let wear = (random.share() < 0.5).then_some(Wear { register: 2, largest: 0.05 });
-        let finish = ContourFinish { allowance: 0.2, feed: 15.0, stepdown: None, spring_passes: 1, wear };
+        let finish = ContourFinish {
+            allowance: 0.2,
+            feed: 15.0,
+            stepdown: None,
+            spring_passes: 1,
+            wear,
+            corner_feed: false,
+        };
         let centre_cutting = random.share() < 0.6;
         let plunges = centre_cutting && random.share() < 0.3;
         let angle = random.between(0.03, 0.4);

@@ -5,7 +5,14 @@ use super::*;
 /// A contour inside a corner, finished under a wear.
 fn worn(outline: Outline, largest: f64) -> ContourSpec {
     let wear = Some(Wear { register: 2, largest });
-    let finish = ContourFinish { allowance: 0.2, feed: 15.0, stepdown: None, spring_passes: 0, wear };
+    let finish = ContourFinish {
+        allowance: 0.2,
+        feed: 15.0,
+        stepdown: None,
+        spring_passes: 0,
+        wear,
+        corner_feed: false,
+    };
     ContourSpec { side: ContourSide::Inside, finish: Some(finish), ..spec(outline) }
 }
 
