@@ -70,7 +70,7 @@ pub use offset::{Offset, OffsetLoop, offset, offset_direct};
 pub use outline::{EdgeDistance, NearestEdge, loop_crossing, meetings};
 pub use outline::{
     LengthUnit, LoopEntry, LoopTable, Outline, OutlineEdge, OutlineFile, OutlineLoop, OutlineOptions,
-    OutlinePoint, OutlineRead, PointEntry, SectionAxis, Turn, read_outline,
+    OutlinePoint, OutlineRead, OutlineReads, PointEntry, SectionAxis, Turn, read_outline,
 };
 pub use plane_curve::PlaneCurve;
 pub use profile::{Profile, ProfileElement};

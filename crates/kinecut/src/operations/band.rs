@@ -4,6 +4,7 @@ use std::ops::Range;
 
 use glam::DVec2;
 
+use crate::contouring::ContourSide;
 use crate::geom::{NearestEdge, Outline, OutlineEdge};
 
 /// A strip along an outline, in coordinates of the work offset [mm].
@@ -127,8 +128,18 @@ impl Band {
         Band::along(outline.edges().to_vec(), loops, keeps_face, (leave, width))
     }
 
+    /// On a side of an outline, with so much left on the wall, and of a width.
+    pub(crate) fn beside(outline: &Outline, side: ContourSide, (leave, width): (f64, f64)) -> Band {
+        if !outline.is_of_lines() {
+            return Band::new(outline, side == ContourSide::Outside, leave, width);
+        }
+        let reversed = |line: &[OutlineEdge]| line.iter().rev().map(OutlineEdge::reversed).collect();
+        let lines = outline.lines().map(|l| if side == ContourSide::Left { l.to_vec() } else { reversed(l) });
+        Band::beside_lines(lines.collect(), leave, width)
+    }
+
     /// On the left of open lines.
-    pub(crate) fn beside_lines(lines: Vec<Vec<OutlineEdge>>, leave: f64, width: f64) -> Band {
+    fn beside_lines(lines: Vec<Vec<OutlineEdge>>, leave: f64, width: f64) -> Band {
         /// Length at the ends of a line that is not compared [mm]: there the cutter begins to leave.
         const ENDS: f64 = 2e-3;
         let (mut loops, mut only) = (Vec::new(), Vec::new());

@@ -9,7 +9,10 @@ use serde::{Deserialize, Serialize};
 use super::slot_outline::OutlineSlot;
 use crate::base::bounded::{MAX_LENGTH, bounded, length, positive};
 use crate::base::{Code, Error, FileKind, Finding, Loader, Result};
-use crate::geom::{LengthUnit, Outline, OutlineEdge, OutlineFile, OutlineOptions, OutlineRead, read_outline};
+use crate::geom::{
+    LengthUnit, Outline, OutlineEdge, OutlineFile, OutlineOptions, OutlineRead, OutlineReads, PointEntry,
+    read_outline,
+};
 
 /// The edges of a face.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -17,7 +20,7 @@ use crate::geom::{LengthUnit, Outline, OutlineEdge, OutlineFile, OutlineOptions,
 pub enum OutlineEntry {
     /// "top", or the name of a file.
     Name(String),
-    /// The loops themselves.
+    /// The loops and lines themselves.
     Loops(OutlineFile),
 }
 
@@ -58,6 +61,8 @@ pub(crate) struct OutlineKeys<'a> {
     pub(crate) circle: Option<&'a OutlineCircle>,
     pub(crate) polygon: Option<&'a [[f64; 2]]>,
     pub(crate) slot: Option<OutlineSlot>,
+    /// An open line by its points.
+    pub(crate) polyline: Option<&'a [PointEntry]>,
     pub(crate) drawing: Option<Drawn<'a>>,
     /// Whether the section of a mesh is asked for.
     pub(crate) has_section: bool,
@@ -93,6 +98,7 @@ macro_rules! outline_keys {
             circle: $table.circle.as_ref(),
             polygon: $table.polygon.as_deref(),
             slot: $table.slot,
+            polyline: None,
             has_section: $table.section.is_some(),
             drawing: $table.outline.as_ref().map(|outline| $crate::operations::outlines::Drawn {
                 outline,
@@ -125,12 +131,13 @@ impl OutlineKeys<'_> {
     }
 
     /// The ways to say an outline, and whether each is given.
-    fn forms(&self) -> [(&'static str, bool); 5] {
+    fn forms(&self) -> [(&'static str, bool); 6] {
         [
             ("rectangle", self.rectangle.is_some()),
             ("circle", self.circle.is_some()),
             ("polygon", self.polygon.is_some()),
             ("slot", self.slot.is_some()),
+            ("polyline", self.polyline.is_some()),
             ("outline", self.drawing.is_some()),
         ]
     }
@@ -163,13 +170,13 @@ impl OutlineKeys<'_> {
         Ok(OutlineRead { outline, weights, notes: Vec::new() })
     }
 
-    /// The open lines of a drawing, in coordinates of the work offset.
+    /// The lines of a drawing, in coordinates of the work offset.
     ///
     /// # Errors
-    /// As [`OutlineKeys::read`]; `KC0802` with the key `outline` where there is no drawing, or no open line in it.
-    pub(crate) fn read_lines(self, loader: &dyn Loader) -> Result<OutlineRead> {
+    /// As [`OutlineKeys::read`]; `KC0802` with the key `outline` where there is no drawing, or no line in it.
+    pub(crate) fn read_lines(self, reads: OutlineReads, loader: &dyn Loader) -> Result<OutlineRead> {
         match self.drawing {
-            Some(drawn) => drawn.read_as(true, loader),
+            Some(drawn) => drawn.read_as(reads, loader),
             None => {
                 let finding =
                     Finding::error(Code::OUTLINE_FILE, "the operation has no drawing of open lines");
@@ -195,7 +202,7 @@ impl Drawn<'_> {
     /// # Errors
     /// Those of the drawing's reader; `KC0103` for a place or angle out of range.
     pub(crate) fn read(self, loader: &dyn Loader) -> Result<OutlineRead> {
-        self.read_as(false, loader)
+        self.read_as(OutlineReads::Loops, loader)
     }
 
     /// The height of the section, where the outline is a mesh.
@@ -209,8 +216,8 @@ impl Drawn<'_> {
         length("section", z, -MAX_LENGTH, MAX_LENGTH).map(Some)
     }
 
-    /// As [`Drawn::read`], its open lines if `lines`.
-    fn read_as(self, lines: bool, loader: &dyn Loader) -> Result<OutlineRead> {
+    /// As [`Drawn::read`], or its lines.
+    fn read_as(self, reads: OutlineReads, loader: &dyn Loader) -> Result<OutlineRead> {
         let under = |e: Error| e.under("outline");
         let options = OutlineOptions {
             unit: self.unit.or_else(|| self.unit_of_mesh(loader)),
@@ -218,7 +225,7 @@ impl Drawn<'_> {
             snap: length("snap", self.snap.unwrap_or(OutlineOptions::default().snap), 0.0, 10.0)?,
             curve_tolerance: CURVE_TOLERANCE,
             section: self.height()?,
-            lines,
+            reads,
             ..OutlineOptions::default()
         };
         let mut read = match self.outline {
@@ -226,12 +233,7 @@ impl Drawn<'_> {
                 let bytes = loader.read_as(name, FileKind::of_outline(name)).map_err(under)?;
                 read_outline(name, &bytes, &options).map_err(under)?
             }
-            OutlineEntry::Loops(_) if lines => {
-                let finding = Finding::error(Code::OUTLINE_FILE, "loops of a table are closed");
-                let help = "write the points of an open line: polyline = [[0, 0], [60, 0]]";
-                return Err(finding.help(help).key("outline").into());
-            }
-            OutlineEntry::Loops(loops) => loops.outline(self.unit).map_err(under)?,
+            OutlineEntry::Loops(loops) => loops.outline(&options).map_err(under)?,
         };
         if let Some(MeshSection::Holes(z)) = self.section {
             read = enclosed(read, z)?;

@@ -23,7 +23,7 @@ const SAME: f64 = 1e-9;
 /// # Errors
 /// `KC0803` where a chain stays open, or branches.
 pub(super) fn chain(drawing: &mut Drawing, snap: f64) -> Result<()> {
-    open_chains_but(drawing, snap, true).map(|_| ())
+    chains(drawing, snap, Joints::AllClosed).map(|_| ())
 }
 
 /// The chains of a drawing that stay open, each in the direction of its first entity; the others become loops of it.
@@ -31,11 +31,26 @@ pub(super) fn chain(drawing: &mut Drawing, snap: f64) -> Result<()> {
 /// # Errors
 /// `KC0803` where chains branch.
 pub(super) fn open_chains(drawing: &mut Drawing, snap: f64) -> Result<Vec<Vec<OutlineEdge>>> {
-    open_chains_but(drawing, snap, false)
+    chains(drawing, snap, Joints::Open)
 }
 
-/// As [`open_chains`]; none is open if all must close.
-fn open_chains_but(drawing: &mut Drawing, snap: f64, must_close: bool) -> Result<Vec<Vec<OutlineEdge>>> {
+/// As [`open_chains`]; where more than two ends meet, each chain ends.
+pub(super) fn drawn_chains(drawing: &mut Drawing, snap: f64) -> Result<Vec<Vec<OutlineEdge>>> {
+    chains(drawing, snap, Joints::Any)
+}
+
+/// Numbers of ends that may meet in a joint.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Joints {
+    /// Two.
+    AllClosed,
+    /// One or two.
+    Open,
+    /// Any.
+    Any,
+}
+
+fn chains(drawing: &mut Drawing, snap: f64, allowed: Joints) -> Result<Vec<Vec<OutlineEdge>>> {
     let snap = if snap > SAME { snap } else { SAME };
     let mut notes = Vec::new();
     drop_specks(drawing, snap, &mut notes);
@@ -45,15 +60,20 @@ fn open_chains_but(drawing: &mut Drawing, snap: f64, must_close: bool) -> Result
     for (end, &joint) in joints.iter().enumerate() {
         ends_of[joint].push(end);
     }
-    no_branches(drawing, &ends_of)?;
-    if must_close {
+    if allowed != Joints::Any {
+        no_branches(drawing, &ends_of)?;
+    }
+    if allowed == Joints::AllClosed {
         no_open_ends(drawing, &ends_of)?;
     }
     let mut widest: (f64, usize) = (0.0, 0);
     let mut used = vec![false; drawing.paths.len()];
     let mut lines = Vec::new();
     // The end by which the next path is entered from one that is left by an end.
-    let beyond = |left: usize| ends_of[joints[left]].iter().copied().find(|&e| e != left);
+    let beyond = |left: usize| match ends_of[joints[left]][..] {
+        [a, b] => Some(if a == left { b } else { a }),
+        _ => None,
+    };
     for first in 0..drawing.paths.len() {
         if used[first] {
             continue;

@@ -1,9 +1,9 @@
 //! A collected drawing becomes an outline: closed, chained, its edges weighed and labelled.
 
-use super::chain::{chain, open_chains};
+use super::chain::{chain, drawn_chains, open_chains};
 use super::drawing::Drawing;
 use super::half_section::close_along;
-use super::{Outline, OutlineEdge, OutlineOptions, OutlineRead};
+use super::{Outline, OutlineEdge, OutlineOptions, OutlineRead, OutlineReads};
 use crate::base::Result;
 
 /// Weight of an edge that has none.
@@ -18,7 +18,11 @@ impl Drawing {
         if let Some(axis) = options.half_section {
             close_along(&mut self, axis, options.snap)?;
         }
-        if options.lines { self.finish_lines(options.snap) } else { self.finish(options.snap) }
+        match options.reads {
+            OutlineReads::Loops => self.finish(options.snap),
+            OutlineReads::Lines => self.finish_lines(options.snap),
+            OutlineReads::Drawn => self.finish_drawn(options.snap),
+        }
     }
 
     /// The open lines: chains joined within `snap` [mm], what is drawn twice left out; closed loops are passed over.
@@ -42,7 +46,19 @@ impl Drawing {
                 }
             });
         }
-        self.named(lines, Outline::named_lines)
+        self.named(lines, |lines, labels, name| Outline::named_lines(lines, labels, name, true))
+    }
+
+    /// All that is drawn as lines: chains joined within `snap` [mm] where two ends meet, loops from their first point around, what is
+    /// drawn twice left out.
+    fn finish_drawn(mut self, snap: f64) -> Result<OutlineRead> {
+        let mut lines = drawn_chains(&mut self, snap)?;
+        lines.append(&mut self.loops);
+        if lines.is_empty() {
+            let help = "draw lines, arcs or loops along which the cutter is to run";
+            return Err(self.source.whole("the file holds no line").help(help).into());
+        }
+        self.named(lines, |lines, labels, name| Outline::named_lines(lines, labels, name, false))
     }
 
     /// The outline: open chains joined within `snap` [mm], what is drawn twice left out.

@@ -28,7 +28,7 @@ pub use edge::{OutlineEdge, OutlineLoop, Turn};
 pub(in crate::geom) use edge_bins::EdgeBins;
 pub use json::{LoopEntry, LoopTable, OutlineFile, OutlinePoint, PointEntry};
 pub use nearest::{EdgeDistance, NearestEdge};
-pub use options::{OutlineOptions, OutlineRead, SectionAxis};
+pub use options::{OutlineOptions, OutlineRead, OutlineReads, SectionAxis};
 pub use read::read_outline;
 pub use shape::Outline;
 pub use unit::LengthUnit;

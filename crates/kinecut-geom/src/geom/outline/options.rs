@@ -16,6 +16,18 @@ pub enum SectionAxis {
     Y,
 }
 
+/// Parts of a drawing that are read.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum OutlineReads {
+    /// Closed loops: the outline of a face. Open lines are an error.
+    #[default]
+    Loops,
+    /// Open lines; closed loops are passed over. Not of meshes.
+    Lines,
+    /// All that is drawn, as lines: closed loops too, and what branches or crosses. Not of meshes.
+    Drawn,
+}
+
 /// Options for reading a file into an outline.
 #[derive(Clone, Debug, PartialEq)]
 pub struct OutlineOptions {
@@ -35,8 +47,8 @@ pub struct OutlineOptions {
     /// The drawing is half a section about this axis: what is drawn along the axis is left out, and what is open there
     /// closed along it. Not for meshes.
     pub half_section: Option<SectionAxis>,
-    /// Open lines are read, and closed loops passed over; not of meshes.
-    pub lines: bool,
+    /// Whether loops or open lines are read.
+    pub reads: OutlineReads,
 }
 
 impl Default for OutlineOptions {
@@ -50,7 +62,7 @@ impl Default for OutlineOptions {
             arc_tolerance: 1e-3,
             section: None,
             half_section: None,
-            lines: false,
+            reads: OutlineReads::Loops,
         }
     }
 }

@@ -1,6 +1,6 @@
 //! The front door: an outline from the bytes of a file.
 
-use super::{OutlineOptions, OutlineRead, dxf, json, mesh_face, svg};
+use super::{OutlineOptions, OutlineRead, OutlineReads, dxf, json, mesh_face, svg};
 use crate::base::{Code, Finding, Location, Result};
 
 /// An outline from the bytes of a file, by the ending of its name: `.dxf`, `.svg`, `.json`, `.stl`.
@@ -22,10 +22,11 @@ use crate::base::{Code, Finding, Location, Result};
 pub fn read_outline(name: &str, bytes: &[u8], options: &OutlineOptions) -> Result<OutlineRead> {
     options.check()?;
     let ending = name.rsplit_once('.').map(|(_, ending)| ending.to_ascii_lowercase()).unwrap_or_default();
-    if options.lines && matches!(ending.as_str(), "json" | "stl") {
+    if options.reads != OutlineReads::Loops && ending == "stl" {
         let finding =
             Finding::error(Code::OUTLINE_FILE, format!("files of the kind {ending:?} hold no open line"));
-        let help = "export the line as .dxf or .svg, or write its points: polyline = [[0, 0], [60, 0]]";
+        let help =
+            "export the line as .dxf, .svg or .json, or write its points: polyline = [[0, 0], [60, 0]]";
         return Err(finding.at(Location::whole_file(name)).help(help).into());
     }
     match ending.as_str() {

@@ -111,14 +111,23 @@ impl Outline {
     /// # Ok::<(), kinecut::base::Error>(())
     /// ```
     pub fn of_lines(lines: Vec<Vec<OutlineEdge>>, labels: Vec<String>) -> Result<Outline> {
-        Outline::named_lines(lines, labels, &|i| i.to_string())
+        Outline::named_lines(lines, labels, &|i| i.to_string(), true)
     }
 
-    /// As [`Outline::of_lines`], with words for an edge by its number in messages.
+    /// As [`Outline::of_lines`], but lines may cross, touch and overlap, and end where they begin: for a cutter that runs on them.
+    ///
+    /// # Errors
+    /// `KC0803` for a line with a gap; `KC0805` as [`Outline::new`].
+    pub fn of_drawn(lines: Vec<Vec<OutlineEdge>>, labels: Vec<String>) -> Result<Outline> {
+        Outline::named_lines(lines, labels, &|i| i.to_string(), false)
+    }
+
+    /// As [`Outline::of_lines`], with words for an edge by its number in messages; `apart`: lines must not meet.
     pub(super) fn named_lines(
         lines: Vec<Vec<OutlineEdge>>,
         labels: Vec<String>,
         name: &dyn Fn(usize) -> String,
+        apart: bool,
     ) -> Result<Outline> {
         let mut there = Outline { of_lines: true, ..Outline::empty(labels) };
         for edges in lines.into_iter().filter(|l| !l.is_empty()) {
@@ -132,7 +141,9 @@ impl Outline {
         there.check_edges(name)?;
         let tolerance = Outline::JOINED * there.size();
         there.check_joined(tolerance)?;
-        there.check_simple(tolerance, name)?;
+        if apart {
+            there.check_simple(tolerance, name)?;
+        }
         let mut outline = Outline { edges: Vec::new(), loops: Vec::new(), ..there.clone() };
         for one in &there.loops {
             let (first, line) = (outline.edges.len(), &there.edges[one.edges.clone()]);

@@ -4,7 +4,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::contouring::{ContourLoops, ContourSide};
-use crate::geom::LengthUnit;
+use crate::geom::{LengthUnit, PointEntry};
 use crate::holes::Sense;
 use crate::operations::edge::EdgesName;
 use crate::operations::outlines::{OutlineCircle, OutlineEntry, OutlineRectangle};
@@ -49,6 +49,11 @@ pub struct ChamferTable {
     /// The outline as a closed polygon: its corners, in coordinates of the work offset.
     #[serde(default)]
     pub polygon: Option<Vec<[f64; 2]>>,
+    /// An open line by its points, in coordinates of the work offset, with a `side` of "left" or "right"; the third number of a point
+    /// is the bulge of the edge that begins there, tan(sweep / 4), counter-clockwise positive.
+    #[serde(default)]
+    #[schemars(example = vec![[0, 0], [60, 0]])]
+    pub polyline: Option<Vec<PointEntry>>,
     /// The outline as a slot: a line or an arc of a width, with round ends.
     #[serde(default)]
     pub slot: Option<OutlineSlot>,
@@ -74,7 +79,7 @@ pub struct ChamferTable {
     #[serde(default)]
     pub angle: f64,
     /// Edge that is chamfered: "outside" that of the face and of its holes, "inside" that of the pocket or hole which the
-    /// outline is; default that of `of`, or outside.
+    /// outline is, "left" and "right" of the direction of an open line, where the cutter runs; default that of `of`, or outside.
     #[serde(default)]
     pub side: Option<ChamferSide>,
     /// Loops whose edges are chamfered: "all", "outer", "inner"; default those of `of`, or all.
@@ -143,6 +148,10 @@ pub enum ChamferSide {
     Outside,
     /// That of the pocket or hole which the outline is, and of its islands.
     Inside,
+    /// That along an open line, with the cutter on the left of its direction.
+    Left,
+    /// That along an open line, with the cutter on the right of its direction.
+    Right,
 }
 
 impl From<ChamferSide> for ContourSide {
@@ -150,6 +159,8 @@ impl From<ChamferSide> for ContourSide {
         match side {
             ChamferSide::Outside => ContourSide::Outside,
             ChamferSide::Inside => ContourSide::Inside,
+            ChamferSide::Left => ContourSide::Left,
+            ChamferSide::Right => ContourSide::Right,
         }
     }
 }

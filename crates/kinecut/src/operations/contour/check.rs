@@ -12,7 +12,7 @@ use crate::geom::Outline;
 use crate::holes::CutterData;
 use crate::operations::kind::{self, Attempt};
 use crate::operations::named::NamedOutline;
-use crate::operations::outlines::{OutlineEntry, outline_keys};
+use crate::operations::outlines::{OutlineEntry, OutlineKeys, outline_keys};
 use crate::operations::{
     Around, CalledTool, CuttingKeys, FeedKeys, Milling, PlaneTable, Setting, feed_of, milling_of, spindle,
     tool_of, whole_revolutions,
@@ -153,7 +153,7 @@ impl kind::Table for ContourTable {
         let (top, stock_to_leave, plane) = (self.top, self.stock_to_leave, self.plane());
         self.name.as_deref().map(|name| NamedOutline {
             name,
-            keys: outline_keys!(self),
+            keys: self.outline_keys(),
             side,
             loops,
             top,
@@ -168,6 +168,13 @@ impl kind::Table for ContourTable {
             Some(OutlineEntry::Name(name)) => Some(("outline", name)),
             _ => None,
         }
+    }
+}
+
+impl ContourTable {
+    /// The keys that say its outline.
+    fn outline_keys(&self) -> OutlineKeys<'_> {
+        OutlineKeys { polyline: self.polyline.as_deref(), ..outline_keys!(self) }
     }
 }
 
@@ -192,7 +199,7 @@ fn operation(t: &ContourTable, around: &Around<'_>) -> Result<ContourOperation> 
     if let Some(extend) = t.extend {
         length("extend", extend, 0.0, MAX_LENGTH)?;
     }
-    let read = t.read(around.loader)?;
+    let read = t.outline_keys().read_beside(t.side, around.loader)?;
     if let Some(extend) = t.extend.filter(|_| !read.outline.is_of_lines()) {
         let finding = Finding::error(Code::JOB_SHAPE, "a closed contour has no ends").value_mm(extend);
         return Err(finding.help("leave out `extend`").key("extend").into());

@@ -11,7 +11,7 @@ use super::section::section;
 use crate::base::bounded::{MAX_LENGTH, positive};
 use crate::base::{Code, Finding, Result};
 use crate::contouring::{ContourFinish, ContourPlan, ContourSide, ContourSpec, plan_contour};
-use crate::geom::{NearestEdge, OutlineEdge};
+use crate::geom::NearestEdge;
 use crate::holes::CutterData;
 use crate::operations::band::{Band, TabPlace};
 use crate::operations::kind::{self, Attempt, Checked as _};
@@ -85,6 +85,7 @@ fn spec(setting: &Setting<'_>, of: &ContourOperation) -> Result<ContourSpec> {
             stepdown: f.stepdown,
             spring_passes: f.spring_passes,
             wear,
+            corner_feed: f.corner_feed,
         }),
         onto_wall: t.finish.as_ref().and_then(|f| f.onto_wall(setting)),
         lead_radius: t.lead_radius,
@@ -188,20 +189,8 @@ impl kind::Plan for PlannedContour {
         }
         // A wear register moves the wall: positive values leave stock.
         let leave = spec.stock_to_leave + self.wear.map_or(0.0, |w| w.value);
-        let mut band = match self.of.outline.is_of_lines() {
-            true => {
-                let reversed = |line: &[OutlineEdge]| line.iter().rev().map(OutlineEdge::reversed).collect();
-                let lines = self.of.outline.lines();
-                let lines =
-                    lines.map(|l| if spec.side == ContourSide::Left { l.to_vec() } else { reversed(l) });
-                Band::beside_lines(lines.collect(), leave, spec.cutter.diameter)
-            }
-            false => {
-                let keeps_face = spec.side == ContourSide::Outside;
-                Band::new(&self.cut_outline(), keeps_face, leave, spec.cutter.diameter)
-            }
-        };
-        band.corners = uncut::fillets(&self.plan.uncut, spec.radius(), self.wear.map_or(0.0, |w| w.value));
+        let mut band = Band::beside(&self.cut_outline(), spec.side, (leave, spec.cutter.diameter));
+        band.corners = uncut::fillets(&self.plan.uncut, spec.radius(), self.wear);
         band.tabs = self.tabs();
         let through = t.breakthrough > 0.0;
         let floor = spec.top - spec.depth;

@@ -4,7 +4,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::contouring::ContourLoops;
-use crate::geom::LengthUnit;
+use crate::geom::{LengthUnit, PointEntry};
 use crate::holes::Sense;
 use crate::operations::chamfer::ChamferSide;
 use crate::operations::edge::EdgesName;
@@ -51,6 +51,11 @@ pub struct DeburrTable {
     /// The outline as a closed polygon: its corners, in coordinates of the work offset.
     #[serde(default)]
     pub polygon: Option<Vec<[f64; 2]>>,
+    /// An open line by its points, in coordinates of the work offset, with a `side` of "left" or "right"; the third number of a point
+    /// is the bulge of the edge that begins there, tan(sweep / 4), counter-clockwise positive.
+    #[serde(default)]
+    #[schemars(example = vec![[0, 0], [60, 0]])]
+    pub polyline: Option<Vec<PointEntry>>,
     /// The outline as a slot: a line or an arc of a width, with round ends.
     #[serde(default)]
     pub slot: Option<OutlineSlot>,

@@ -63,8 +63,12 @@ impl EdgeOperation {
         let shown = |mm: f64| trimmed(mm, 2);
         let where_ = match &self.edges {
             Some(edges) => edges.in_words(),
-            None if self.side == ContourSide::Inside => "inside".to_owned(),
-            None => "outside".to_owned(),
+            None => match self.side {
+                ContourSide::Inside => "inside".to_owned(),
+                ContourSide::Left => "left of line".to_owned(),
+                ContourSide::Right => "right of line".to_owned(),
+                ContourSide::Outside | ContourSide::On => "outside".to_owned(),
+            },
         };
         format!("{} {} {where_} {} x {}", self.noun, shown(self.cut.width()), shown(size.x), shown(size.y))
     }
@@ -115,8 +119,10 @@ pub(crate) fn operation(
         }
         None => {
             let edge = edge(t, around)?;
-            let read =
-                edge.keys.read(around.loader).map_err(|e| if t.of.is_some() { at_of(e) } else { e })?;
+            let read = edge
+                .keys
+                .read_beside(edge.side, around.loader)
+                .map_err(|e| if t.of.is_some() { at_of(e) } else { e })?;
             (Place::of(&edge), read, None, edge.has_wall)
         }
     };
@@ -170,7 +176,7 @@ impl Place {
 
     /// Of a face at a height, whose material lies inside of its outline.
     fn of_face(t: &EdgeKeys<'_>, top: f64) -> Result<Place> {
-        if t.side.is_some_and(|side| ContourSide::from(side) == ContourSide::Inside) {
+        if t.side.is_some_and(|side| ContourSide::from(side) != ContourSide::Outside) {
             let finding = Finding::error(Code::JOB_SHAPE, "the edges of a face are broken from outside");
             return Err(finding
                 .help("leave out `side`: holes of the face are cut from within")
@@ -221,14 +227,13 @@ fn edge<'a>(t: &EdgeKeys<'a>, around: &Around<'a>) -> Result<NamedOutline<'a>> {
         let finding = Finding::error(Code::JOB_SHAPE, "the operation that `of` names works in another plane");
         return Err(finding.help("give both the same plane").key("of").into());
     }
-    if matches!(of.side, ContourSide::Left | ContourSide::Right) {
-        let finding = Finding::error(Code::JOB_SHAPE, "the contour that `of` names runs along an open line");
-        return Err(finding.help("give a closed outline").key("of").into());
-    }
     if edge.side == ContourSide::On {
         let finding =
             Finding::error(Code::JOB_SHAPE, "the contour that `of` names runs on its line and has no side");
-        return Err(finding.help("say it here: side = \"outside\" or \"inside\"").key("of").into());
+        return Err(finding
+            .help("say it here: side = \"outside\" or \"inside\", for an open line \"left\" or \"right\"")
+            .key("of")
+            .into());
     }
     Ok(edge)
 }

@@ -47,7 +47,10 @@ macro_rules! edge_keys {
             tool: &$table.tool,
             name: $table.name.as_deref(),
             of: $table.of.as_deref(),
-            own: $crate::operations::outlines::outline_keys!($table),
+            own: $crate::operations::outlines::OutlineKeys {
+                polyline: $table.polyline.as_deref(),
+                ..$crate::operations::outlines::outline_keys!($table)
+            },
             edges: $table.edges,
             above: $table.above,
             burr: $table.burr.as_deref(),

@@ -9,9 +9,7 @@ use super::EdgeOperation;
 use super::burrs::{FoundBurrs, lowered_onto};
 use super::webs::{Webs, warning};
 use crate::base::{Code, Error, Finding, Result};
-use crate::contouring::{
-    ContourPlan, ContourSide, ContourSpec, CutPiece, EdgeBreak, OutlinePiece, plan_contour,
-};
+use crate::contouring::{ContourPlan, ContourSpec, CutPiece, EdgeBreak, OutlinePiece, plan_contour};
 use crate::facing::burrs::{BurrPart, BurrPiece, BurrState};
 use crate::geom::Outline;
 use crate::holes::CutterData;
@@ -227,8 +225,7 @@ impl PlannedEdge {
     /// The walls that it wants: one for each piece, so that none of them is measured by another.
     pub(crate) fn walls(&self) -> Vec<WantedWall> {
         let (spec, cut) = (&self.spec, &self.of.cut);
-        let keeps_face = spec.side == ContourSide::Outside;
-        let band = Band::new(&self.cut_outline(), keeps_face, spec.stock_to_leave, spec.cutter.diameter);
+        let band = Band::beside(&self.cut_outline(), spec.side, (spec.stock_to_leave, spec.cutter.diameter));
         let slope = Slope {
             top: spec.top,
             width: cut.width(),
@@ -243,7 +240,7 @@ impl PlannedEdge {
             },
         };
         let mut band = band.leaning(slope);
-        band.corners = uncut::fillets(&self.plan.uncut, spec.radius(), 0.0);
+        band.corners = uncut::fillets(&self.plan.uncut, spec.radius(), None);
         let wall = |band: Band| WantedWall {
             centre: band.middle,
             top: spec.top,

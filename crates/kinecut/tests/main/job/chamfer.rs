@@ -327,3 +327,54 @@ fn what_makes_no_chamfer_is_refused_with_a_cure() {
     let mill = run("job.toml", &mill, &MemoryLoader::default(), &Silent).unwrap_err();
     assert_eq!((mill.code(), key(&mill)), (Code::JOB_REFERENCE, under("tool")));
 }
+
+#[test]
+fn edges_along_open_lines_have_their_width_on_every_control() {
+    let bent = "polyline = [[-70, -20], [20, -20, 0.2], [40, 10], [40, 50]]";
+    for control in ["sinumerik-840d", "heidenhain", "linuxcnc", "fanuc", "grbl"] {
+        for (side, corners) in [("left", 2), ("right", 0)] {
+            let contour = format!("{CONTOUR}name = \"step\"\nside = \"{side}\"\n{bent}\ndepth = 6\n");
+            // By the name of the contour, and by a line of its own.
+            let own = format!("side = \"{side}\"\n{bent}");
+            for of in ["of = \"step\"", own.as_str()] {
+                let outcome = cut(control, &format!("{contour}{CHAMFER}{of}\nwidth = 0.8\n"));
+                let verdict = &outcome.verdict;
+                assert!(verdict.is_safe(), "{control} {side}: {:?}", verdict.found);
+                let edge = &outcome.deviation.bores[1];
+                assert!(edge.ends > 500 && edge.worst() < 2e-3, "{control} {side}: {edge:?}");
+                let webs = verdict.found.iter().filter(|f| f.code == Code::CORNERS_STAY).count();
+                assert_eq!(webs > 0, corners > 0, "{control} {side}: {:?}", verdict.found);
+            }
+        }
+    }
+    // The edge lies on the side on which the cutter runs: 0.8 x 0.8 / 2 along 80 mm, and what runs out at the ends.
+    let straight = "polyline = [[-40, 0.2], [40, 0.2]]";
+    for side in ["left", "right"] {
+        let contour = format!("{CONTOUR}name = \"step\"\nside = \"{side}\"\n{straight}\ndepth = 6\n");
+        let plain = removed(&cut("fanuc", &contour));
+        let broken = removed(&cut("fanuc", &format!("{contour}{CHAMFER}of = \"step\"\nwidth = 0.8\n")));
+        let gone = broken - plain;
+        assert!(gone > 0.32 * 80.0 && gone < 0.32 * 86.0, "{side}: {gone}");
+    }
+}
+
+#[test]
+fn edges_of_open_lines_say_their_side() {
+    let line = "polyline = [[-40, 0], [40, 0]]\nwidth = 0.5\n";
+    for (operation, key) in [
+        (line.to_owned(), "side"),
+        (format!("side = \"outside\"\n{line}"), "side"),
+        ("side = \"left\"\ncircle = { diameter = 30 }\nwidth = 0.5\n".to_owned(), "side"),
+        (format!("side = \"left\"\ncircle = {{ diameter = 30 }}\n{line}"), "polyline"),
+    ] {
+        let e = refused(&operation);
+        assert!(e.0.key.as_deref().is_some_and(|k| k.ends_with(key)), "{operation}: {e} {:?}", e.0.key);
+        assert!(!e.0.help.is_empty(), "{e}");
+    }
+    let other = format!(
+        "{CONTOUR}name = \"step\"\nside = \"left\"\npolyline = [[-40, 0], [40, 0]]\ndepth = 6\n\
+         {CHAMFER}of = \"step\"\nside = \"right\"\nwidth = 0.5\n"
+    );
+    let e = run("job.toml", &job("fanuc", &other), &MemoryLoader::default(), &Silent).unwrap_err();
+    assert!(e.0.message.contains("the other side"), "{e}");
+}

@@ -492,3 +492,72 @@ fn a_mesh_is_cut_at_a_height_for_its_outline_and_for_what_it_encloses() {
     let e = refused("rectangle = { size = [40, 30] }\nsection = -5\ndepth = 6\n");
     assert!(e.code() == Code::JOB_SHAPE && e.0.key.as_deref().is_some_and(|k| k.ends_with("section")), "{e}");
 }
+
+#[test]
+fn drawings_are_cut_on_all_of_their_lines() {
+    // A circle, a cross, and a line with a branch: no face, but lines for a cutter.
+    let json = r#"{ "loops": [{ "centre": [-60, 0], "radius": 15 }],
+        "lines": [[[0, -30], [0, 30]], [[-30, 0], [30, 0]], [[50, -30], [50, 0]], [[50, 0], [40, 20]], [[50, 0], [60, 20]]] }"#;
+    let loader = MemoryLoader::default().with("letters.json", json.as_bytes().to_vec());
+    let operation = "outline = \"letters.json\"\nside = \"on\"\ndepth = 2\nentry = \"plunge\"\n";
+    for control in ["sinumerik-840d", "heidenhain", "linuxcnc", "fanuc", "grbl"] {
+        let outcome = done(&job(control, operation), &loader);
+        assert!(outcome.verdict.is_safe(), "{control}: {:?}", outcome.verdict.found);
+        // Grooves of 10 mm: by their area on a grid of points.
+        let lines = [
+            ([0.0, -30.0], [0.0, 30.0]),
+            ([-30.0, 0.0], [30.0, 0.0]),
+            ([50.0, -30.0], [50.0, 0.0]),
+            ([50.0, 0.0], [40.0, 20.0]),
+            ([50.0, 0.0], [60.0, 20.0]),
+        ];
+        let near = |x: f64, y: f64| {
+            let of = |([a, b], [c, d]): ([f64; 2], [f64; 2])| {
+                let (dx, dy) = (c - a, d - b);
+                let share = (((x - a) * dx + (y - b) * dy) / (dx * dx + dy * dy)).clamp(0.0, 1.0);
+                (x - a - share * dx).hypot(y - b - share * dy)
+            };
+            let circle = ((x + 60.0).hypot(y) - 15.0).abs();
+            lines.into_iter().map(of).fold(circle, f64::min)
+        };
+        const STEP: f64 = 0.1;
+        let cells = |n: i32| (-n..n).map(|i| (f64::from(i) + 0.5) * STEP);
+        let area = cells(900).map(|x| cells(600).filter(|y| near(x, *y) < 5.0).count()).sum::<usize>() as f64;
+        let (wanted, gone) = (area * STEP * STEP * 2.0, removed(&outcome));
+        assert!((gone / wanted - 1.0).abs() < 1e-2, "{control}: {gone} {wanted}");
+    }
+    // The same in the table itself; beside its lines only the open ones that do not meet.
+    let table = "outline = { loops = [{ centre = [-60, 0], radius = 15 }], lines = [[[0, -30], [0, 30]]] }\n";
+    let on = cut("fanuc", &format!("{table}side = \"on\"\ndepth = 2\nentry = \"plunge\"\n"));
+    assert!(on.verdict.is_safe() && removed(&on) > 2.0 * 10.0 * (60.0 + 94.0), "{:?}", on.verdict.found);
+    let left = cut("fanuc", &format!("{table}side = \"left\"\ndepth = 2\n"));
+    assert!(left.verdict.is_safe() && left.deviation.bores[0].worst() < 1e-3, "{:?}", left.verdict.found);
+    let face = refused(&format!("{table}depth = 2\n"));
+    assert_eq!(face.code(), Code::OUTLINE_OPEN, "{face}");
+    assert!(face.0.help.contains("\"left\""), "{face}");
+}
+
+#[test]
+fn feeds_of_a_finish_are_lower_in_inside_corners_on_every_control() {
+    let pocket = "side = \"inside\"\nrectangle = { size = [60, 40] }\ndepth = 8\n";
+    for (control, word) in [
+        ("sinumerik-840d", "F180"),
+        ("heidenhain", "F180"),
+        ("linuxcnc", "F180"),
+        ("fanuc", "F180"),
+        ("grbl", "F180"),
+    ] {
+        let finish =
+            |more: &str| cut(control, &format!("{pocket}finish = {{ allowance = 0.2, feed = 600{more} }}\n"));
+        let (plain, slower) = (finish(""), finish(", corner_feed = true"));
+        let count = |outcome: &Outcome| outcome.setups[0].posted.text.matches(word).count();
+        // Four corners: 0.2 mm of 5 mm have a chip of 0.28 of the feed, so that the least share is posted.
+        assert_eq!((count(&plain), count(&slower)), (0, 4), "{control}: {}", slower.setups[0].posted.text);
+        assert!(slower.verdict.is_safe() && slower.deviation.bores[0].worst() < 1e-3, "{control}");
+    }
+    let open = cut(
+        "fanuc",
+        "side = \"left\"\npolyline = [[-40, -20], [20, -20], [20, 10]]\ndepth = 8\nfinish = { allowance = 0.2, feed = 600, corner_feed = true }\n",
+    );
+    assert_eq!(open.setups[0].posted.text.matches("F180").count(), 1, "{}", open.setups[0].posted.text);
+}

@@ -1,6 +1,6 @@
 //! Outlines as JSON: loops of points with bulges, and circles.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fmt;
 use std::marker::PhantomData;
 
@@ -15,7 +15,8 @@ use super::source::Source;
 use super::{LengthUnit, OutlineEdge, OutlineOptions, OutlineRead};
 use crate::base::{Code, Finding, Result};
 
-/// An outline as a JSON file gives it. Loops in any order and direction; those inside an odd number of others are holes.
+/// An outline as a JSON file gives it. Loops in any order and direction; those inside an odd number of others are holes. Open lines are
+/// for a cutter that runs along them; where a face is wanted, lines have to close at their ends.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct OutlineFile {
@@ -26,8 +27,13 @@ pub struct OutlineFile {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub unit: Option<LengthUnit>,
     /// The loops.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
     #[schemars(example = vec![vec![[0, 0], [40, 0], [40, 20]]])]
     pub loops: Vec<LoopEntry>,
+    /// Open lines, each in its direction: lists of points, or tables with `points`; the last point is not joined to the first.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    #[schemars(example = vec![vec![[0, 0], [40, 0]]])]
+    pub lines: Vec<LoopEntry>,
     /// Weight of the edges of a label; edges without one weigh 1.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub weights: BTreeMap<String, f64>,
@@ -41,6 +47,16 @@ pub enum LoopEntry {
     Points(Vec<PointEntry>),
     /// A circle, or points with a label for all edges.
     Table(LoopTable),
+}
+
+impl LoopEntry {
+    /// The label of all of its edges.
+    fn label(&self) -> Option<&String> {
+        match self {
+            LoopEntry::Points(_) => None,
+            LoopEntry::Table(table) => table.label.as_ref(),
+        }
+    }
 }
 
 /// A loop with a label: either `points`, or `centre` and `radius` of a circle.
@@ -144,37 +160,65 @@ impl<'de> Deserialize<'de> for PointEntry {
 }
 
 impl OutlineFile {
-    /// The outline, in `unit` if given, else in the file's own.
+    /// The outline or the lines, as the options say.
     ///
     /// # Errors
     /// `KC0802` for a loop that is neither points nor a circle, for points that are not two or three numbers and for
     /// weights that are negative or not finite, with the key; else as [`Outline::new`](super::Outline::new).
-    pub fn outline(&self, unit: Option<LengthUnit>) -> Result<OutlineRead> {
-        self.read(Source::new("outline", b""), unit)
+    pub fn outline(&self, options: &OutlineOptions) -> Result<OutlineRead> {
+        self.read(Source::new("outline", b""), options)
     }
 
-    fn read(&self, source: Source, unit: Option<LengthUnit>) -> Result<OutlineRead> {
-        let mm = unit.or(self.unit).unwrap_or(LengthUnit::Millimetre).mm();
+    fn read(&self, source: Source, options: &OutlineOptions) -> Result<OutlineRead> {
+        let mm = options.unit.or(self.unit).unwrap_or(LengthUnit::Millimetre).mm();
         let mut drawing = Drawing::new(source);
         for (label, &weight) in &self.weights {
             check_weight(Some(weight)).map_err(|e| at(&drawing, e, format!("weights.{label}")))?;
         }
-        for (i, entry) in self.loops.iter().enumerate() {
-            let table = match entry {
-                LoopEntry::Points(points) => {
-                    &LoopTable { points: Some(points.clone()), ..LoopTable::default() }
+        let layers = &options.layers;
+        self.has_labels(layers).map_err(|finding| finding.at(drawing.source.file()))?;
+        for (key, entries) in [("loops", &self.loops), ("lines", &self.lines)] {
+            for (i, entry) in entries.iter().enumerate() {
+                let table = match entry {
+                    LoopEntry::Points(points) => {
+                        &LoopTable { points: Some(points.clone()), ..LoopTable::default() }
+                    }
+                    LoopEntry::Table(table) => table,
+                };
+                if !(layers.is_empty() || table.label.as_ref().is_some_and(|l| layers.contains(l))) {
+                    continue;
                 }
-                LoopEntry::Table(table) => table,
-            };
-            let edges =
-                self.edges(table, i, mm, &mut drawing).map_err(|e| at(&drawing, e, format!("loops[{i}]")))?;
-            drawing.loops.push(edges);
+                let place = format!("{key}[{i}]");
+                let edges = self.edges(table, &place, (key == "loops", mm), &mut drawing);
+                let edges = edges.map_err(|e| at(&drawing, e, place))?;
+                if key == "loops" { drawing.loops.push(edges) } else { drawing.paths.push(edges) }
+            }
         }
-        // Loops are closed: nothing is joined.
-        drawing.finish(0.0)
+        // Numbers are exact: only ends that are the same point are joined.
+        drawing.finish_with(&OutlineOptions { snap: 0.0, half_section: None, ..options.clone() })
     }
 
-    fn edges(&self, table: &LoopTable, i: usize, mm: f64, drawing: &mut Drawing) -> Result<Vec<OutlineEdge>> {
+    /// Each layer that is wanted is the label of a loop or a line.
+    fn has_labels(&self, layers: &[String]) -> std::result::Result<(), Finding> {
+        let labels: BTreeSet<&String> =
+            self.loops.iter().chain(&self.lines).filter_map(LoopEntry::label).collect();
+        let Some(missing) = layers.iter().find(|l| !labels.contains(l)) else { return Ok(()) };
+        let there: Vec<String> = labels.iter().map(|l| format!("{l:?}")).collect();
+        let help = match there.is_empty() {
+            true => "no loop has a label: leave out `layers`".to_owned(),
+            false => format!("labels of the file: {}", there.join(", ")),
+        };
+        Err(bad(&format!("no loop or line has the label {missing:?}")).help(help).key("layers"))
+    }
+
+    /// The edges of a loop or, if it is not to be closed, of a line; `mm`: size of its unit.
+    fn edges(
+        &self,
+        table: &LoopTable,
+        place: &str,
+        (closed, mm): (bool, f64),
+        drawing: &mut Drawing,
+    ) -> Result<Vec<OutlineEdge>> {
         check_weight(table.weight)?;
         let mut origin = |what: String, label: Option<&String>, weight: Option<f64>| {
             let label = label.or(table.label.as_ref());
@@ -183,18 +227,19 @@ impl OutlineFile {
         };
         let points = match (&table.points, table.centre, table.radius) {
             (Some(points), None, None) => points,
-            (None, Some(centre), Some(radius)) => {
+            (None, Some(centre), Some(radius)) if closed => {
                 if !(radius > 0.0) {
                     return Err(bad("a circle needs a positive radius").value_mm(radius * mm).into());
                 }
-                let label = origin(format!("circle loops[{i}]"), None, None);
+                let label = origin(format!("circle {place}"), None, None);
                 let circle =
                     OutlineEdge::arc(DVec2::from(centre) * mm, radius * mm, 0.0, std::f64::consts::TAU);
                 return Ok(vec![circle.labelled(label)]);
             }
-            _ => {
+            _ if closed => {
                 return Err(bad("a loop is either `points`, or `centre` and `radius` of a circle").into());
             }
+            _ => return Err(bad("a line is `points`; a circle belongs to `loops`").into()),
         };
         let mut vertices = Vec::with_capacity(points.len());
         for (k, point) in points.iter().enumerate() {
@@ -212,8 +257,16 @@ impl OutlineFile {
                 PointEntry::Table(t) => (DVec2::new(t.x, t.y), t.bulge, t.label.as_ref(), t.weight),
             };
             check_weight(weight).map_err(|e| e.under(&format!("[{k}]")))?;
-            let label = origin(format!("loops[{i}][{k}]"), label, weight);
+            let label = origin(format!("{place}[{k}]"), label, weight);
             vertices.push((p * mm, bulge, label));
+        }
+        if !closed {
+            if vertices.len() < 2 {
+                let finding = bad("a line has two points at least").value(vertices.len() as f64, "points");
+                return Err(finding.bound(2.0, "points").into());
+            }
+            let edge = |w: &[(DVec2, f64, u32)]| OutlineEdge::bulge(w[0].0, w[1].0, w[0].1).labelled(w[0].2);
+            return Ok(vertices.windows(2).map(edge).collect());
         }
         // Some writers give the first point again at the end.
         if vertices.len() > 1 && vertices[0].0 == vertices[vertices.len() - 1].0 {
@@ -244,7 +297,7 @@ pub(super) fn read_json(name: &str, bytes: &[u8], options: &OutlineOptions) -> R
                 .help("see `kinecut schema outline`"),
         )
     })?;
-    file.read(source, options.unit)
+    file.read(source, options)
 }
 
 fn check_weight(weight: Option<f64>) -> Result<()> {
