@@ -2,6 +2,7 @@
 
 use glam::DVec2;
 
+use super::WearRegister;
 use super::band::Fillet;
 use crate::contouring::UncutCorner;
 use crate::page::{Fact, fixed, trimmed};
@@ -16,11 +17,18 @@ pub(crate) fn place(at: DVec2) -> String {
     format!("X{} Y{}", trimmed(at.x, 3), trimmed(at.y, 3))
 }
 
-/// The corners as fillets of a radius [mm], from which the wall is compared; `moved`: distance by which a register moves the path away
-/// from the wall [mm].
-pub(crate) fn fillets(uncut: &[UncutCorner], radius: f64, moved: f64) -> Vec<Fillet> {
+/// The corners as fillets of a cutter's radius [mm], from which the wall is compared, under a wear register.
+///
+/// A register that moves the path of the centre away from the wall brings it to the intersection of its parallels. One that moves it
+/// towards the wall lets the control go round the corner of the path, which is an outside one on that side. Where the register holds
+/// the cutter's radius, the parallels of the wall meet either way.
+pub(crate) fn fillets(uncut: &[UncutCorner], radius: f64, register: Option<WearRegister>) -> Vec<Fillet> {
+    let (moved, is_full) = register.map_or((0.0, false), |r| (r.value, r.radius > 0.0));
     let fillet = |c: &UncutCorner| {
         let [from, to] = c.between;
+        if moved < 0.0 && !is_full {
+            return Fillet { centre: c.at, radius: radius - moved, between: c.between };
+        }
         let back = (from + to) / (1.0 + from.dot(to));
         let centre = if back.is_finite() { c.at - moved * back } else { c.at };
         Fillet { centre, radius, between: c.between }

@@ -200,3 +200,54 @@ fn two_cutters_need_two_registers() {
     assert!(outcome.verdict.is_safe(), "{:?}", outcome.verdict.found);
     assert!(outcome.deviation.bores.iter().all(|wall| wall.worst() < 2e-3), "{:?}", outcome.deviation.bores);
 }
+
+#[test]
+fn inside_corners_of_a_path_are_where_a_register_of_either_sign_leaves_them() {
+    let outlines = [
+        "side = \"inside\"\nrectangle = { size = [60, 40] }\ndepth = 6\n",
+        "side = \"inside\"\npolygon = [[-40, -30], [40, -30], [0, 35]]\ndepth = 6\n",
+        "side = \"outside\"\npolygon = [[-40, -30], [40, -30], [40, 30], [10, 30], [0, 5], [-10, 30], [-40, 30]]\ndepth = 6\n",
+    ];
+    for (control, register) in CONTROLS {
+        for outline in outlines {
+            for (compensation, value) in [("wear", -0.04), ("wear", 0.04), ("full", -0.04), ("full", 0.04)] {
+                // The first one is the tool's own.
+                let register = if compensation == "wear" && register == "D1" { "D2" } else { register };
+                let outcome = cut(control, &format!("{outline}{}", finish(register, compensation, value)));
+                let of = format!("{control} {compensation} {value} {outline}");
+                assert!(outcome.verdict.is_safe(), "{of}: {:?}", outcome.verdict.found);
+                assert!(outcome.deviation.bores[0].worst() < 2e-3, "{of}: {:?}", outcome.deviation.bores);
+            }
+        }
+    }
+}
+
+#[test]
+fn corners_that_are_tangent_but_for_the_digits_of_a_drawing_are_posted() {
+    for (control, register) in CONTROLS {
+        for r in [3.0, 5.0, 5.5, 8.0] {
+            for bulge in ["0.4142136", "0.41421356", "0.414213562373095"] {
+                let points = [
+                    (-40.0, -30.0, "0"),
+                    (40.0 - r, -30.0, bulge),
+                    (40.0, -30.0 + r, "0"),
+                    (40.0, 30.0 - r, bulge),
+                    (40.0 - r, 30.0, "0"),
+                    (-40.0, 30.0, "0"),
+                ];
+                let points: Vec<String> = points.iter().map(|(x, y, b)| format!("[{x}, {y}, {b}]")).collect();
+                for side in ["inside", "outside"] {
+                    let outline = format!(
+                        "side = \"{side}\"\noutline = {{ loops = [[{}]] }}\ndepth = 6\n",
+                        points.join(", ")
+                    );
+                    let text = job(control, &format!("{outline}{}", finish(register, "full", 0.0)));
+                    let of = format!("{control} {r} {bulge} {side}");
+                    let outcome = run("job.toml", &text, &MemoryLoader::default(), &Silent);
+                    let outcome = outcome.unwrap_or_else(|e| panic!("{of}: {e}"));
+                    assert!(outcome.verdict.is_safe(), "{of}: {:?}", outcome.verdict.found);
+                }
+            }
+        }
+    }
+}
