@@ -182,8 +182,44 @@ fn plan_hole(
         ..spec(drill, end, there)
     };
     let plan = plan_drill(&spec)?;
+    let (spec, plan) = match surfaces.exit.filter(|_| t.entry.is_none()) {
+        Some(exit) => coming_out(&spec, &plan, exit)?.unwrap_or((spec, plan)),
+        None => (spec, plan),
+    };
     let faces = surfaces.faces[0].is_some().then_some(surfaces.faces);
     Ok(PlannedHole { number, at, zero: t.top, plan, spec, first_item: 0, next_item: 0, faces })
+}
+
+/// A blind hole whose full diameter comes out of the body, as one that goes through, as deep.
+///
+/// # Errors
+/// Those of the planner.
+fn coming_out(
+    spec: &DrillSpec,
+    plan: &DrillPlan,
+    exit: BoundarySurface,
+) -> Result<Option<(DrillSpec, DrillPlan)>> {
+    /// Height that is rounding [mm].
+    const ROUNDING: f64 = 1e-9;
+    let is_blind = matches!(spec.end, End::FullDiameter(_) | End::Tip(_));
+    let tip = plan.travel.end;
+    let is_above = match exit {
+        BoundarySurface::Plane { height, slope } => tip > height + 0.5 * spec.diameter * slope.abs(),
+        _ => false,
+    };
+    if !is_blind || is_above {
+        return Ok(None);
+    }
+    let through = |overrun| DrillSpec { end: End::Through { exit, overrun }, ..spec.clone() };
+    // Where it does not come out whole, it is planned as it is written.
+    let Ok(out) = plan_drill(&through(0.0)) else { return Ok(None) };
+    let beyond = out.travel.end - tip;
+    if beyond < -ROUNDING {
+        return Ok(None);
+    }
+    let spec = through(if beyond > 0.0 { beyond } else { 0.0 });
+    let plan = plan_drill(&spec)?;
+    Ok(Some((spec, plan)))
 }
 
 /// Hole to drill, without its surfaces.

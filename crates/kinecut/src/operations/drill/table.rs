@@ -50,7 +50,8 @@ pub struct DrillTable {
     /// Distance of the exit's frame below that of the entry; default 0.
     #[serde(default)]
     pub length: Option<f64>,
-    /// For a blind hole: how deep below the entry's frame the full diameter reaches everywhere.
+    /// For a blind hole: how deep below the entry's frame the full diameter reaches everywhere. Where that is out of the stock, the
+    /// hole goes through, as deep.
     #[serde(default)]
     pub depth: Option<f64>,
     /// For a blind hole: Z of the tip, in coordinates of the work offset.

@@ -43,7 +43,31 @@ fn drilled(outcome: &Outcome) -> Vec<String> {
     let lines: Vec<String> = outcome.setups[0].posted.text.lines().map(str::to_owned).collect();
     let first = lines.iter().position(|l| l.contains("T2")).expect("the drill");
     // Without their numbers.
-    lines[first..].iter().map(|l| l.split_once(' ').map_or(l.clone(), |(_, rest)| rest.to_owned())).collect()
+    let is_number = |w: &str| w.strip_prefix('N').is_some_and(|n| n.chars().all(|c| c.is_ascii_digit()));
+    let words = |l: &String| l.split(' ').filter(|w| !is_number(w)).collect::<Vec<_>>().join(" ");
+    lines[first..].iter().map(words).collect()
+}
+
+#[test]
+fn a_depth_that_lies_out_of_the_stock_goes_through() {
+    let face = format!("{FACE}top = -0.5\ndepth = 0.5\n");
+    let through =
+        "entry = { surface = \"plane\" }\nexit = { surface = \"plane\" }\ntop = -0.5\nlength = 19.5\n";
+    for (depth, overrun) in [(20.0, 0.0), (20.5, 0.5), (23.5, 3.5)] {
+        let hole = format!("{DRILL}points = [[10, 5]]\n");
+        // Depths count from `top`, here 0, whatever the face has taken.
+        let deep = done(BOX, &format!("{face}{hole}depth = {depth}\n"));
+        assert!(deep.verdict.is_safe() && deep.verdict.found.is_empty(), "{depth}: {:?}", deep.verdict.found);
+        let given = done(BOX, &format!("{face}{hole}{through}overrun = {overrun}\n"));
+        assert_eq!(drilled(&deep), drilled(&given), "{depth}");
+    }
+    // Where the point comes out but not the full diameter, and where nothing does.
+    let codes = |depth: f64| {
+        let outcome = done(BOX, &format!("{DRILL}points = [[10, 5]]\ndepth = {depth}\n"));
+        outcome.verdict.found.iter().map(|f| f.code.to_string()).collect::<Vec<_>>()
+    };
+    assert_eq!(codes(19.0), ["KC0905"]);
+    assert!(codes(15.0).is_empty() && codes(17.0).is_empty());
 }
 
 #[test]
@@ -82,7 +106,7 @@ fn a_hole_begins_at_the_face_where_all_of_it_was_milled() {
         let outcome = done(long, &format!("{}{DRILL}points = [[{x}, 0]]\n", face(more)));
         let zones = outcome.verdict.found.iter().filter(|f| f.code.to_string() == "KC0905").count();
         assert_eq!(zones, 0, "{more} {x}: {:?}", outcome.verdict.found);
-        let mut lines = drilled(&outcome).into_iter().filter(|l| l.starts_with("G1 Z"));
+        let mut lines = drilled(&outcome).into_iter().filter(|l| l.contains("G1 Z"));
         lines.next_back().expect("the entry")
     };
     let [over, beside, raw] = [-20.0, 30.0, 100.0].map(|x| at("", x));
