@@ -100,7 +100,17 @@ impl Machine {
             length: self.tool.given()?,
         };
         let loaded = match (&self.name, &self.layout) {
-            (None, None) => return answer(args, To::default(), KnownMachines::all()),
+            (None, None) => {
+                self.asks_nothing()?;
+                return answer(args, To::default(), KnownMachines::all());
+            }
+            (Some(_), _) if self.stroke.is_some() => {
+                let what = "strokes are those of a layout, and a machine has its own";
+                let finding = Finding::error(Code::JOB_SHAPE, what).key("--stroke");
+                return Err(finding
+                    .help("leave out --stroke, or give --layout CODE in place of the machine")
+                    .into());
+            }
             (Some(name), _) => self.configuration.load(name)?,
             (None, Some(code)) => Loaded { machine: wants.layout(code)?, import: None },
         };
@@ -110,6 +120,25 @@ impl Machine {
             return answer(args, To { data: Data::Alone, ..to }, file);
         }
         answer(args, to, wants.answer(loaded)?)
+    }
+}
+
+impl Machine {
+    /// The list of known machines is asked for without more.
+    fn asks_nothing(&self) -> Result<(), Error> {
+        let given = [
+            ("--at", self.at.is_some()),
+            ("--svg", self.svg.is_some()),
+            ("--toml", self.toml),
+            ("--bodies", self.bodies),
+            ("--spindle", self.spindle.is_some()),
+            ("--hal", !self.configuration.hal.is_empty()),
+            ("--code", self.configuration.code.is_some()),
+        ];
+        let Some((key, _)) = given.into_iter().find(|(_, given)| *given) else { return Ok(()) };
+        let finding =
+            Finding::error(Code::JOB_SHAPE, format!("{key} is about a machine, and no machine is named"));
+        Err(finding.help("name it: kinecut machine trt_xyzac, or --layout CODE").key(key).into())
     }
 }
 

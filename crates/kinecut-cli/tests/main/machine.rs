@@ -37,6 +37,23 @@ fn a_machine_is_shown_listed_written_and_read_again() {
 }
 
 #[test]
+fn flags_about_a_machine_are_not_passed_over() {
+    for (args, key) in [
+        (&["machine", "--at", "X1"][..], "--at"),
+        (&["machine", "--bodies", "--json"], "--bodies"),
+        (&["machine", "--toml"], "--toml"),
+        (&["machine", "--spindle", "vertical"], "--spindle"),
+        (&["machine", "trt_xyzac", "--stroke", "600,500,500"], "--stroke"),
+    ] {
+        let run = kinecut(args, "");
+        let error = text(&run.stderr);
+        assert_eq!(run.status.code(), Some(2), "{args:?}: {error}");
+        assert!(error.contains(key) && error.contains("help"), "{args:?}: {error}");
+        assert!(run.stdout.is_empty() || text(&run.stdout).contains("error"), "{args:?}");
+    }
+}
+
+#[test]
 fn wrong_machines_exit_2_with_place_or_names() {
     let folder = folder("wrong");
     let unknown = kinecut(&["machine", "trt_xyzak"], "");
