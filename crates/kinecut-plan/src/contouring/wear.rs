@@ -81,7 +81,17 @@ impl Trouble {
                 is_kept[source.edge] = true;
             }
         }
+        // An arc about a corner that is hardly one is as near as the edges beside it.
+        let is_moved = |e: &OutlineEdge| {
+            let Some(of) = e.turn else { return false };
+            let arcs = moved.iter().flatten().filter_map(|m| m.turn);
+            arcs.into_iter().any(|t| {
+                let off = (t.radius - of.radius).abs() - wear;
+                t.centre.distance(of.centre) <= 10.0 * near.rounding() && off.abs() <= 10.0 * near.rounding()
+            })
+        };
         let gone = own.iter().zip(is_kept).filter(|(e, kept)| !kept && e.length() > LEAST).map(|(e, _)| e);
+        let gone = gone.filter(|e| !is_moved(e));
         // The smallest arc, else the shortest edge.
         let size = |e: &OutlineEdge| (e.turn.is_none(), e.turn.map_or(e.length(), |t| t.radius));
         let least = gone.min_by(|a, b| {

@@ -13,7 +13,12 @@ const LAYERS: &[(&str, &[&[&str]])] = &[
     ("kinecut-stock", &[&["sweep"], &["contact", "stock"]]),
     (
         "kinecut-plan",
-        &[&["motion", "cutting"], &["holes", "drilling", "facing"], &["contouring", "clearing", "threading"]],
+        &[
+            &["motion", "cutting"],
+            &["holes", "drilling", "facing"],
+            &["clearing", "threading"],
+            &["contouring"],
+        ],
     ),
     ("kinecut", &[&["page"], &["operations"], &["job"], &["verbs"]]),
 ];

@@ -226,7 +226,8 @@ fn inside_corners_of_a_path_are_where_a_register_of_either_sign_leaves_them() {
 fn corners_that_are_tangent_but_for_the_digits_of_a_drawing_are_posted() {
     for (control, register) in CONTROLS {
         for r in [3.0, 5.0, 5.5, 8.0] {
-            for bulge in ["0.4142136", "0.41421356", "0.414213562373095"] {
+            // The first is off by 4 seconds of arc at each joint.
+            for bulge in ["0.41421", "0.4142136", "0.41421356", "0.414213562373095"] {
                 let points = [
                     (-40.0, -30.0, "0"),
                     (40.0 - r, -30.0, bulge),
@@ -237,6 +238,10 @@ fn corners_that_are_tangent_but_for_the_digits_of_a_drawing_are_posted() {
                 ];
                 let points: Vec<String> = points.iter().map(|(x, y, b)| format!("[{x}, {y}, {b}]")).collect();
                 for side in ["inside", "outside"] {
+                    // An arc of the cutter's own radius, and a little more: its path is shorter than the register moves it.
+                    if side == "inside" && r == 5.0 && bulge == "0.41421" {
+                        continue;
+                    }
                     let outline = format!(
                         "side = \"{side}\"\noutline = {{ loops = [[{}]] }}\ndepth = 6\n",
                         points.join(", ")
