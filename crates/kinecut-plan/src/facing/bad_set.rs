@@ -23,6 +23,7 @@ use crate::base::{Code, Finding, Result};
 #[derive(Clone, Debug, PartialEq)]
 pub struct BadSet {
     parts: Vec<BadPart>,
+    layers: Vec<BadPart>,
 }
 
 /// An open interval of bad exit angles [rad]; in a file degrees.
@@ -86,7 +87,12 @@ impl BadSet {
             }
         }
         parts.retain(|p| p.weight > 0.0);
-        Ok(BadSet { parts })
+        Ok(BadSet::of(parts))
+    }
+
+    /// Of intervals that are ascending and do not overlap.
+    fn of(parts: Vec<BadPart>) -> BadSet {
+        BadSet { layers: layers(&parts), parts }
     }
 
     /// Largest weight: sums stay finite and exact enough.
@@ -97,9 +103,16 @@ impl BadSet {
         &self.parts
     }
 
-    /// Weight of a millimetre of edge with this exit angle [rad]; 0 for a good one.
+    /// Intervals that lie over each other, whose weights add up to the weight of an angle: those that touch have one
+    /// interval in common, with the lesser weight, so that the angle at which they touch is bad too.
+    pub fn layers(&self) -> &[BadPart] {
+        &self.layers
+    }
+
+    /// Weight of a millimetre of edge with this exit angle [rad]; 0 for a good one. Where two intervals touch it is the
+    /// lesser of their weights.
     pub fn weight(&self, exit_angle: f64) -> f64 {
-        self.parts.iter().find(|p| p.from < exit_angle && exit_angle < p.to).map_or(0.0, |p| p.weight)
+        self.layers.iter().filter(|p| p.from < exit_angle && exit_angle < p.to).map(|p| p.weight).sum()
     }
 
     /// The largest weight of the set.
@@ -113,7 +126,7 @@ impl BadSet {
     pub fn supplement(&self) -> BadSet {
         let flipped =
             self.parts.iter().rev().map(|p| BadPart { from: PI - p.to, to: PI - p.from, weight: p.weight });
-        BadSet { parts: flipped.collect() }
+        BadSet::of(flipped.collect())
     }
 
     /// The set of angles that are at most `guard` [rad] from a bad one, each counting what the worst one within the
@@ -141,8 +154,25 @@ impl BadSet {
                 _ => {}
             }
         }
-        BadSet { parts }
+        BadSet::of(parts)
     }
+}
+
+/// The layers of intervals that are ascending and do not overlap: of each run of intervals that touch, one over all of it
+/// with the least weight, and the layers of what is left.
+fn layers(parts: &[BadPart]) -> Vec<BadPart> {
+    let mut out = Vec::new();
+    for run in parts.chunk_by(|a, b| a.to == b.from) {
+        let least = run.iter().fold(f64::INFINITY, |w, p| if p.weight < w { p.weight } else { w });
+        out.push(BadPart { from: run[0].from, to: run[run.len() - 1].to, weight: least });
+        let rest: Vec<BadPart> = run
+            .iter()
+            .map(|p| BadPart { weight: p.weight - least, ..*p })
+            .filter(|p| p.weight > 0.0)
+            .collect();
+        out.extend(layers(&rest));
+    }
+    out
 }
 
 #[cfg(test)]
@@ -164,6 +194,31 @@ mod tests {
             assert!(near_end || wide.weight(angle) == worst, "{angle}");
         }
         assert_eq!(BadSet::below(1.0).unwrap().guarded(0.1).parts(), [part(-0.1, 1.1, 1.0)]);
+    }
+
+    #[test]
+    fn intervals_that_touch_leave_no_good_angle_between() {
+        let part = |from, to, weight| BadPart { from, to, weight };
+        let set = BadSet::new(vec![
+            part(0.0, 0.5, 2.0),
+            part(0.5, 1.0, 1.0),
+            part(1.0, 1.5, 4.0),
+            part(1.7, 2.0, 3.0),
+        ])
+        .unwrap();
+        assert_eq!([0.5, 1.0, 1.5, 1.7].map(|a| set.weight(a)), [1.0, 1.0, 0.0, 0.0]);
+        assert_eq!([0.25, 0.75, 1.25, 1.6, 1.8].map(|a| set.weight(a)), [2.0, 1.0, 4.0, 0.0, 3.0]);
+        assert_eq!(
+            set.layers(),
+            [part(0.0, 1.5, 1.0), part(0.0, 0.5, 1.0), part(1.0, 1.5, 3.0), part(1.7, 2.0, 3.0)]
+        );
+        // Halves of one interval are the interval.
+        let halves = BadSet::new(vec![part(0.0, 0.5, 1.0), part(0.5, 1.0, 1.0)]).unwrap();
+        assert_eq!(halves.layers(), [part(0.0, 1.0, 1.0)]);
+        // The guard widens the first to 0.6, where it touches the second.
+        assert_eq!([0.55, 0.6, 0.65].map(|a| set.guarded(0.1).weight(a)), [2.0, 1.0, 1.0]);
+        let flipped = halves.supplement();
+        assert_eq!(flipped.weight(PI - 0.5), 1.0);
     }
 
     #[test]

@@ -64,25 +64,29 @@ pub fn bad_length(case: &FaceCase, placement: Placement) -> f64 {
 /// The length with a bad exit in the front or in the back pass, each stretch counted once with its worse weight [mm].
 pub fn either_bad_length(case: &FaceCase, placement: Placement) -> f64 {
     let mut total = 0.0;
-    let mut both = Vec::new();
+    let mut both: [Vec<BadStretch>; 2] = Default::default();
     for (edge, weight) in case.outline.edges().iter().zip(&case.weights) {
-        both.clear();
-        for sweep in [Sweep::Front, Sweep::Back] {
-            bad_stretches(edge, case, placement, sweep, 0.0, |b| both.push(b));
+        for (own, sweep) in both.iter_mut().zip([Sweep::Front, Sweep::Back]) {
+            own.clear();
+            bad_stretches(edge, case, placement, sweep, 0.0, |b| own.push(b));
         }
-        let mut cuts: Vec<f64> = both.iter().flat_map(|b| [b.from, b.to]).collect();
+        let mut cuts: Vec<f64> = both.iter().flatten().flat_map(|b| [b.from, b.to]).collect();
         cuts.sort_by(f64::total_cmp);
         for w in cuts.windows(2) {
             let middle = 0.5 * (w[0] + w[1]);
-            let here = both.iter().filter(|b| b.from < middle && middle < b.to);
-            total += here.fold(0.0, |a: f64, b| a.max(b.weight)) * (w[1] - w[0]) * edge.length() * weight;
+            let here = |own: &Vec<BadStretch>| -> f64 {
+                own.iter().filter(|b| b.from < middle && middle < b.to).map(|b| b.weight).sum()
+            };
+            let [front, back] = [here(&both[0]), here(&both[1])];
+            total += if front > back { front } else { back } * (w[1] - w[0]) * edge.length() * weight;
         }
     }
     total
 }
 
 /// Calls `found` with each stretch of an edge of `case.outline` where one straight pass leaves a bad exit, in no
-/// particular order; stretches of one pass do not overlap. `rho`: feed per radian over the cutter's radius, 0 for the
+/// particular order. Where bad intervals of unlike weights touch, stretches lie over each other, and their weights add
+/// up. `rho`: feed per radian over the cutter's radius, 0 for the
 /// circle.
 pub fn bad_stretches(
     edge: &OutlineEdge,
@@ -92,7 +96,7 @@ pub fn bad_stretches(
     rho: f64,
     mut found: impl FnMut(BadStretch),
 ) {
-    for part in case.bad.parts() {
+    for part in case.bad.layers() {
         stretches_in(edge, case.radius, placement, *part, sweep, rho, &mut found);
     }
 }

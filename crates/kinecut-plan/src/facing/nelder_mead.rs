@@ -2,20 +2,22 @@
 //!
 //! The worst vertex of the triangle is replaced (the paper says the nearest): mirrored in the middle of the others,
 //! stretched when that is best, drawn in when it is bad, or the whole triangle shrinks onto its best vertex. Points
-//! that do not cover the part are worse than any that do, the more the farther. It ends in a local minimum: which one
-//! is a matter of the start.
+//! that are not allowed, because they do not cover the part or break a constraint of the placement, are worse than any
+//! that are, the more the farther: so an end compares with the certified optimum of the same constraints. It ends in a
+//! local minimum: which one is a matter of the start.
 
 use std::f64::consts::TAU;
 
 use rayon::prelude::*;
 use serde::Serialize;
 
+use super::optimum::{AllowedPlacements, Options};
 use super::{FaceCase, Objective, Placement};
-use crate::base::{Code, Finding, Progress, Result};
+use crate::base::{Code, Error, Finding, Progress, Result};
 use crate::num::random::Random;
 
 /// Steps, tolerances and limits of the simplex.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct NelderMead {
     /// First step in orientation [rad].
     pub angle_step: f64,
@@ -27,20 +29,26 @@ pub struct NelderMead {
     pub value_tolerance: f64,
     /// Most iterations.
     pub iterations: u32,
-    /// Least distance of the outline inside the cutter's circle [mm].
-    pub margin: f64,
+    /// Constraints of the placement; the limits of the search in them are not used.
+    pub constraints: Options,
 }
 
 impl NelderMead {
-    /// Steps of 10 degrees and a tenth of the radius, tolerances of 1e-7 and 1e-9, 400 iterations, and this margin.
+    /// The same as [`NelderMead::within`] with this margin as the only constraint.
     pub fn with_margin(margin: f64) -> NelderMead {
+        NelderMead::within(&Options { margin, ..Options::for_cutter(0.0) })
+    }
+
+    /// Steps of 10 degrees and a tenth of the radius, tolerances of 1e-7 and 1e-9, 400 iterations, and the constraints
+    /// of these options.
+    pub fn within(constraints: &Options) -> NelderMead {
         NelderMead {
             angle_step: 10f64.to_radians(),
             offset_step: 0.1,
             placement_tolerance: 1e-7,
             value_tolerance: 1e-9,
             iterations: 400,
-            margin,
+            constraints: constraints.clone(),
         }
     }
 }
@@ -53,9 +61,9 @@ pub struct SimplexDescent {
     /// Placement at the end; in JSON `end`.
     #[serde(rename = "end")]
     pub placement: Placement,
-    /// The value there [mm]; more than the weighted perimeter if no point it saw covers the part.
+    /// The value there [mm]; more than the weighted perimeter if no point it saw is allowed.
     pub value: f64,
-    /// Evaluations of the objective, points that do not cover the part included.
+    /// Evaluations of the objective, points that are not allowed included.
     pub evaluations: u32,
 }
 
@@ -65,7 +73,7 @@ pub struct SimplexCorner {
     /// Its placement; the angle may lie beyond a full turn.
     #[serde(flatten)]
     pub placement: Placement,
-    /// The value there [mm]; more than the weighted perimeter where the part is not covered.
+    /// The value there [mm]; more than the weighted perimeter where the placement is not allowed.
     pub value: f64,
 }
 
@@ -91,6 +99,18 @@ pub struct DescentStatistics {
     pub within_one_percent: f64,
     /// Mean number of evaluations of a start.
     pub evaluations: f64,
+}
+
+impl SimplexDescent {
+    /// True if the end is an allowed placement, so that its value is a bad length of this case.
+    pub fn is_allowed(&self, case: &FaceCase) -> bool {
+        self.value < beyond(case)
+    }
+}
+
+/// More than any allowed placement's value [mm].
+fn beyond(case: &FaceCase) -> f64 {
+    case.weighted_perimeter() * case.bad.largest_weight() + 1.0
 }
 
 impl DescentStatistics {
@@ -125,48 +145,58 @@ impl DescentStatistics {
 /// ```
 ///
 /// # Errors
-/// As [`Objective::value`].
+/// As [`Objective::value`]; `KC1001` for constraints that make no sense.
 pub fn descend(
     case: &FaceCase,
     objective: &Objective,
     options: &NelderMead,
     start: Placement,
 ) -> Result<SimplexDescent> {
-    run(case, objective, options, start, |_, _| ())
+    let allowed = AllowedPlacements::new(case, &options.constraints)?;
+    run(case, objective, options, &allowed, start, |_, _| Ok(()))
 }
 
-/// Runs the simplex from a start, with each triangle on its way.
+/// Runs the simplex from a start, with each triangle on its way; of an outline of many edges that takes seconds.
 ///
 /// # Errors
-/// As [`Objective::value`].
+/// As [`descend`]; `KC0009` when cancelled.
 pub fn descend_steps(
     case: &FaceCase,
     objective: &Objective,
     options: &NelderMead,
     start: Placement,
+    progress: &dyn Progress,
 ) -> Result<(SimplexDescent, Vec<SimplexStep>)> {
     let mut steps = Vec::new();
     let corner =
         |v: Vertex| SimplexCorner { placement: Placement { angle: v.x[0], offset: v.x[1] }, value: v.value };
-    let descent = run(case, objective, options, start, |simplex, evaluations| {
+    let allowed = AllowedPlacements::new(case, &options.constraints)?;
+    progress.stage("walk", u64::from(options.iterations));
+    let descent = run(case, objective, options, &allowed, start, |simplex, evaluations| {
         steps.push(SimplexStep { corners: simplex.map(corner), evaluations });
+        progress.advance(1);
+        if progress.cancelled() { Err(cancelled()) } else { Ok(()) }
     })?;
     Ok((descent, steps))
+}
+
+fn cancelled() -> Error {
+    Finding::error(Code::CANCELLED, "the work was cancelled").into()
 }
 
 fn run(
     case: &FaceCase,
     objective: &Objective,
     options: &NelderMead,
+    allowed: &AllowedPlacements<'_>,
     start: Placement,
-    mut seen: impl FnMut([Vertex; 3], u32),
+    mut seen: impl FnMut([Vertex; 3], u32) -> Result<()>,
 ) -> Result<SimplexDescent> {
-    let worst = case.weighted_perimeter() * case.bad.largest_weight() + 1.0;
+    let worst = beyond(case);
     let evaluations = std::cell::Cell::new(0);
     let at = |x: [f64; 2]| -> Result<Vertex> {
         evaluations.set(evaluations.get() + 1);
-        let [low, high] = case.offsets(x[0], options.margin);
-        let short = if low - x[1] > x[1] - high { low - x[1] } else { x[1] - high };
+        let short = allowed.shortfall(Placement { angle: x[0], offset: x[1] });
         // Rounding of a point at the bound.
         if short > 1e-9 {
             return Ok(Vertex { x, value: worst + short });
@@ -181,7 +211,7 @@ fn run(
         at([x[0], x[1] + options.offset_step * case.radius])?,
     ];
     simplex.sort_by(Vertex::order);
-    seen(simplex, evaluations.get());
+    seen(simplex, evaluations.get())?;
     for _ in 0..options.iterations {
         let [best, middle, last] = simplex;
         let far = [middle, last].iter().any(|v| {
@@ -214,14 +244,14 @@ fn run(
             }
         }
         simplex.sort_by(Vertex::order);
-        seen(simplex, evaluations.get());
+        seen(simplex, evaluations.get())?;
     }
     let Vertex { x, value } = simplex[0];
     let placement = Placement { angle: x[0].rem_euclid(TAU), offset: x[1] };
     Ok(SimplexDescent { start, placement, value, evaluations: evaluations.get() })
 }
 
-/// Runs the simplex from `starts` random placements that cover the part, in parallel; the same `seed` gives the same
+/// Runs the simplex from `starts` random allowed placements, in parallel; the same `seed` gives the same
 /// descents.
 ///
 /// # Errors
@@ -234,50 +264,65 @@ pub fn descents(
     seed: u64,
     progress: &dyn Progress,
 ) -> Result<Vec<SimplexDescent>> {
-    let starts = random_placements(case, options.margin, starts, seed)?;
+    let starts = random_placements(case, &options.constraints, starts, seed)?;
     progress.stage("descents", starts.len() as u64);
+    let allowed = AllowedPlacements::new(case, &options.constraints)?;
+    let still_wanted = || if progress.cancelled() { Err(cancelled()) } else { Ok(()) };
     let one = |start: &Placement| {
-        if progress.cancelled() {
-            return Err(Finding::error(Code::CANCELLED, "the work was cancelled").into());
-        }
-        let descent = descend(case, objective, options, *start);
+        still_wanted()?;
+        let descent = run(case, objective, options, &allowed, *start, |_, _| still_wanted());
         progress.advance(1);
         descent
     };
     starts.par_iter().map(one).collect()
 }
 
-/// Orientations tried for each random placement that covers the part: with a share of 1 in 1000 of them covering, one
-/// in 50 000 searches would fail.
+/// Orientations tried for each random placement that is allowed: with a share of 1 in 1000 of them allowed, one in
+/// 50 000 searches would fail.
 const TRIES: u32 = 10_000;
 
-/// Random placements that cover the part: orientations evenly among those that do, offsets evenly among those that do
+/// Random allowed placements: orientations evenly among those that have any, offsets evenly among those that are allowed
 /// there.
 ///
 /// # Errors
-/// `KC1002` when no orientation is found in which the cutter covers the part.
-pub fn random_placements(case: &FaceCase, margin: f64, count: u32, seed: u64) -> Result<Vec<Placement>> {
+/// `KC1001` for constraints that make no sense; `KC1002` when no orientation is found in which the cutter covers the part
+/// within them.
+pub fn random_placements(
+    case: &FaceCase,
+    constraints: &Options,
+    count: u32,
+    seed: u64,
+) -> Result<Vec<Placement>> {
+    let allowed = AllowedPlacements::new(case, constraints)?;
     let mut random = Random(seed);
     let mut placements = Vec::new();
-    let mut least = f64::INFINITY;
     for _ in 0..count {
         let mut tries = 0;
         loop {
             let angle = TAU * random.share();
-            let [low, high] = case.offsets(angle, margin);
-            let short = low - high;
-            if short <= 0.0 {
-                placements.push(Placement { angle, offset: low + random.share() * (high - low) });
+            let spans = allowed.offsets(angle);
+            if !spans.is_empty() {
+                let room: f64 = spans.iter().map(|s| s[1] - s[0]).sum();
+                let mut left = random.share() * room;
+                let inside = spans.iter().find_map(|s| {
+                    let here = s[0] + left;
+                    left -= s[1] - s[0];
+                    (left <= 0.0).then_some(here)
+                });
+                // Rounding may carry the last place beyond its end.
+                let offset = inside.unwrap_or(spans[spans.len() - 1][1]);
+                placements.push(Placement { angle, offset });
                 break;
             }
-            least = if short < least { short } else { least };
             tries += 1;
             if tries > TRIES {
-                return Err(Finding::error(Code::FACE_TOO_WIDE, "the part is wider than the cutter")
-                    .value_mm(2.0 * (case.radius - margin) + least)
-                    .bound_mm(2.0 * (case.radius - margin))
-                    .help("take a larger cutter, or several passes")
-                    .into());
+                return Err(Finding::error(
+                    Code::FACE_TOO_WIDE,
+                    "no orientation was found in which the cutter covers the part as it is allowed to",
+                )
+                .value(f64::from(TRIES), "orientations")
+                .help("take a larger cutter or several passes, or allow more placements")
+                .into());
             }
         }
     }

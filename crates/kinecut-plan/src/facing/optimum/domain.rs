@@ -122,6 +122,16 @@ impl Domain {
         self.angles.iter().any(|a| a[0] <= angle && angle <= a[1])
     }
 
+    /// Least turn, to either side, that makes an angle an allowed one [rad]; infinite if no angle is allowed.
+    pub(super) fn turn_to_allowed(&self, angle: f64) -> f64 {
+        if self.allows(angle) {
+            return 0.0;
+        }
+        let turns =
+            self.angles.iter().flat_map(|a| [wrap_positive(a[0] - angle), wrap_positive(angle - a[1])]);
+        turns.fold(f64::INFINITY, |a, b| if b < a { b } else { a })
+    }
+
     /// Angles at which an edge of the hull is parallel to the feed, in [0, 2 pi).
     pub(super) fn hull_angles(&self) -> impl Iterator<Item = f64> + '_ {
         let n = self.corners.len();

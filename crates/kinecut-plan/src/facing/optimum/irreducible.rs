@@ -73,7 +73,7 @@ impl Rim {
         let turn = edge.turn?;
         let parts: Vec<BadInterval> = case
             .bad
-            .parts()
+            .layers()
             .iter()
             .map(|p| BadInterval { from: p.from, to: p.to, weight: p.weight })
             .collect();

@@ -166,7 +166,7 @@ impl Lines {
         let size = lines.iter().fold(case.radius, |s, l: &Line| if l.length > s { l.length } else { s });
         let parts = case
             .bad
-            .parts()
+            .layers()
             .iter()
             .map(|p| BadInterval { from: p.from, to: p.to, weight: p.weight })
             .collect();

@@ -8,6 +8,7 @@
 //! Source: Kryzhanivskyi and Kryzhanivska 2011 pose the problem and descend from chosen starts; bounds and search are
 //! not theirs. Certificates are in double precision, sound to some 1e-9 of the perimeter.
 
+mod allowed;
 mod arc_box;
 mod bound;
 mod boxes;
@@ -30,8 +31,9 @@ mod straight;
 mod sweep;
 mod width;
 
+pub use allowed::AllowedPlacements;
 pub use bound::box_bound;
 pub use least::least_burr;
-pub use map::{ObjectiveMap, objective_map};
+pub use map::{ObjectiveMap, map_size, objective_map, objective_map_watched};
 pub use options::Options;
 pub use result::{Irreducible, LocalMinimum, Optimum, PlacementSensitivity};

@@ -235,8 +235,8 @@ impl<'a> ExitLaw<'a> {
         let tell = |s: f64| {
             let psi = at(s);
             let inside = |from: f64, to: f64| from + ANGLE_ZERO < psi && psi < to - ANGLE_ZERO;
-            let part = self.bad.parts().iter().find(|p| inside(p.from, p.to));
-            (inside(0.0, PI), part.map_or(0.0, |p| p.weight))
+            let layers = self.bad.layers().iter().filter(|p| inside(p.from, p.to));
+            (inside(0.0, PI), layers.map(|p| p.weight).sum::<f64>())
         };
         let mut open: Option<(f64, f64, (bool, f64))> = None;
         for w in self.inner.windows(2).filter(|w| w[1] > w[0]) {

@@ -1,7 +1,7 @@
 //! The verb `kinecut face`: an operation planned for itself, as a sheet of numbers for a person or another program.
 
 use crate::base::{Code, Finding, Loader, Progress, Result};
-use crate::facing::optimum::{ObjectiveMap, Options, objective_map};
+use crate::facing::optimum::{ObjectiveMap, Options, map_size, objective_map_watched};
 use crate::facing::{
     DescentStatistics, NelderMead, Objective, OffsetRule, SimplexDescent, SimplexStep, SurveyPoint,
     ToothCrossing, descend, descend_steps, descents, survey,
@@ -70,7 +70,7 @@ const OWN_MAP: [usize; 2] = [180, 41];
 fn baseline(face: &PlannedFace, options: &Options, progress: &dyn Progress) -> Result<PaperBaseline> {
     let case = &face.plan.guarded;
     let margin = options.margin;
-    let method = NelderMead::with_margin(margin);
+    let method = NelderMead::within(options);
     // A part that no straight pass covers has no feasible start.
     let descents = match &face.plan.optimum {
         Ok(_) => descents(case, &Objective::Limit, &method, STARTS, SEED, progress)?,
@@ -81,7 +81,7 @@ fn baseline(face: &PlannedFace, options: &Options, progress: &dyn Progress) -> R
     let statistics = face.plan.optimum.as_ref().ok().and_then(|o| DescentStatistics::of(&descents, o.value));
     Ok(PaperBaseline {
         survey: survey(case, &Objective::Limit, OffsetRule::Share(0.5), margin, ORIENTATIONS, progress)?,
-        map: objective_map(case, options, MAP[0], MAP[1])?,
+        map: objective_map_watched(case, options, map_size(MAP, case.outline.edges().len()), progress)?,
         from_drawn,
         descents,
         statistics,
@@ -109,6 +109,14 @@ pub struct FaceSheet {
     pub control: &'static str,
     /// The program, not simulated: blocks to look at.
     pub program: String,
+}
+
+/// None of work that was cancelled: the plan is an answer without it.
+fn unless_cancelled<T>(done: Result<T>) -> Result<Option<T>> {
+    match done {
+        Err(e) if e.code() == Code::CANCELLED => Ok(None),
+        done => done.map(Some),
+    }
 }
 
 /// Plans a face.
@@ -151,27 +159,25 @@ pub fn plan_face_sheet(
         (true, Some(pass)) => pass.crossings(&face.plan.case.outline)?,
         _ => Vec::new(),
     };
+    let constraints = options(&face.of, face.plan.left_hand);
     let paper = match wants.paper && !progress.cancelled() {
-        true => match baseline(face, &options(&face.of, face.plan.left_hand), progress) {
-            Err(e) if e.code() == Code::CANCELLED => None,
-            done => Some(done?),
-        },
+        true => unless_cancelled(baseline(face, &constraints, progress))?,
         false => None,
     };
+    let guarded = &face.plan.guarded;
     let map = match wants.map {
         true => {
-            let options = options(&face.of, face.plan.left_hand);
-            Some(objective_map(&face.plan.guarded, &options, OWN_MAP[0], OWN_MAP[1])?)
+            let size = map_size(OWN_MAP, guarded.outline.edges().len());
+            unless_cancelled(objective_map_watched(guarded, &constraints, size, progress))?
         }
         false => None,
     };
     let start = face.plan.ways[face.plan.chosen].placement();
     let walk = match start.filter(|_| wants.walk) {
         Some(start) => {
-            let margin = options(&face.of, face.plan.left_hand).margin;
-            let method = NelderMead::with_margin(margin);
-            let (descent, steps) = descend_steps(&face.plan.guarded, &Objective::Limit, &method, start)?;
-            Some(SimplexWalk { descent, steps })
+            let method = NelderMead::within(&constraints);
+            let walk = descend_steps(guarded, &Objective::Limit, &method, start, progress);
+            unless_cancelled(walk)?.map(|(descent, steps)| SimplexWalk { descent, steps })
         }
         None => None,
     };
@@ -182,6 +188,16 @@ pub fn plan_face_sheet(
         findings.push(Finding::note(
             Code::FACE_ADVICE,
             "crossings of the teeth are listed for one straight pass: none was chosen",
+        ));
+    }
+    let cut_short = |wanted: bool, has: bool| wanted && !has && progress.cancelled();
+    if cut_short(wants.paper, paper.is_some())
+        || cut_short(wants.map, map.is_some())
+        || cut_short(wants.walk && start.is_some(), walk.is_some())
+    {
+        findings.push(Finding::note(
+            Code::CANCELLED,
+            "the map, the walk or the results of the paper's method are left out: the work was cancelled",
         ));
     }
     if wants.walk && start.is_none() {

@@ -1,6 +1,9 @@
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+
 use serde_json::Value;
 
-use crate::base::{MemoryLoader, Silent};
+use crate::base::{MemoryLoader, Progress, Silent};
+use crate::facing::optimum::map_size;
 use crate::verbs::face::{SheetWants, plan_face_sheet};
 use crate::verbs::hole::read_holes;
 
@@ -12,13 +15,17 @@ fn sheet(keys: &str) -> Value {
 }
 
 fn wanted(keys: &str, wants: SheetWants) -> Value {
+    watched(keys, wants, &Silent)
+}
+
+fn watched(keys: &str, wants: SheetWants, progress: &dyn Progress) -> Value {
     let text = format!(
         "title = \"plate\"\n[tool]\nnumber = 1\ntype = \"face-mill\"\ndiameter = 100\nteeth = 5\nflute_length = 8\n\
          [operation]\ntype = \"face\"\ntool = 1\ndepth = 0.5\nspeed = 600\nfeed_per_tooth = 0.2\nguard = 0\n{keys}"
     );
     let texts = read_holes("face.toml", &text).unwrap();
     let table = texts.item(0).unwrap();
-    serde_json::to_value(plan_face_sheet(&table, wants, &MemoryLoader::default(), &Silent).unwrap()).unwrap()
+    serde_json::to_value(plan_face_sheet(&table, wants, &MemoryLoader::default(), progress).unwrap()).unwrap()
 }
 
 fn number(v: &Value) -> f64 {
@@ -190,4 +197,83 @@ fn the_walk_is_the_descent_triangle_by_triangle() {
     assert_eq!(last["evaluations"], walk["evaluations"]);
     let rows = wanted(&format!("passes = {{ rows = 2 }}\noutline = {LOOPS}"), wants);
     assert!(rows["walk"].is_null() && rows["findings"].to_string().contains("walks from one straight pass"));
+}
+
+#[test]
+fn the_walk_stays_where_the_search_may_look() {
+    let wants = SheetWants { walk: true, paper: true, ..SheetWants::default() };
+    // A free walk ends 6 mm beside of what the engagement allows, and below the certificate.
+    let json = wanted(
+        "engagement = [-60, 60]\nforbidden = [[80, 280]]\noutline = { loops = [[[0, 0], [80, 0], [80, 30], [30, 30], [30, 60], [0, 60]]] }",
+        wants,
+    );
+    let (optimum, walk) = (&json["optimum"], &json["walk"]);
+    let bound = number(&optimum["lower_bound"]);
+    assert!(number(&walk["value"]) >= bound - 1e-6, "{} below {bound}", walk["value"]);
+    let heights = |p: &Value| {
+        let (sin, cos) = number(&p["turn"]).to_radians().sin_cos();
+        [[0.0, 0.0], [80.0, 0.0], [80.0, 30.0], [30.0, 60.0], [0.0, 60.0]]
+            .map(|[x, y]: [f64; 2]| x * sin + y * cos - number(&p["offset"]))
+    };
+    let reach = 50.0 * 60f64.to_radians().sin();
+    assert!(heights(&walk["end"]).iter().all(|h| h.abs() < reach + 1e-6), "{}", walk["end"]);
+    let descents = json["paper"]["descents"].as_array().unwrap();
+    assert_eq!(descents.len(), 100);
+    for d in descents {
+        assert!(
+            number(&d["value"]) >= bound - 1e-6 && heights(&d["end"]).iter().all(|h| h.abs() < reach + 1e-6),
+            "{d}"
+        );
+    }
+    assert!(number(&json["paper"]["statistics"]["best"]) >= bound - 1e-6);
+}
+
+/// Work that is cancelled when a stage of this name begins.
+struct StopAt {
+    stage: &'static str,
+    reached: AtomicBool,
+    after: AtomicU64,
+}
+
+impl Progress for StopAt {
+    fn stage(&self, name: &str, _: u64) {
+        if name == self.stage {
+            self.reached.store(true, Ordering::Relaxed);
+        }
+    }
+
+    fn advance(&self, steps: u64) {
+        if self.cancelled() {
+            self.after.fetch_add(steps, Ordering::Relaxed);
+        }
+    }
+
+    fn cancelled(&self) -> bool {
+        self.reached.load(Ordering::Relaxed)
+    }
+}
+
+#[test]
+fn map_and_walk_can_be_given_up_and_the_plan_is_an_answer_without_them() {
+    let wants = SheetWants { map: true, walk: true, ..SheetWants::default() };
+    for stage in ["map", "walk"] {
+        let stop = StopAt { stage, reached: AtomicBool::new(false), after: AtomicU64::new(0) };
+        let json = watched(&format!("outline = {LOOPS}"), wants, &stop);
+        assert!(stop.cancelled(), "{stage} is never told");
+        // Whatever other threads were at when it was told.
+        assert!(stop.after.load(Ordering::Relaxed) <= 16, "{stage} goes on");
+        assert_eq!(json["map"].is_null(), stage == "map", "{stage}");
+        assert!(json["walk"].is_null() && json["optimum"]["complete"] == true, "{stage}");
+        assert!(json["findings"].to_string().contains("the work was cancelled"), "{}", json["findings"]);
+    }
+}
+
+#[test]
+fn the_map_of_many_edges_is_coarser_and_bounded() {
+    assert_eq!([5, 4000].map(|edges| map_size([180, 41], edges)), [[180, 41]; 2]);
+    for edges in [9000, 20_000, 80_000] {
+        let [columns, rows] = map_size([180, 41], edges);
+        assert!((36..180).contains(&columns) && (9..41).contains(&rows), "{columns} {rows}");
+        assert!(columns * rows * edges <= 30_000_000, "{columns} {rows} {edges}");
+    }
 }

@@ -35,6 +35,34 @@ fn bad_set(kind: u8, guard: f64) -> BadSet {
     set.guarded(guard)
 }
 
+#[test]
+fn no_optimum_hides_where_two_bad_intervals_touch() {
+    let outline = Outline::polygon(&[
+        dvec2(0.0, 0.0),
+        dvec2(80.0, 0.0),
+        dvec2(80.0, 30.0),
+        dvec2(30.0, 30.0),
+        dvec2(30.0, 60.0),
+        dvec2(0.0, 60.0),
+    ])
+    .unwrap();
+    let part = |from: f64, to: f64, weight| BadPart { from: from.to_radians(), to: to.to_radians(), weight };
+    let bad = BadSet::new(vec![part(0.0, 90.0, 2.0), part(90.0, 120.0, 1.0)]).unwrap();
+    let case = FaceCase::new(outline, 50.0, bad).unwrap();
+    // The edge of 50 mm at y = 30 leaves at 90 degrees: beside that it counts once or twice, there the lesser.
+    for (offset, value) in [(-30.000_001, 170.0), (-30.0, 170.0), (-29.999_999, 220.0)] {
+        let found = bad_length(&case, Placement { angle: PI, offset });
+        assert!((found - value).abs() < 1e-4, "{offset}: {found}");
+    }
+    let optimum = least_burr(&case, &Options::for_cutter(50.0), &Silent).unwrap();
+    assert!(optimum.complete && optimum.lower_bound > 130.0, "{optimum:?}");
+    let Placement { angle, offset } = optimum.placement;
+    let around = [-1e-6, 1e-6].into_iter().flat_map(|a| [-1e-6, 1e-6].map(|b| (a, b)));
+    let beside = around.map(|(a, b)| bad_length(&case, Placement { angle: angle + a, offset: offset + b }));
+    let least = beside.fold(f64::INFINITY, f64::min);
+    assert!((least - optimum.value).abs() < 0.1, "{least} beside {}", optimum.value);
+}
+
 prop_compose! {
     fn drawn()(
         radii in prop::collection::vec((0.6..1.0f64, -0.3..0.3f64), 3..9),

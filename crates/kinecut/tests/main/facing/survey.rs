@@ -4,6 +4,7 @@ use std::f64::consts::{PI, TAU};
 
 use glam::DVec2;
 use kinecut::base::{Code, Progress, Silent};
+use kinecut::facing::optimum::{AllowedPlacements, Options, least_burr};
 use kinecut::facing::{
     BadSet, DescentStatistics, FaceCase, NelderMead, Objective, OffsetRule, Placement, ToothedPass,
     bad_length, descend, descents, exit_stretches, largest_exit_angle, pictures, random_placements, survey,
@@ -25,6 +26,46 @@ fn plate_with_arcs() -> FaceCase {
     let bore = vec![OutlineEdge::arc(at(8.0, 2.0), 11.0, 0.5, TAU)];
     let outline = Outline::new(vec![outer, bore], vec![]).unwrap();
     FaceCase::new(outline, 75.0, BadSet::below(80f64.to_radians()).unwrap()).unwrap()
+}
+
+fn margin(margin: f64) -> Options {
+    Options { margin, ..Options::for_cutter(75.0) }
+}
+
+#[test]
+fn descents_stay_within_the_constraints_of_the_placement_and_above_their_optimum() {
+    let corners = [[0.0, 0.0], [80.0, 0.0], [80.0, 30.0], [30.0, 30.0], [30.0, 60.0], [0.0, 60.0]];
+    let outline = Outline::polygon(&corners.map(DVec2::from)).unwrap();
+    let case = FaceCase::new(outline, 50.0, BadSet::below(90f64.to_radians()).unwrap()).unwrap();
+    let free = Options::for_cutter(50.0);
+    let sixty = 60f64.to_radians();
+    let forbidden = vec![[80f64.to_radians(), 280f64.to_radians()]];
+    let narrow = Options { engagement: [-sixty, sixty], forbidden, ..free.clone() };
+    let beside = Options { least_off_middle: 9.0, ..free.clone() };
+    for options in [narrow, beside] {
+        let optimum = least_burr(&case, &options, &Silent).unwrap();
+        let allowed = AllowedPlacements::new(&case, &options).unwrap();
+        let all = descents(&case, &Objective::Limit, &NelderMead::within(&options), 40, 7, &Silent).unwrap();
+        for d in &all {
+            assert!(d.value >= optimum.lower_bound - 1e-6, "{d:?} below {}", optimum.lower_bound);
+            assert!(d.is_allowed(&case) && allowed.shortfall(d.start) < 1e-9);
+            // By hand: every corner is in the cutter's front within the engagement, the angle in none forbidden.
+            let Placement { angle, offset } = d.placement;
+            let heights = corners.map(|[x, y]| x * angle.sin() + y * angle.cos() - offset);
+            let [lo, hi] = options.engagement.map(|a| (50.0 * a.sin()).clamp(-49.0, 49.0));
+            assert!(heights.iter().all(|h| lo - 1e-6 < *h && *h < hi + 1e-6), "{d:?} {heights:?}");
+            let turn = angle.to_degrees().rem_euclid(360.0);
+            assert!(options.forbidden.is_empty() || !(80.0 + 1e-6..280.0 - 1e-6).contains(&turn), "{turn}");
+            let middle = 0.5 * heights.iter().fold(f64::NEG_INFINITY, |a, h| a.max(*h))
+                + 0.5 * heights.iter().fold(f64::INFINITY, |a, h| a.min(*h));
+            assert!(middle.abs() > options.least_off_middle - 1e-6, "{middle}");
+        }
+        // Without the constraints the same method ends beside them: the test can fail.
+        let others = descents(&case, &Objective::Limit, &NelderMead::within(&free), 40, 7, &Silent).unwrap();
+        assert!(others.iter().any(|d| allowed.shortfall(d.placement) > 0.1));
+    }
+    let nothing = Options { forbidden: vec![[0.0, TAU]], ..free };
+    assert_eq!(random_placements(&case, &nothing, 1, 1).unwrap_err().code(), Code::FACE_TOO_WIDE);
 }
 
 #[test]
@@ -65,13 +106,13 @@ fn descents_are_the_same_for_the_same_seed_and_stop_when_asked() {
     assert_ne!(run(3, &Silent).unwrap(), run(4, &Silent).unwrap());
     assert_eq!(run(3, &Stop).unwrap_err().code(), Code::CANCELLED);
     let small = FaceCase { radius: 30.0, ..case.clone() };
-    assert_eq!(random_placements(&small, 1.0, 3, 1).unwrap_err().code(), Code::FACE_TOO_WIDE);
+    assert_eq!(random_placements(&small, &margin(1.0), 3, 1).unwrap_err().code(), Code::FACE_TOO_WIDE);
 }
 
 #[test]
 fn random_starts_cover_the_part_and_all_orientations() {
     let case = plate_with_arcs();
-    let starts = random_placements(&case, 1.0, 2000, 11).unwrap();
+    let starts = random_placements(&case, &margin(1.0), 2000, 11).unwrap();
     let mut eighths = [0; 8];
     let mut shares = 0.0;
     for s in &starts {
@@ -91,7 +132,7 @@ fn descents_with_real_teeth_lower_their_own_objective() {
     let teeth = ToothedPass::even(4, 75.0, 0.2, placement).unwrap();
     let (feed_per_radian, along) = (teeth.feed_per_radian, 0.0);
     let objective = Objective::Teeth { teeth: teeth.teeth, feed_per_radian, along };
-    for start in random_placements(&case, 1.0, 6, 5).unwrap() {
+    for start in random_placements(&case, &margin(1.0), 6, 5).unwrap() {
         let end = descend(&case, &objective, &NelderMead::with_margin(1.0), start).unwrap();
         let first = objective.value(&case, start).unwrap();
         assert!(end.value < first - 0.1, "{first} {end:?}");

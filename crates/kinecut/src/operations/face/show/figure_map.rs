@@ -7,7 +7,7 @@ use glam::DVec2;
 
 use super::tables::turn;
 use super::{MilledFace, looks};
-use crate::facing::optimum::{ObjectiveMap, objective_map};
+use crate::facing::optimum::{ObjectiveMap, map_size, objective_map};
 use crate::facing::{Placement, bad_length};
 use crate::page::draw::{BELOW, Labels, Plot, Ticks, WIDTHS, room_left};
 use crate::page::px;
@@ -28,7 +28,11 @@ const ROOM: f64 = 14.0;
 pub(super) fn objective<'a>(face: &MilledFace<'a>) -> Option<Cow<'a, ObjectiveMap>> {
     let map = match face.map {
         Some(map) => Cow::Borrowed(map),
-        None => Cow::Owned(objective_map(&face.plan.guarded, &face.options, COLUMNS, ROWS).ok()?),
+        None => {
+            let case = &face.plan.guarded;
+            let [columns, rows] = map_size([COLUMNS, ROWS], case.outline.edges().len());
+            Cow::Owned(objective_map(case, &face.options, columns, rows).ok()?)
+        }
     };
     map.values.iter().any(Option::is_some).then_some(map)
 }

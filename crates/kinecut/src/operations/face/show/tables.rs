@@ -293,6 +293,9 @@ pub(super) fn descents_words(face: &MilledFace<'_>) -> Option<String> {
         }
     };
     let drawn = face.from_drawn.map_or(String::new(), |d| {
+        if !d.is_allowed(&face.plan.guarded) {
+            return "; from the part as drawn no allowed placement is found".to_owned();
+        }
         format!("; from the part as drawn {} mm{}", fixed(d.value, 3), over(d.value))
     });
     Some(format!(
