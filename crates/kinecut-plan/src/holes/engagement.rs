@@ -83,7 +83,7 @@ struct Spot {
 /// [mm], if any.
 ///
 /// # Errors
-/// `KC0404` when the cutter radius is not positive or the path is too long for it.
+/// `KC0404` when the cutter radius is not positive, or the path is too long for it.
 pub fn engagement<C: Copy + Into<PlaneCurve>>(
     path: &[C],
     cutter_radius: f64,
@@ -92,19 +92,8 @@ pub fn engagement<C: Copy + Into<PlaneCurve>>(
 ) -> Result<Vec<EngagementSample>> {
     let path: Vec<PlaneCurve> = path.iter().map(|&c| c.into()).collect();
     let length: f64 = path.iter().map(PlaneCurve::length).sum();
+    let (spots, former) = former(&path, cutter_radius)?;
     let spacing = SAMPLE_SHARE * cutter_radius;
-    let turned: f64 = path.iter().map(PlaneCurve::turn).sum();
-    let samples = length / spacing + turned / SAMPLE_TURN;
-    if !(cutter_radius > 0.0 && cutter_radius.is_finite() && samples < MOST_SAMPLES as f64) {
-        return Err(Finding::error(
-            Code::PLAN_VALUE,
-            "the engagement needs a positive cutter radius that suits the path",
-        )
-        .value_mm(cutter_radius)
-        .into());
-    }
-    let spots = sample(&path, spacing);
-    let former = Former::new(&spots, cutter_radius);
     // Evenly in arc length, whatever the spacing of the samples.
     let step = length / count.clamp(2, MOST_SAMPLES).saturating_sub(1) as f64;
     let mut chosen: Vec<usize> = Vec::with_capacity(count.min(spots.len()));
@@ -125,6 +114,62 @@ pub fn engagement<C: Copy + Into<PlaneCurve>>(
             }
         })
         .collect())
+}
+
+/// The engagement [rad] at places of a path [mm], as [`engagement`] measures it: between two samples of the path, which are
+/// a fortieth of the cutter's radius apart, in proportion.
+///
+/// # Errors
+/// As [`engagement`].
+pub fn engagement_at<C: Copy + Into<PlaneCurve>>(
+    path: &[C],
+    cutter_radius: f64,
+    hole: Option<f64>,
+    places: &[f64],
+) -> Result<Vec<f64>> {
+    let path: Vec<PlaneCurve> = path.iter().map(|&c| c.into()).collect();
+    let (spots, former) = former(&path, cutter_radius)?;
+    let beside = |s: f64| {
+        let next = spots.partition_point(|spot| spot.s < s).min(spots.len() - 1);
+        [next.saturating_sub(1), next]
+    };
+    let mut wanted: Vec<usize> = places.iter().flat_map(|s| beside(*s)).collect();
+    wanted.sort_unstable();
+    wanted.dedup();
+    let angles: Vec<f64> = wanted.par_iter().map(|i| former.engaged(&spots, *i, hole)).collect();
+    let angle = |i: usize| wanted.binary_search(&i).map_or(0.0, |k| angles[k]);
+    Ok(places
+        .iter()
+        .map(|s| {
+            let [i, j] = beside(*s);
+            let way = spots[j].s - spots[i].s;
+            let share = if way > 0.0 { ((s - spots[i].s) / way).clamp(0.0, 1.0) } else { 1.0 };
+            angle(i) + (angle(j) - angle(i)) * share
+        })
+        .collect())
+}
+
+/// The samples of a path, and all of them as places at which the cutter was.
+fn former(path: &[PlaneCurve], cutter_radius: f64) -> Result<(Vec<Spot>, Former)> {
+    let length: f64 = path.iter().map(PlaneCurve::length).sum();
+    let spacing = SAMPLE_SHARE * cutter_radius;
+    let turned: f64 = path.iter().map(PlaneCurve::turn).sum();
+    let samples = length / spacing + turned / SAMPLE_TURN;
+    if !(cutter_radius > 0.0 && cutter_radius.is_finite()) {
+        let what = "the engagement needs a positive cutter radius";
+        return Err(Finding::error(Code::PLAN_VALUE, what).value_mm(cutter_radius).into());
+    }
+    if !(samples < MOST_SAMPLES as f64) {
+        let what =
+            "the path is too long, or turns too often, for its engagement to be measured with this cutter";
+        return Err(Finding::error(Code::PLAN_VALUE, what)
+            .value(samples, "places")
+            .bound(MOST_SAMPLES as f64, "places")
+            .into());
+    }
+    let spots = sample(path, spacing);
+    let former = Former::new(&spots, cutter_radius);
+    Ok((spots, former))
 }
 
 fn sample(path: &[PlaneCurve], spacing: f64) -> Vec<Spot> {

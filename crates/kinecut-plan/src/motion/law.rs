@@ -1,7 +1,7 @@
 //! The fastest run along a path, from rest to rest, under velocity, acceleration and jerk of each axis.
 
 use super::easing::eased;
-use super::reach::{WithoutJerk, without_jerk};
+use super::reach::{Kept, WithoutJerk, without_jerk};
 use super::shape::{Shape, places};
 use super::shares::{CellShares, Shares, at_rests, of_all, of_cells, of_run};
 use super::solution::{Precision, Solution};
@@ -102,10 +102,11 @@ impl Gridded {
         &self,
         course: &C,
         limits: &[AxisLimit; A],
+        kept: Kept,
     ) -> Result<WithoutJerk> {
         let mut knots = [&[0.0][..], &self.knots, &[self.length]].concat();
         knots.dedup();
-        without_jerk(course, limits, knots, self.ends)
+        without_jerk(course, limits, knots, self.ends, kept)
     }
 }
 
@@ -139,7 +140,28 @@ impl WithoutJerk {
         limits: &[AxisLimit; A],
         ends: [End; 2],
     ) -> Result<WithoutJerk> {
-        let law = Gridded::new(course, limits, ends)?.without_jerk(course, limits)?;
+        WithoutJerk::keeping(course, limits, ends, Kept::Middle)
+    }
+
+    /// The same for a control that makes this run: at both ends of each cell, too, no axis is beyond its limit.
+    ///
+    /// # Errors
+    /// As [`TimeLaw::new`].
+    pub(super) fn within<const A: usize, C: Course<A>>(
+        course: &C,
+        limits: &[AxisLimit; A],
+        ends: [End; 2],
+    ) -> Result<WithoutJerk> {
+        WithoutJerk::keeping(course, limits, ends, Kept::Everywhere)
+    }
+
+    fn keeping<const A: usize, C: Course<A>>(
+        course: &C,
+        limits: &[AxisLimit; A],
+        ends: [End; 2],
+        kept: Kept,
+    ) -> Result<WithoutJerk> {
+        let law = Gridded::new(course, limits, ends)?.without_jerk(course, limits, kept)?;
         if !(law.duration() > 0.0 && law.duration().is_finite()) {
             return Err(Finding::error(Code::PLAN_VALUE, "no law was found for this path").into());
         }
@@ -191,7 +213,7 @@ impl TimeLaw {
             left -= 1;
             before = Some(solution);
         };
-        let without_jerk = grid.without_jerk(course, limits)?.duration();
+        let without_jerk = grid.without_jerk(course, limits, Kept::Middle)?.duration();
         let mut dilation = at_rests(course, limits, &speed).max(of_all(&cells)).dilation();
         let mut at_ends = 1.0;
         if dilation > 1.0 && dilation.is_finite() {

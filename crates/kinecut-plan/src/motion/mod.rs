@@ -35,8 +35,9 @@ pub use end::End;
 pub use feed_parts::{FeedPart, feed_parts, lowered};
 pub use law::TimeLaw;
 pub use program::{
-    AxisBound, AxisMoment, Changes, Facets, FeedBeyond, LimitMet, MotionSample, ProgramTime, SampledMotion,
-    SmoothedJoint, Smoothing, axis_limits, facets, feeds_beyond, program_samples, program_time, sample_count,
+    AxisBound, AxisMoment, Changes, Facets, FeedBeyond, FinerSamples, LimitMet, MotionSample, ProgramTime,
+    SampledMotion, SmoothedJoint, Smoothing, axis_limits, facets, feeds_beyond, program_samples,
+    program_samples_finer, program_time, sample_count,
 };
 pub use reach::WithoutJerk;
 pub use s_curve::{Moment, SCurve};

@@ -4,6 +4,8 @@
 //! the rows of the axes are taken in its middle: `|q'' (b + h u) + q' u| <= A` bounds `u` between two lines in `b`. Backward:
 //! the interval `[0, K]` of speeds from which the rest of the path can be run; `K` is the smallest crossing of a lower with an
 //! upper line. Forward: as fast as may be inside of these intervals. The error is of second order in the length of cells.
+//! For a run that a control makes the rows are taken at both ends of each cell too: in the middle alone the ends of the
+//! cells of a smoothed corner are beyond a limit by a tenth.
 
 use super::shape::not_finite;
 use super::{AxisLimit, Course, End, Moment};
@@ -56,6 +58,15 @@ impl WithoutJerk {
     }
 }
 
+/// Places of a cell at which the limits of the axes are kept.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Kept {
+    /// In its middle: the time is the nearest to the least one.
+    Middle,
+    /// At both ends, too: nothing in between is beyond a limit.
+    Everywhere,
+}
+
 /// The run without jerk limits over knots that include both ends.
 ///
 /// # Errors
@@ -65,9 +76,10 @@ pub(super) fn without_jerk<const A: usize, C: Course<A>>(
     limits: &[AxisLimit; A],
     knots: Vec<f64>,
     ends: [End; 2],
+    kept: Kept,
 ) -> Result<WithoutJerk> {
-    /// Derivatives below which an axis does not bind.
-    const NONE: f64 = 1e-12;
+    /// Share of a cell by which its ends are looked at inside of it.
+    const INSIDE: f64 = 1e-6;
     let n = knots.len() - 1;
     let cells: Result<Vec<Lines<A>>> = knots
         .windows(2)
@@ -78,14 +90,23 @@ pub(super) fn without_jerk<const A: usize, C: Course<A>>(
             if !(jets.iter().flatten().all(|d| d.is_finite()) && feed > 0.0) {
                 return Err(not_finite(middle).into());
             }
-            let mut lines = Lines { slope: [0.0; A], width: [f64::INFINITY; A], cap: feed * feed };
+            let mut lines =
+                Lines { rows: [[[0.0, f64::INFINITY]; A]; 3], feed: feed * feed, cap: feed * feed };
             for (a, (q, limit)) in jets.iter().zip(limits).enumerate() {
-                let factor = q[1] * h + q[0];
-                if factor.abs() > NONE {
-                    lines.slope[a] = -q[1] / factor;
-                    lines.width[a] = limit.acceleration / factor.abs();
-                }
+                lines.row([0, a], q, h, limit);
                 lines.cap = lines.cap.min((limit.velocity / q[0].abs()).powi(2));
+            }
+            if kept == Kept::Everywhere {
+                // Inside of the cell: at a knot the derivatives may step.
+                for (place, share) in [INSIDE, 1.0 - INSIDE].into_iter().enumerate() {
+                    let jets = course.derivatives(pair[0] + share * h);
+                    for (a, (q, limit)) in jets.iter().zip(limits).enumerate() {
+                        // At a cusp there is none.
+                        if q[0].is_finite() && q[1].is_finite() {
+                            lines.row([1 + place, a], q, 2.0 * share * h, limit);
+                        }
+                    }
+                }
             }
             Ok(lines)
         })
@@ -94,8 +115,10 @@ pub(super) fn without_jerk<const A: usize, C: Course<A>>(
     // Largest square of the speed at each knot.
     let mut most: Vec<f64> = (0..=n)
         .map(|k| {
-            let before = if k > 0 { cells[k - 1].cap } else { f64::INFINITY };
-            before.max(if k < n { cells[k].cap } else { 0.0 })
+            let beside = [k.checked_sub(1), Some(k)].into_iter().flatten().filter_map(|k| cells.get(k));
+            // A feed holds up to its end; the speed of an axis changes evenly from cell to cell.
+            let feed = beside.clone().map(|cell| cell.feed).fold(f64::INFINITY, f64::min);
+            beside.map(|cell| cell.cap).fold(0.0, f64::max).min(feed)
         })
         .collect();
     if ends[1] == End::Rest {
@@ -123,17 +146,35 @@ pub(super) fn without_jerk<const A: usize, C: Course<A>>(
     Ok(WithoutJerk { knots, squares, moments })
 }
 
-/// Bounds of the acceleration in a cell: `slope b - width <= u <= slope b + width` for each axis.
+/// Bounds of the acceleration in a cell: `slope b - width <= u <= slope b + width` for each axis, in the middle and at both
+/// ends.
 struct Lines<const A: usize> {
-    slope: [f64; A],
-    width: [f64; A],
+    /// Slope and width.
+    rows: [[[f64; 2]; A]; 3],
+    /// Square of the feed.
+    feed: f64,
     /// Largest square of the speed.
     cap: f64,
 }
 
 impl<const A: usize> Lines<A> {
+    /// Sets the row of an axis at a place: `reach`, twice the way from the start of the cell [mm].
+    fn row(&mut self, [place, axis]: [usize; 2], q: &[f64; 3], reach: f64, limit: &AxisLimit) {
+        /// Derivatives below which an axis does not bind.
+        const NONE: f64 = 1e-12;
+        let factor = q[1] * reach + q[0];
+        if factor.abs() > NONE {
+            self.rows[place][axis] = [-q[1] / factor, limit.acceleration / factor.abs()];
+        }
+    }
+
+    /// The rows that bind.
+    fn binding(&self) -> impl Iterator<Item = [f64; 2]> + Clone + '_ {
+        self.rows.iter().flatten().copied().filter(|row| row[1].is_finite())
+    }
+
     fn upper(&self, b: f64) -> f64 {
-        self.slope.iter().zip(self.width).map(|(m, w)| m * b + w).fold(f64::INFINITY, f64::min)
+        self.binding().map(|[m, w]| m * b + w).fold(f64::INFINITY, f64::min)
     }
 
     /// The largest `b` for which some `u` keeps all rows and leads into `[0, next]`; `half` is `1 / 2h`.
@@ -147,11 +188,11 @@ impl<const A: usize> Lines<A> {
             }
         };
         let onward = [[-half, 0.0], [-half, next * half]];
-        for (m, w) in self.slope.iter().zip(self.width) {
-            meet([*m, -w], onward[1]);
-            meet(onward[0], [*m, w]);
-            for (m2, w2) in self.slope.iter().zip(self.width) {
-                meet([*m, -w], [*m2, w2]);
+        for [m, w] in self.binding() {
+            meet([m, -w], onward[1]);
+            meet(onward[0], [m, w]);
+            for [m2, w2] in self.binding() {
+                meet([m, -w], [m2, w2]);
             }
         }
         most

@@ -357,24 +357,37 @@ fn positioning(terms: &Terms, rows: &[ComparedStrategy]) -> Option<Claim> {
     let (mut parts, mut numbers, mut smaller) = (Vec::new(), Vec::new(), Vec::new());
     for ((paper, two), four) in paper?.iter().zip(two?).zip(four?) {
         let [own, a, b] = [paper, two, four].map(|run| 1e3 * run.servo.at_wall);
-        let [off, by_two, by_four] = [paper, two, four].map(|run| 1e3 * run.farthest);
+        let off = [paper, two, four].map(|run| Some(1e3 * run.farthest?));
         parts.push(format!(
             "at {} m/min {own:.3} \u{3bc}m, with arcs {a:.3} (two poles) and {b:.3} (four)",
             digits(paper.feed * 0.06)
         ));
-        smaller.push(own < LESS * a.min(b) && off <= by_two.min(by_four));
-        numbers.extend([own, a, b, off, by_two, by_four]);
+        let nearer = match off {
+            [Some(own), Some(a), Some(b)] => own <= a.min(b),
+            // A control with a planner of its own does not tell.
+            _ => true,
+        };
+        smaller.push(own < LESS * a.min(b) && nearer);
+        numbers.extend([own, a, b]);
+        numbers.extend(off.into_iter().flatten());
     }
-    let all = |runs: &[Run]| runs.iter().map(|run| 1e3 * run.farthest).fold(0.0, f64::max);
-    let found = format!(
-        "Position loops of {} Hz (a model) leave the circle at the wall by this much: {}. Besides, the control itself leaves the \
-         path where it smooths joints, by up to {:.2} \u{3bc}m on the involute, {:.2} and {:.2} \u{3bc}m on the arcs.",
+    let all = |runs: &[Run]| -> Option<f64> {
+        runs.iter().try_fold(0.0, |most, run| Some(f64::max(most, 1e3 * run.farthest?)))
+    };
+    let mut found = format!(
+        "Position loops of {} Hz (a model) leave the circle at the wall by this much: {}.",
         digits(terms.servo.bandwidth),
         parts.join("; "),
-        all(paper?),
-        all(two?),
-        all(four?),
     );
+    match (all(paper?), all(two?), all(four?)) {
+        (Some(own), Some(a), Some(b)) => found.push_str(&format!(
+            " Besides, the control itself leaves the path where it smooths joints, by up to {own:.2} \u{3bc}m on the involute, \
+             {a:.2} and {b:.2} \u{3bc}m on the arcs."
+        )),
+        _ => found.push_str(
+            " Besides, the control itself leaves the path at joints; by how much its planner does not tell.",
+        ),
+    }
     let holds = match smaller.iter().filter(|is| **is).count() {
         0 => Holds::No,
         n if n == smaller.len() => Holds::Yes,

@@ -6,7 +6,7 @@ use super::Terms;
 use super::chain::Chain;
 use super::program::program;
 use crate::base::{Code, Finding, Result, Silent};
-use crate::machine::{CoordinateCode, Dynamics, Machine, MotionControl};
+use crate::machine::{CoordinateCode, Dynamics, Interpolator, Machine, MotionControl};
 use crate::motion::{AxisMoment, MotionSample, program_samples};
 use crate::program::Blend;
 use crate::trace::{CompStart, RegisterState, TraceOptions, trace};
@@ -20,12 +20,12 @@ pub struct Run {
     pub time: f64,
     /// Time where jerk has no limit, the joints passed as they are here: no run is shorter [s].
     pub without_jerk: f64,
-    /// Joints at which the tool stops.
-    pub stops: usize,
-    /// Joints that the control smooths.
-    pub smoothed: usize,
-    /// Largest distance from the path at smoothed joints [mm].
-    pub farthest: f64,
+    /// Joints at which the tool stops; none of a control with a planner of its own, which does not tell.
+    pub stops: Option<usize>,
+    /// Joints that the control smooths; none likewise.
+    pub smoothed: Option<usize>,
+    /// Largest distance from the path at smoothed joints [mm]; none likewise.
+    pub farthest: Option<f64>,
     /// What the position loops make of it.
     pub servo: ServoError,
 }
@@ -53,15 +53,15 @@ pub struct ProfilePlace {
     pub speed: f64,
     /// Acceleration, along the path and across it [mm/s^2].
     pub acceleration: f64,
-    /// Jerk, all of it [mm/s^3].
-    pub jerk: f64,
+    /// Jerk, all of it [mm/s^3]; none of a control without a limit of jerk, whose acceleration steps.
+    pub jerk: Option<f64>,
 }
 
 /// Time between samples [s].
 const CYCLE: f64 = 1e-3;
 /// Cycles in the time constant of the loops, at least.
 const CYCLES: f64 = 5.0;
-/// Parts of a run; the profile keeps the slowest and the hardest place of each.
+/// Parts of a run; the profile keeps the slowest place of each, and those of most acceleration and jerk.
 const PARTS: usize = 400;
 /// Share of the circle at the wall on which the tool slows down to its stop.
 const WALL: f64 = 0.25;
@@ -85,7 +85,7 @@ pub(super) fn run(chain: &Chain, terms: &Terms, feed: f64) -> Result<(Run, Vec<P
     let cycle = CYCLE.min(loops / CYCLES);
     let mut following = terms.servo.following(cycle);
     let mut servo = ServoError::default();
-    let mut profile = Profile::new(chain.length());
+    let mut profile = Profile::new(chain, terms.interpolator);
     let wall_ends = chain.length() - WALL * (chain.length() - chain.starts[chain.curves.len() - 1]);
     let mut sink = |sample: &MotionSample| {
         let way = profile.add(sample);
@@ -108,12 +108,22 @@ pub(super) fn run(chain: &Chain, terms: &Terms, feed: f64) -> Result<(Run, Vec<P
         feed,
         time: time.total(),
         without_jerk: time.total_without_jerk(),
-        stops: time.smoothing.stops,
-        smoothed: time.smoothing.smoothed,
-        farthest: time.smoothing.most_off(),
+        stops: (!has_own_planner(terms.interpolator)).then_some(time.smoothing.stops),
+        smoothed: (!has_own_planner(terms.interpolator)).then_some(time.smoothing.smoothed),
+        farthest: (!has_own_planner(terms.interpolator)).then(|| time.smoothing.most_off()),
         servo,
     };
     Ok((run, profile.places()))
+}
+
+/// True of a control whose own planner is followed: it does not tell of its stops and of the joints that it smooths.
+pub(super) fn has_own_planner(interpolator: Interpolator) -> bool {
+    matches!(interpolator, Interpolator::JunctionDeviation | Interpolator::LinuxCnc)
+}
+
+/// True of a control that limits jerk: the acceleration of others steps.
+pub(super) fn has_jerk(interpolator: Interpolator) -> bool {
+    matches!(interpolator, Interpolator::JerkLimited | Interpolator::ExactStop)
 }
 
 /// A machine whose axes have the limits of the terms.
@@ -133,21 +143,35 @@ pub(super) fn machine(terms: &Terms) -> Result<Machine> {
     Ok(Machine { control, ..Machine::new(CoordinateCode::parse("2103")?, [None; 3], dynamics)? })
 }
 
-/// The slowest place and the one of most jerk of each part of a run, so that no stop and no peak is lost.
-struct Profile {
+/// The slowest place and the ones of most acceleration and most jerk of each part of a run, so that no stop and no peak is
+/// lost.
+struct Profile<'a> {
+    chain: &'a Chain,
+    interpolator: Interpolator,
     /// Length of a part [mm].
     part: f64,
     /// The sample before: way, time and speed.
     before: [f64; 3],
-    /// Index of the present part, its slowest place and that of most jerk.
-    present: Option<(u64, [ProfilePlace; 2])>,
+    /// Index of the present part, its slowest place and those of most acceleration and jerk.
+    present: Option<(u64, [ProfilePlace; 3])>,
     places: Vec<ProfilePlace>,
 }
 
-impl Profile {
-    /// Of a run of this length [mm].
-    fn new(length: f64) -> Profile {
-        Profile { part: length / PARTS as f64, before: [0.0; 3], present: None, places: Vec::new() }
+impl<'a> Profile<'a> {
+    /// Of a run along a chain.
+    fn new(chain: &'a Chain, interpolator: Interpolator) -> Profile<'a> {
+        let part = chain.length() / PARTS as f64;
+        Profile { chain, interpolator, part, before: [0.0; 3], present: None, places: Vec::new() }
+    }
+
+    /// The acceleration across the path that chords do not have [mm/s^2].
+    fn across(&self, s: f64, speed: f64) -> f64 {
+        let curve =
+            self.chain.starts.partition_point(|start| *start <= s).clamp(1, self.chain.curves.len()) - 1;
+        let bend = self.chain.curves[curve].at(s - self.chain.starts[curve]).curvature;
+        let across = speed * speed * bend;
+        // At a cusp, which is left from rest, there is none.
+        if across.is_finite() { across } else { 0.0 }
     }
 
     /// Adds a sample; the way to it [mm].
@@ -162,14 +186,22 @@ impl Profile {
             s,
             time: sample.time,
             speed: sample.feed,
-            acceleration: size(|axis| axis.acceleration),
-            jerk: size(|axis| axis.jerk),
+            acceleration: match self.interpolator {
+                Interpolator::JunctionDeviation => {
+                    size(|axis| axis.acceleration).hypot(self.across(s, sample.feed))
+                }
+                _ => size(|axis| axis.acceleration),
+            },
+            jerk: has_jerk(self.interpolator).then(|| size(|axis| axis.jerk)),
         };
         let part = (s / self.part) as u64;
         match &mut self.present {
-            Some((present, [slowest, hardest])) if *present == part => {
+            Some((present, [slowest, fastest_change, hardest])) if *present == part => {
                 if place.speed < slowest.speed {
                     *slowest = place;
+                }
+                if place.acceleration > fastest_change.acceleration {
+                    *fastest_change = place;
                 }
                 if place.jerk > hardest.jerk {
                     *hardest = place;
@@ -177,18 +209,19 @@ impl Profile {
             }
             _ => {
                 self.end_part();
-                self.present = Some((part, [place; 2]));
+                self.present = Some((part, [place; 3]));
             }
         }
         s
     }
 
     fn end_part(&mut self) {
-        let Some((_, mut both)) = self.present.take() else { return };
-        both.sort_by(|a, b| a.time.total_cmp(&b.time));
-        self.places.push(both[0]);
-        if both[1] != both[0] {
-            self.places.push(both[1]);
+        let Some((_, mut all)) = self.present.take() else { return };
+        all.sort_by(|a, b| a.time.total_cmp(&b.time));
+        for place in all {
+            if self.places.last() != Some(&place) {
+                self.places.push(place);
+            }
         }
     }
 

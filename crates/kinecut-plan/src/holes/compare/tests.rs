@@ -181,7 +181,7 @@ fn the_time_of_the_papers_spiral_is_that_of_the_table_of_laws() {
     let (run, profile) = run::run(&Chain::new(path.curves), &terms, 100.0).unwrap();
     near(run.time, 49.7857, 1e-3);
     near(run.without_jerk, 49.6613, 1e-3);
-    assert_eq!((run.stops, run.smoothed, run.farthest), (0, 0, 0.0));
+    assert_eq!((run.stops, run.smoothed, run.farthest), (Some(0), Some(0), Some(0.0)));
     let last = profile.last().unwrap();
     near(last.s, 4963.716, 0.01);
     near(last.time, run.time, 1e-9);
@@ -190,10 +190,10 @@ fn the_time_of_the_papers_spiral_is_that_of_the_table_of_laws() {
     let mut even = profile.iter().filter(|p| p.s > 20.0 && p.s < 4900.0);
     assert!(even.all(|p| (p.speed - 100.0).abs() < 0.1));
     for place in &profile {
-        assert!(place.acceleration < 5000.0 * 1.415 && place.jerk < 5e4 * 1.415, "{place:?}");
+        assert!(place.acceleration < 5000.0 * 1.415 && place.jerk.unwrap() < 5e4 * 1.415, "{place:?}");
     }
     // Third differences of the specification: up to 50 000.
-    assert!(profile.iter().any(|p| p.jerk > 4.9e4));
+    assert!(profile.iter().any(|p| p.jerk.unwrap() > 4.9e4));
 }
 
 #[test]
@@ -204,7 +204,7 @@ fn no_run_is_faster_than_its_feed_or_than_one_without_limit_of_jerk() {
         for (run, feed) in figures.runs.iter().zip([40.0, 120.0, 240.0]) {
             assert_eq!(run.feed, feed);
             assert!(run.time > run.without_jerk && run.without_jerk > figures.length / feed, "{run:?}");
-            assert!(run.farthest <= 0.010_001 && run.servo.at_wall <= run.servo.most, "{run:?}");
+            assert!(run.farthest.unwrap() <= 0.010_001 && run.servo.at_wall <= run.servo.most, "{run:?}");
             assert!(run.servo.most > 0.0 && run.servo.most < 0.05, "{} {run:?}", row.strategy);
         }
         let profile = &figures.profile;
@@ -219,26 +219,39 @@ fn joints_stop_the_tool_or_are_smoothed_and_a_smooth_path_has_none() {
     let runs = |name: &str| &small().of(name).unwrap().runs;
     for name in ["involute", "lens-1", "lens-2"] {
         for run in runs(name) {
-            assert_eq!((run.stops, run.smoothed, run.farthest), (0, 0, 0.0), "{name}");
+            assert_eq!((run.stops, run.smoothed, run.farthest), (Some(0), Some(0), Some(0.0)), "{name}");
         }
     }
     for run in runs("rings") {
-        assert_eq!(run.stops + run.smoothed, small().of("rings").unwrap().joints.len(), "{run:?}");
-        assert!(run.stops > 0);
+        let [stops, smoothed] = [run.stops, run.smoothed].map(Option::unwrap);
+        assert_eq!(stops + smoothed, small().of("rings").unwrap().joints.len(), "{run:?}");
+        assert!(stops > 0);
     }
     for run in runs("arcs-2") {
-        assert!(run.smoothed > 0 && run.farthest > 0.0, "{run:?}");
+        assert!(run.smoothed.unwrap() > 0 && run.farthest.unwrap() > 0.0, "{run:?}");
     }
     // A tenth of the tolerance: smoothed nearer to the path, and slower.
     let exact = Terms { tolerance: Some(1e-3), ..Terms::new(16.0, 4.0, 1.5, 40.0) };
     let arcs = small().of("arcs-2").unwrap();
     let (near_by, _) = run::run(&arcs.chain, &exact, 240.0).unwrap();
-    assert!(near_by.farthest <= 1.000_1e-3 && near_by.time > arcs.runs[2].time, "{near_by:?}");
+    assert!(near_by.farthest.unwrap() <= 1.000_1e-3 && near_by.time > arcs.runs[2].time, "{near_by:?}");
     // A control that stops at every joint.
     let stops = Terms { interpolator: Interpolator::ExactStop, ..exact };
     let (stopped, _) = run::run(&arcs.chain, &stops, 240.0).unwrap();
-    assert_eq!(stopped.stops, arcs.joints.len());
+    assert_eq!(stopped.stops, Some(arcs.joints.len()));
     assert!(stopped.time > near_by.time);
+    // Controls with a planner of their own do not tell of joints; without a limit of jerk there is no jerk, and on the circle
+    // at the wall there is the acceleration of a circle, along chords too.
+    for interpolator in [Interpolator::LinuxCnc, Interpolator::JunctionDeviation, Interpolator::Trapezoid] {
+        let terms = Terms { interpolator, ..Terms::new(16.0, 4.0, 1.5, 40.0) };
+        let (run, profile) = run::run(&arcs.chain, &terms, 40.0).unwrap();
+        let tells = interpolator == Interpolator::Trapezoid;
+        assert_eq!([run.stops.is_some(), run.smoothed.is_some(), run.farthest.is_some()], [tells; 3]);
+        assert!(profile.iter().all(|p| p.jerk.is_none()));
+        let wall = arcs.chain.length() - 0.5 * std::f64::consts::TAU * 16.0;
+        let on_wall = profile.iter().find(|p| p.s > wall).unwrap();
+        near(on_wall.acceleration, 40.0 * 40.0 / 16.0, 0.5);
+    }
 }
 
 #[test]
@@ -258,7 +271,54 @@ fn claims_on_time_and_position_are_those_of_the_runs() {
         let run = |k: usize| runs(names[k])[i];
         for k in 0..3 {
             near(numbers[k], 1e3 * run(k).servo.at_wall, 1e-12);
-            near(numbers[3 + k], 1e3 * run(k).farthest, 1e-12);
+            near(numbers[3 + k], 1e3 * run(k).farthest.unwrap(), 1e-12);
         }
+    }
+}
+
+/// Engagement by brute force: the front of the cutter against all former places of its centre [rad].
+fn brute(chain: &Chain, s: f64, cutter: f64) -> f64 {
+    const STEP: f64 = 0.02;
+    const FRONT: u32 = 1440;
+    let (here, ahead) = (chain.point(s), (chain.point(s) - chain.point(s - 1e-3)).to_angle());
+    let former = (0..=((s - 1e-6) / STEP) as u32).map(|k| chain.point(STEP * f64::from(k)));
+    let near: Vec<_> = former.filter(|p| p.distance(here) < 2.0 * cutter).collect();
+    let free = (0..FRONT).filter(|k| {
+        let angle = ahead + ((f64::from(*k) + 0.5) / f64::from(FRONT) - 0.5) * std::f64::consts::PI;
+        let edge = here + cutter * glam::DVec2::from_angle(angle);
+        near.iter().all(|p| p.distance(edge) > cutter - 1e-4)
+    });
+    free.count() as f64 / f64::from(FRONT) * std::f64::consts::PI
+}
+
+#[test]
+fn the_engagement_of_a_pass_is_that_of_its_own_place_where_the_load_changes_fast() {
+    let terms = Terms::new(16.0, 4.0, 1.5, 40.0);
+    for clearing in [Clearing::Trochoid, Clearing::Involute] {
+        let curves = clearing.path(&terms.disc()).unwrap().curves;
+        let pieces: Vec<PassPiece> =
+            curves.iter().map(|c| PassPiece { curve: c.at_height(0.0, 0.0), feed: 40.0 }).collect();
+        let cut = Cut { curves: &curves, from: 0.0, open: None };
+        let run = pass_run(&pieces, [0.0, 0.0], Some(cut), &terms).unwrap();
+        assert!(run.unmeasured.is_none() && run.engagement_places == run.samples.s.len());
+        // The first place of the path is one that is measured.
+        assert!(run.samples.engagement[0].is_some() && run.samples.s[0] == 0.0);
+        let chain = Chain::new(curves);
+        let [mut checked, mut idle] = [0, 0];
+        for i in (0..run.samples.s.len()).step_by(9) {
+            let s = run.samples.s[i];
+            if s < 2.0 || s > chain.length() - 1.0 {
+                continue;
+            }
+            let (told, wanted) = (run.samples.engagement[i].unwrap(), brute(&chain, s, terms.cutter));
+            assert!(
+                (told - wanted).abs() < 0.05,
+                "{} at {s}: {told}, by brute force {wanted}",
+                clearing.name()
+            );
+            checked += 1;
+            idle += u32::from(told == 0.0);
+        }
+        assert!(checked > 30 && (idle > 5) == (clearing == Clearing::Trochoid), "{checked} {idle}");
     }
 }

@@ -211,7 +211,7 @@ fn laws<const A: usize>(
         Ok(Some(if with_jerk {
             Law::Limited(Box::new(TimeLaw::between(&stretch, limits, part.ends, setting.progress)?))
         } else {
-            Law::WithoutJerk(WithoutJerk::between(&stretch, limits, part.ends)?)
+            Law::WithoutJerk(WithoutJerk::within(&stretch, limits, part.ends)?)
         }))
     };
     parts.par_iter().with_max_len(1).map(solve).collect()

@@ -34,6 +34,8 @@ pub use held::{AxisBound, FeedBeyond, feeds_beyond};
 pub use limit_met::LimitMet;
 pub use motion::AxisMoment;
 pub use program_time::{Changes, ProgramTime, Smoothing};
-pub use samples::{MotionSample, SampledMotion, program_samples, sample_count};
+pub use samples::{
+    FinerSamples, MotionSample, SampledMotion, program_samples, program_samples_finer, sample_count,
+};
 pub use smoothed_joint::SmoothedJoint;
 pub use times::program_time;

@@ -4,7 +4,7 @@ use rayon::prelude::*;
 
 use super::joint::AXES;
 use super::motion::{AxisMoment, Motion};
-use super::samples::{MotionSample, SampledMotion};
+use super::samples::{FinerSamples, MotionSample, SampledMotion};
 use super::stretch::{Stretch, StretchTime};
 use super::waits::Wait;
 use crate::base::{Code, Finding, Progress, Result};
@@ -24,6 +24,7 @@ pub(super) fn multiples(time: f64, cycle: f64) -> f64 {
 pub(super) struct Sampler<'a> {
     trace: &'a Trace,
     cycle: f64,
+    finer: Option<FinerSamples>,
     progress: &'a dyn Progress,
     sink: &'a mut dyn FnMut(&MotionSample) -> Result<()>,
     /// Multiple of the cycle at which the next sample lies.
@@ -37,12 +38,12 @@ pub(super) struct Sampler<'a> {
 impl<'a> Sampler<'a> {
     pub(super) fn new(
         trace: &'a Trace,
-        cycle: f64,
+        (cycle, finer): (f64, Option<FinerSamples>),
         progress: &'a dyn Progress,
         sink: &'a mut dyn FnMut(&MotionSample) -> Result<()>,
     ) -> Sampler<'a> {
         let extent = SampledMotion::default();
-        Sampler { trace, cycle, progress, sink, next: 0, at: None, item: 0, extent }
+        Sampler { trace, cycle, finer, progress, sink, next: 0, at: None, item: 0, extent }
     }
 
     /// A stretch comes next: where nothing was followed before, the axes stand at its start.
@@ -102,6 +103,9 @@ impl<'a> Sampler<'a> {
     /// The samples before a moment [s], which is then the present one.
     fn samples(&mut self, end: f64, at: impl Fn(f64) -> Option<MotionSample> + Sync) -> Result<()> {
         let last = multiples(end, self.cycle) as u64;
+        if let Some(finer) = self.finer {
+            return self.finer_samples(finer, [end, last as f64], &at);
+        }
         let cycle = self.cycle;
         while self.next < last {
             if self.progress.cancelled() {
@@ -121,6 +125,60 @@ impl<'a> Sampler<'a> {
         Ok(())
     }
 
+    /// The samples up to a moment [s] with its end, and with more where the motion changes; `last`: multiples of the cycle
+    /// before that moment.
+    fn finer_samples(
+        &mut self,
+        finer: FinerSamples,
+        [end, last]: [f64; 2],
+        at: &(impl Fn(f64) -> Option<MotionSample> + Sync),
+    ) -> Result<()> {
+        let (start, cycle, last) = (self.extent.time, self.cycle, last as u64);
+        if !(end > start) {
+            return Ok(());
+        }
+        let mut before = at(start);
+        if let Some(first) = &before {
+            (self.sink)(first)?;
+            self.extent.count += 1;
+        }
+        loop {
+            if self.progress.cancelled() {
+                return Err(Finding::error(Code::CANCELLED, "the run was cancelled").into());
+            }
+            let (first, count) = (self.next, last.saturating_sub(self.next).min(TOGETHER));
+            let is_end = first + count >= last;
+            let mut times: Vec<f64> = (first..first + count).map(|k| k as f64 * cycle).collect();
+            if is_end {
+                times.push(end);
+            }
+            times.retain(|time| *time > start);
+            let some: Vec<Option<MotionSample>> =
+                times.par_iter().with_min_len(128).map(|time| at(*time)).collect();
+            let pairs: Vec<_> = std::iter::once(&before).chain(&some).zip(&some).collect();
+            let finer_of = |(a, b): &(&Option<MotionSample>, &Option<MotionSample>)| {
+                let mut out = Vec::new();
+                if let (Some(a), Some(b)) = (a, b) {
+                    halve([a, b], &finer, at, &mut out);
+                }
+                out.extend(**b);
+                out
+            };
+            let all: Vec<Vec<MotionSample>> = pairs.par_iter().with_min_len(32).map(finer_of).collect();
+            for sample in all.iter().flatten() {
+                (self.sink)(sample)?;
+                self.extent.count += 1;
+            }
+            before = some.last().copied().flatten().or(before);
+            self.next += count;
+            if is_end {
+                break;
+            }
+        }
+        self.extent.time = end;
+        Ok(())
+    }
+
     /// The last sample.
     pub(super) fn end(mut self) -> Result<SampledMotion> {
         if let Some(at) = self.at {
@@ -135,6 +193,27 @@ impl<'a> Sampler<'a> {
         }
         Ok(self.extent)
     }
+}
+
+/// Adds the samples between two that differ too much.
+fn halve(
+    [a, b]: [&MotionSample; 2],
+    finer: &FinerSamples,
+    at: &impl Fn(f64) -> Option<MotionSample>,
+    out: &mut Vec<MotionSample>,
+) {
+    let size =
+        |s: &MotionSample| s.axes[..3].iter().map(|axis| axis.acceleration.powi(2)).sum::<f64>().sqrt();
+    let changes = a.segment != b.segment
+        || (a.feed - b.feed).abs() > finer.speed
+        || (size(a) - size(b)).abs() > finer.acceleration;
+    if !changes || b.time - a.time <= finer.cycle {
+        return;
+    }
+    let Some(middle) = at(0.5 * (a.time + b.time)) else { return };
+    halve([a, &middle], finer, at, out);
+    out.push(middle);
+    halve([&middle, b], finer, at, out);
 }
 
 fn resting(at: [f64; AXES]) -> [AxisMoment; AXES] {

@@ -70,7 +70,45 @@ pub fn program_samples(
     progress: &dyn Progress,
     sink: &mut dyn FnMut(&MotionSample) -> Result<()>,
 ) -> Result<Option<(ProgramTime, SampledMotion)>> {
-    if !(cycle > 0.0 && cycle.is_finite()) {
+    samples_of((program, trace, machine), cycle, None, progress, sink)
+}
+
+/// Samples between those of the cycle, where the motion changes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FinerSamples {
+    /// Largest time between two samples [s] of which one is in another segment, or is faster by more than `speed` or
+    /// accelerated by more than `acceleration`.
+    pub cycle: f64,
+    /// Change of the path speed [mm/s].
+    pub speed: f64,
+    /// Change of the size of the acceleration of the linear axes [mm/s^2].
+    pub acceleration: f64,
+}
+
+/// The same with more samples where the motion changes: at both ends of each motion from stop to stop, and between two
+/// samples of the cycle that differ by more than is allowed, halved down to the finer cycle.
+///
+/// # Errors
+/// As [`program_samples`].
+pub fn program_samples_finer(
+    program: &Program,
+    trace: &Trace,
+    machine: &Machine,
+    (cycle, finer): (f64, FinerSamples),
+    progress: &dyn Progress,
+    sink: &mut dyn FnMut(&MotionSample) -> Result<()>,
+) -> Result<Option<(ProgramTime, SampledMotion)>> {
+    samples_of((program, trace, machine), cycle, Some(finer), progress, sink)
+}
+
+fn samples_of(
+    (program, trace, machine): (&Program, &Trace, &Machine),
+    cycle: f64,
+    finer: Option<FinerSamples>,
+    progress: &dyn Progress,
+    sink: &mut dyn FnMut(&MotionSample) -> Result<()>,
+) -> Result<Option<(ProgramTime, SampledMotion)>> {
+    if !([Some(cycle), finer.map(|f| f.cycle)].into_iter().flatten().all(|c| c > 0.0 && c.is_finite())) {
         let what = "the cycle of samples must be positive and finite";
         return Err(Finding::error(Code::PLAN_VALUE, what)
             .value(cycle, "s")
@@ -83,7 +121,7 @@ pub fn program_samples(
     let task = task(&stretches, (program, trace), &setting)?;
     let waits = waits(program, trace, &machine.control);
     let mut waits = waits.iter().peekable();
-    let mut sampler = Sampler::new(trace, cycle, progress, sink);
+    let mut sampler = Sampler::new(trace, (cycle, finer), progress, sink);
     let mut gathering = Gathering::new(program, trace, &setting);
     let mut left = &stretches[..];
     while !left.is_empty() {

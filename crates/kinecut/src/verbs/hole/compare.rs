@@ -108,8 +108,12 @@ fn overview(hole: &HoleComparison) -> Section {
     table.notes.extend([
         format!(
             "Length, time: circle at the entry, path and circle at the wall together, from rest to rest. Each time is that of \
-             the fastest run within the limits of each axis, on a control of the kind {}; the table of runs has the joints.",
+             the run within the limits of each axis that a control of the kind {} makes; the table of runs has the joints.",
             interpolator(t.interpolator)
+        ),
+        format!(
+            "Engaged: the largest and the mean of {} places along the path.",
+            measured(c).map(|(_, f)| f.load.samples.len()).max().unwrap_or(0)
         ),
         format!("Blocks: as posted for {}, in brackets the control\u{2019}s own involutes.", t.control.title()),
         format!("{FREE}: the engagement alone limits the step; for the others the step asked for does."),
@@ -279,15 +283,20 @@ fn runs(c: &Comparison) -> Section {
     );
     for (name, f) in measured(c) {
         for run in &f.runs {
-            let smoothed =
-                if run.smoothed > 0 { fixed(run.farthest * 1e3, 2) } else { "\u{2013}".to_owned() };
+            // A control with a planner of its own does not tell.
+            let count = |n: Option<usize>| n.map_or("not known".to_owned(), |n| n.to_string());
+            let smoothed = match (run.smoothed, run.farthest) {
+                (None, _) | (_, None) => "not known".to_owned(),
+                (Some(0), _) => "\u{2013}".to_owned(),
+                (_, Some(farthest)) => fixed(farthest * 1e3, 2),
+            };
             let cells = [
                 name.to_owned(),
                 number(Some(run.feed * 0.06)),
                 fixed(run.time, 3),
                 fixed(run.without_jerk, 3),
-                run.stops.to_string(),
-                run.smoothed.to_string(),
+                count(run.stops),
+                count(run.smoothed),
                 smoothed,
                 fixed(run.servo.most * 1e3, 2),
                 fixed(run.servo.radius, 1),
@@ -316,15 +325,24 @@ fn motion(c: &Comparison) -> Section {
         "The run at {} m/min. Acceleration and jerk of both axes together, along the path and across it, joints included.",
         number(Some(c.terms.limits.feed * 0.06))
     )));
-    let run = |pick: fn(&crate::holes::compare::ProfilePlace) -> f64| {
-        move |f: &Figures| f.profile.iter().map(|p| [p.s, pick(p)]).collect::<Vec<_>>()
+    let run = |pick: fn(&crate::holes::compare::ProfilePlace) -> Option<f64>| {
+        move |f: &Figures| f.profile.iter().filter_map(|p| Some([p.s, pick(p)?])).collect::<Vec<_>>()
     };
-    let speeds = charts(c, "Speed", ("speed", "mm/s"), run(|p| p.speed));
-    let accelerations = charts(c, "Acceleration", ("acceleration", "mm/s\u{b2}"), run(|p| p.acceleration));
-    let jerks = charts(c, "Jerk", ("jerk", "m/s\u{b3}"), run(|p| p.jerk / 1000.0));
+    let has_jerk = measured(c).any(|(_, f)| f.profile.iter().any(|p| p.jerk.is_some()));
+    if !has_jerk {
+        section.blocks.push(Block::Text(
+            "This control has no limit of jerk: its acceleration steps, and there is no jerk to be shown."
+                .to_owned(),
+        ));
+    }
+    let speeds = charts(c, "Speed", ("speed", "mm/s"), run(|p| Some(p.speed)));
+    let accelerations =
+        charts(c, "Acceleration", ("acceleration", "mm/s\u{b2}"), run(|p| Some(p.acceleration)));
+    let jerks = charts(c, "Jerk", ("jerk", "m/s\u{b3}"), run(|p| Some(p.jerk? / 1000.0)));
     for (((group, speed), (_, acceleration)), (_, jerk)) in speeds.into_iter().zip(accelerations).zip(jerks) {
         section.blocks.push(heading(group));
-        section.blocks.extend([Block::from(speed), acceleration.into(), jerk.into()]);
+        section.blocks.extend([Block::from(speed), acceleration.into()]);
+        section.blocks.extend(has_jerk.then(|| jerk.into()));
     }
     section
 }

@@ -9,6 +9,7 @@ use crate::base::Result;
 use crate::geom::{Curve, PlaneCurve};
 use crate::holes::compare::{Cut, PassPiece, PassRun, Terms, pass_run};
 use crate::holes::{BorePlan, Entry, PassFigures, ToolpathPace, ToolpathRole};
+use crate::num::angle::wrap_positive;
 use crate::operations::bore::BoreOperation;
 
 /// A curve of a pass: the record of the paper's tables, about the bore's centre.
@@ -20,7 +21,7 @@ pub struct HoleCurve {
     pub length: f64,
     /// Start [mm].
     pub start: [f64; 2],
-    /// Tangent angle at the start [rad].
+    /// Tangent angle at the start [rad]: of a record with its turns, as in the paper's tables; of other laws from 0 to 2 pi.
     pub start_angle: f64,
     /// Radius of curvature at the start, positive to the left [mm]; none of a line.
     pub start_radius: Option<f64>,
@@ -57,7 +58,10 @@ fn hole_curve(curve: &PlaneCurve) -> HoleCurve {
         kind,
         length: curve.length(),
         start: curve.start().to_array(),
-        start_angle: jet.angle,
+        start_angle: match curve {
+            PlaneCurve::Record(_) => jet.angle,
+            PlaneCurve::Spiral(_) => wrap_positive(jet.angle),
+        },
         start_radius: radii[0],
         end_radius: radii[1],
         base_radius: base.map_or(0.0, |r| r.base_radius()),

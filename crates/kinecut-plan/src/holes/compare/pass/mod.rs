@@ -1,17 +1,28 @@
 //! One planned pass as a machine runs it: its way with curvature and load, its motion within the limits of the axes, in
 //! samples few enough to be drawn.
+//!
+//! The motion is looked at every millisecond, of a pass longer than 16 s every 16000th part of it and every millisecond
+//! where it changes. Of each part of the way the extreme places are kept; the engagement is measured at those. A control
+//! without a limit of jerk steps from acceleration to acceleration: it has no jerk. One that looks ahead by junction deviation runs
+//! along chords, whose acceleration is that along the path; that across is the one of the path at the same speed.
+
+mod kept;
+mod track;
 
 use glam::{DVec2, DVec3};
 use serde::Serialize;
 
+use self::kept::{Kept, Model};
+use self::track::Track;
 use super::Terms;
 use super::joints::{self, JointStep};
 use super::program::at_feeds;
-use super::run::machine;
+use super::run::{has_jerk, has_own_planner, machine};
 use crate::base::{Code, Finding, Result, Silent};
-use crate::geom::{Curve, PlaneCurve, joint};
-use crate::holes::engagement::engagement;
-use crate::motion::{MotionSample, PathByLength as _, program_samples};
+use crate::geom::{Curve, Jet, PlaneCurve, joint};
+use crate::holes::engagement::engagement_at;
+use crate::machine::Interpolator;
+use crate::motion::{FinerSamples, MotionSample, PathByLength as _, program_samples_finer};
 use crate::program::Blend;
 use crate::trace::{CompStart, RegisterState, TraceOptions, trace};
 
@@ -44,16 +55,16 @@ pub struct PassPeaks {
     pub along: f64,
     /// All of the acceleration [mm/s^2].
     pub acceleration: f64,
-    /// Jerk along the path [mm/s^3].
-    pub jerk_along: f64,
-    /// All of the jerk [mm/s^3].
-    pub jerk: f64,
-    /// Engagement [rad]; none where it is not measured.
+    /// Jerk along the path [mm/s^3]; none of a control without a limit of jerk, whose acceleration steps.
+    pub jerk_along: Option<f64>,
+    /// All of the jerk [mm/s^3]; none likewise.
+    pub jerk: Option<f64>,
+    /// Engagement [rad], of the places of `samples` alone; none where it is not measured.
     pub engagement: Option<f64>,
     /// Acceleration of the axis that has most [mm/s^2].
     pub axis_acceleration: f64,
-    /// Jerk of the axis that has most [mm/s^3].
-    pub axis_jerk: f64,
+    /// Jerk of the axis that has most [mm/s^3]; none of a control without a limit of jerk.
+    pub axis_jerk: Option<f64>,
 }
 
 /// The way in points, by columns.
@@ -67,10 +78,11 @@ pub struct PassWay {
     pub y: Vec<f64>,
 }
 
-/// The motion in samples, by columns: of each part of the way its slowest place and that of most jerk.
+/// The motion in samples, by columns: of each part of the way the slowest and the fastest place, and those of most
+/// acceleration and jerk, along the path and in all.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct PassSamples {
-    /// Way from the start [mm].
+    /// Way from the start, at the place of the programmed path that is nearest [mm].
     pub s: Vec<f64>,
     /// Time [s].
     pub time: Vec<f64>,
@@ -80,13 +92,14 @@ pub struct PassSamples {
     pub along: Vec<f64>,
     /// All of the acceleration [mm/s^2].
     pub acceleration: Vec<f64>,
-    /// Jerk along the path [mm/s^3].
-    pub jerk_along: Vec<f64>,
-    /// All of the jerk [mm/s^3].
-    pub jerk: Vec<f64>,
-    /// Curvature of the path, positive to the left [1/mm]; none at a cusp.
+    /// Jerk along the path [mm/s^3]; none of a control without a limit of jerk, whose acceleration steps.
+    pub jerk_along: Vec<Option<f64>>,
+    /// All of the jerk [mm/s^3]; none likewise.
+    pub jerk: Vec<Option<f64>>,
+    /// Curvature of the programmed path in space, positive to the left [1/mm]; none at a cusp. Where the control leaves the
+    /// path at a joint, its own is another.
     pub curvature: Vec<Option<f64>>,
-    /// Engagement [rad]; none where it is not measured.
+    /// Engagement at this place [rad]; none where it is not measured. Between two places it is not known.
     pub engagement: Vec<Option<f64>>,
 }
 
@@ -99,18 +112,25 @@ pub struct PassRun {
     pub length: f64,
     /// Time [s].
     pub time: f64,
-    /// Joints at which the tool stops.
-    pub stops: usize,
-    /// Joints that the control smooths.
-    pub smoothed: usize,
-    /// Largest distance from the path at smoothed joints [mm].
+    /// Joints at which the tool stops; none of a control with a planner of its own, which does not tell.
+    pub stops: Option<usize>,
+    /// Joints that the control smooths; none likewise.
+    pub smoothed: Option<usize>,
+    /// Largest distance from the programmed path [mm]: at smoothed joints, or of all samples of the motion.
     pub farthest: f64,
     /// Stretch of the way whose load is measured [mm].
     pub measured: Option<[f64; 2]>,
+    /// Number of places at which the load is measured: its largest is the largest of these.
+    pub engagement_places: usize,
+    /// The reason for which a load that is asked for is not measured.
+    pub unmeasured: Option<Finding>,
     /// The largest of all samples of the motion, of which `samples` keeps a part.
     pub peaks: PassPeaks,
-    /// Time between the samples of the motion [s].
+    /// Largest time between the samples of the motion [s].
     pub cycle: f64,
+    /// Largest time between them where the motion changes: at joints, and where speed or acceleration change by more than a
+    /// hundredth of feed and limit [s].
+    pub finest: f64,
     /// The joint at which the circle at the wall begins.
     pub closing: Option<JointStep>,
     /// Number of joints.
@@ -126,14 +146,18 @@ pub struct PassRun {
 /// Time between samples [s], and most samples: a longer pass has longer times.
 const CYCLE: f64 = 1e-3;
 const CYCLES: f64 = 16_000.0;
-/// Parts of the way, and of the stretches at its ends in which the tool speeds up and slows down.
-const PARTS: f64 = 220.0;
+/// The same where the motion changes.
+const FINEST: f64 = 1_000_000.0;
+/// Share of feed and of the limit of acceleration that is a change.
+const CHANGE: f64 = 0.01;
+/// Parts of the way: of half the cutter's radius each, but so many at least and at most.
+const PARTS: [f64; 2] = [220.0, 800.0];
+const PART_SHARE: f64 = 0.5;
+/// Parts of the stretches at its ends in which the tool speeds up and slows down.
 const END_PARTS: f64 = 40.0;
 /// Such a stretch: the way at feed in so long a time [s], and a share of the whole at most.
 const END_TIME: f64 = 0.2;
 const END_SHARE: f64 = 0.08;
-/// Places at which the load is measured.
-const LOADS: usize = 260;
 /// Heading between two drawn points [rad]: a chord is off by 1/800 of its radius; and their number, about.
 const DRAWN_TURN: f64 = 0.1;
 const DRAWN: f64 = 2200.0;
@@ -163,17 +187,6 @@ pub fn pass_run(
         starts.push(length);
     }
     let centre = DVec2::from_array(centre);
-    let loads = match cut {
-        Some(cut) => engagement(cut.curves, terms.cutter, cut.open, LOADS)?,
-        None => Vec::new(),
-    };
-    let from = cut.map_or(0.0, |cut| cut.from);
-    let load = |s: f64| {
-        let at = loads.partition_point(|e| e.s + from < s);
-        let (a, b) = (loads.get(at.checked_sub(1)?)?, loads.get(at)?);
-        let share = if b.s > a.s { (s - from - a.s) / (b.s - a.s) } else { 0.0 };
-        Some(a.angle + (b.angle - a.angle) * share)
-    };
     let at = |s: f64| {
         let i = starts.partition_point(|start| *start <= s).clamp(1, pieces.len().max(1)) - 1;
         pieces.get(i).map(|piece| piece.curve.at((s - starts[i]).clamp(0.0, piece.curve.length())))
@@ -193,30 +206,50 @@ pub fn pass_run(
     let estimate: f64 = pieces.iter().map(|p| p.curve.length() / p.feed).sum();
     let cycle = if estimate > CYCLES * CYCLE { estimate / CYCLES } else { CYCLE };
     let fastest = pieces.iter().map(|p| p.feed).fold(0.0, f64::max);
-    let mut motion = Motion::new(length, END_TIME * fastest);
+    let finest = if estimate > FINEST * CYCLE { estimate / FINEST } else { CYCLE };
+    let finer = FinerSamples {
+        cycle: finest,
+        speed: CHANGE * fastest,
+        acceleration: CHANGE * terms.limits.acceleration,
+    };
+    let model = Model {
+        has_jerk: has_jerk(terms.interpolator),
+        by_chords: terms.interpolator == Interpolator::JunctionDeviation,
+    };
+    let has_own_planner = has_own_planner(terms.interpolator);
+    let parts = (length / (PART_SHARE * terms.cutter)).clamp(PARTS[0], PARTS[1]);
+    let mut motion = Kept::new(length, (END_TIME * fastest, parts), model);
+    let mut track = Track::new(pieces, &starts);
+    let mut farthest: f64 = 0.0;
+    let mut before: Option<(f64, f64)> = None;
     let mut sink = |sample: &MotionSample| {
-        motion.add(sample);
+        let [x, y, z, ..] = &sample.axes;
+        let run = before.map_or(0.0, |(time, speed)| 0.5 * (speed + sample.feed) * (sample.time - time));
+        before = Some((sample.time, sample.feed));
+        let (s, off) = track.follow(DVec3::new(x.position, y.position, z.position), run);
+        farthest = if off > farthest { off } else { farthest };
+        motion.add(sample, s, at(s).as_ref());
         Ok(())
     };
-    let done = program_samples(&program, &trace, &machine, cycle, &Silent, &mut sink)?;
+    let done = program_samples_finer(&program, &trace, &machine, (cycle, finer), &Silent, &mut sink)?;
     let (time, _) = done.ok_or_else(|| Finding::error(Code::PLAN_VALUE, "the axes have no limits"))?;
     if let Some(reason) = time.reason {
         return Err(Finding { place: None, item: None, ..reason }.into());
     }
     let (places, mut peaks) = motion.places();
-    peaks.engagement = loads.iter().map(|e| e.angle).reduce(f64::max);
+    let load = Load::of(cut, terms.cutter, &places.iter().map(|place| place.s).collect::<Vec<_>>());
+    peaks.engagement = load.angles.iter().flatten().copied().reduce(f64::max);
     let mut samples = PassSamples::default();
-    for place in &places {
+    for (place, angle) in places.iter().zip(&load.angles) {
         samples.s.push(digits(place.s));
         samples.time.push(digits(place.time));
         samples.speed.push(digits(place.speed));
         samples.along.push(digits(place.along));
         samples.acceleration.push(digits(place.acceleration));
-        samples.jerk_along.push(digits(place.jerk_along));
-        samples.jerk.push(digits(place.jerk));
-        let curvature = at(place.s).map(|jet| jet.d1.truncate().perp_dot(jet.d2.truncate()));
-        samples.curvature.push(curvature.filter(|k| k.is_finite()).map(digits));
-        samples.engagement.push(load(place.s).map(digits));
+        samples.jerk_along.push(place.jerk_along.map(digits));
+        samples.jerk.push(place.jerk.map(digits));
+        samples.curvature.push(at(place.s).map(|jet| curvature(&jet)).filter(|k| k.is_finite()).map(digits));
+        samples.engagement.push(angle.map(digits));
     }
     let all = joints(pieces, &starts, centre);
     let wall = cut.and_then(|cut| {
@@ -229,18 +262,53 @@ pub fn pass_run(
         units: "mm, s, rad",
         length,
         time: time.total(),
-        stops: time.smoothing.stops,
-        smoothed: time.smoothing.smoothed,
-        farthest: time.smoothing.most_off(),
-        measured: loads.last().map(|e| [from, from + e.s]),
+        stops: (!has_own_planner).then_some(time.smoothing.stops),
+        smoothed: (!has_own_planner).then_some(time.smoothing.smoothed),
+        farthest: if has_own_planner { farthest } else { time.smoothing.most_off() },
+        measured: load.measured,
+        engagement_places: load.angles.iter().flatten().count(),
+        unmeasured: load.error,
         peaks,
         cycle,
+        finest,
         closing,
         joint_count: all.len(),
         joints: joints::hardest(all, JOINTS),
         way: way(pieces, &starts, centre),
         samples,
     })
+}
+
+/// The load at places of a pass.
+struct Load {
+    measured: Option<[f64; 2]>,
+    /// Engagement at each place [rad]; none outside of the measured stretch.
+    angles: Vec<Option<f64>>,
+    error: Option<Finding>,
+}
+
+impl Load {
+    /// A load that cannot be measured is no reason not to run the pass.
+    fn of(cut: Option<Cut<'_>>, cutter: f64, places: &[f64]) -> Load {
+        let none = |error| Load { measured: None, angles: vec![None; places.len()], error };
+        let Some(cut) = cut else { return none(None) };
+        let to = cut.from + cut.curves.iter().map(PlaneCurve::length).sum::<f64>();
+        let inside = |s: &f64| cut.from - NOTHING <= *s && *s <= to + NOTHING;
+        let own: Vec<f64> = places.iter().filter(|s| inside(s)).map(|s| s - cut.from).collect();
+        match engagement_at(cut.curves, cutter, cut.open, &own) {
+            Ok(found) => {
+                let mut found = found.into_iter();
+                let angles = places.iter().map(|s| if inside(s) { found.next() } else { None }).collect();
+                Load { measured: Some([cut.from, to]), angles, error: None }
+            }
+            Err(error) => none(Some(*error.0)),
+        }
+    }
+}
+
+/// Curvature in space, with the sign of its plan: positive to the left [1/mm].
+fn curvature(jet: &Jet) -> f64 {
+    jet.d2.length().copysign(jet.d1.truncate().perp_dot(jet.d2.truncate()))
 }
 
 fn joints(pieces: &[PassPiece], starts: &[f64], centre: DVec2) -> Vec<JointStep> {
@@ -278,131 +346,4 @@ fn digits(v: f64) -> f64 {
     let places = DIGITS - 1 - v.abs().log10().floor() as i32;
     let unit = 10f64.powi(places.abs());
     if places >= 0 { (v * unit).round() / unit } else { (v / unit).round() * unit }
-}
-
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-struct Place {
-    s: f64,
-    time: f64,
-    speed: f64,
-    along: f64,
-    acceleration: f64,
-    jerk_along: f64,
-    jerk: f64,
-}
-
-/// The samples of a run: what is kept of them, and the largest of all.
-struct Motion {
-    length: f64,
-    /// Length of the stretches at both ends [mm].
-    end: f64,
-    before: Option<Place>,
-    direction: DVec3,
-    /// Index of the present part, its slowest place and that of most jerk.
-    present: Option<(u64, [Place; 2])>,
-    places: Vec<Place>,
-    peaks: PassPeaks,
-}
-
-impl Motion {
-    fn new(length: f64, end: f64) -> Motion {
-        let most = END_SHARE * length;
-        Motion {
-            length,
-            end: if end < most { end } else { most },
-            before: None,
-            direction: DVec3::ZERO,
-            present: None,
-            places: Vec::new(),
-            peaks: PassPeaks::default(),
-        }
-    }
-
-    fn add(&mut self, sample: &MotionSample) {
-        let [x, y, z, ..] = &sample.axes;
-        let velocity = DVec3::new(x.velocity, y.velocity, z.velocity);
-        let acceleration = DVec3::new(x.acceleration, y.acceleration, z.acceleration);
-        let jerk = DVec3::new(x.jerk, y.jerk, z.jerk);
-        if velocity.length() > RESTS {
-            self.direction = velocity.normalize_or_zero();
-        } else if self.before.is_none() {
-            // From rest the tool begins to move where jerk and acceleration push it.
-            self.direction = (acceleration + jerk).normalize_or_zero();
-        }
-        let mut place = Place {
-            s: 0.0,
-            time: sample.time,
-            speed: sample.feed,
-            along: acceleration.dot(self.direction),
-            acceleration: acceleration.length(),
-            jerk_along: jerk.dot(self.direction),
-            jerk: jerk.length(),
-        };
-        if let Some(before) = self.before {
-            // Exact where the acceleration along the path changes evenly.
-            let dt = place.time - before.time;
-            let way = 0.5 * (before.speed + place.speed) * dt + (before.along - place.along) * dt * dt / 12.0;
-            place.s = (before.s + way).clamp(before.s, self.length);
-        }
-        self.before = Some(place);
-        let largest = |peak: &mut f64, v: f64| {
-            if v > *peak {
-                *peak = v;
-            }
-        };
-        largest(&mut self.peaks.speed, place.speed);
-        largest(&mut self.peaks.along, place.along.abs());
-        largest(&mut self.peaks.acceleration, place.acceleration);
-        largest(&mut self.peaks.jerk_along, place.jerk_along.abs());
-        largest(&mut self.peaks.jerk, place.jerk);
-        largest(&mut self.peaks.axis_acceleration, acceleration.abs().max_element());
-        largest(&mut self.peaks.axis_jerk, jerk.abs().max_element());
-        let part = self.part(place.s);
-        match &mut self.present {
-            Some((present, [slowest, hardest])) if *present == part => {
-                if place.speed < slowest.speed {
-                    *slowest = place;
-                }
-                if place.jerk > hardest.jerk {
-                    *hardest = place;
-                }
-            }
-            _ => {
-                self.end_part();
-                self.present = Some((part, [place; 2]));
-            }
-        }
-    }
-
-    /// Number of the part of the way in which a place is.
-    fn part(&self, s: f64) -> u64 {
-        let (left, small) = (self.length - s, END_PARTS / self.end);
-        let number = if s < self.end {
-            s * small
-        } else if left < self.end {
-            END_PARTS + PARTS + (self.end - left) * small
-        } else {
-            END_PARTS + (s - self.end) * PARTS / (self.length - 2.0 * self.end)
-        };
-        // In range: a way has finitely many parts.
-        number as u64
-    }
-
-    fn end_part(&mut self) {
-        let Some((_, mut both)) = self.present.take() else { return };
-        both.sort_by(|a, b| a.time.total_cmp(&b.time));
-        self.places.push(both[0]);
-        if both[1] != both[0] {
-            self.places.push(both[1]);
-        }
-    }
-
-    /// The places in order, the last one too.
-    fn places(mut self) -> (Vec<Place>, PassPeaks) {
-        self.end_part();
-        if let Some(last) = self.before.filter(|last| self.places.last() != Some(last)) {
-            self.places.push(last);
-        }
-        (self.places, self.peaks)
-    }
 }
