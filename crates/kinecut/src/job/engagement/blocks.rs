@@ -6,7 +6,7 @@ use super::super::json_text;
 use super::super::outcome::Outcome;
 use super::super::setup_outcome::SetupOutcome;
 use super::course::{Chips, rates};
-use super::load::Loads;
+use super::load::{Deflection, Loads};
 use crate::stock::cut::{EngagedStretch, MoveEngagement};
 use crate::tool::ToolNumber;
 use crate::trace::{Segment, SegmentPace};
@@ -47,9 +47,9 @@ pub(crate) struct Block {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) torque: Option<f64>,
     /// Greatest deflection of the tip away from the wall [mm], by half of the cutting force; nothing where the power or the give of
-    /// the tool is not known.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub(crate) deflection: Option<f64>,
+    /// the tool is not known, and where a part of the block is cut with more than a quarter of the circle.
+    #[serde(skip_serializing_if = "is_not_known", serialize_with = "known")]
+    pub(crate) deflection: Deflection,
 }
 
 impl Block {
@@ -81,7 +81,7 @@ impl Block {
             chip: chips.map(|chips| chips.thickest(greatest(|s| s.advance))),
             power: load.map(|load| load.power / 1000.0),
             torque: load.map(|load| load.torque),
-            deflection: loads.and_then(|loads| loads.deflection(moved)),
+            deflection: loads.map_or(Deflection::Unknown, |loads| loads.deflection(moved)),
         }
     }
 
@@ -99,8 +99,16 @@ impl Block {
         self.chip = greater(self.chip, other.chip);
         self.power = greater(self.power, other.power);
         self.torque = greater(self.torque, other.torque);
-        self.deflection = greater(self.deflection, other.deflection);
+        self.deflection = self.deflection.join(other.deflection);
     }
+}
+
+fn is_not_known(deflection: &Deflection) -> bool {
+    deflection.known().is_none()
+}
+
+fn known<S: serde::Serializer>(deflection: &Deflection, s: S) -> Result<S::Ok, S::Error> {
+    deflection.known().serialize(s)
 }
 
 /// The blocks at feed of a setup's program in the order in which they are run; nothing where engagement was not measured.

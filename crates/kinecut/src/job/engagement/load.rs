@@ -11,6 +11,37 @@ use crate::stock::cut::{EngagedStretch, MoveEngagement};
 use crate::tool::{Cutter, Tool};
 use crate::trace::Segment;
 
+/// Share of the engaged way on which a contact may be wider than a quarter of the circle: what the lines of the stock leave
+/// to chance.
+const WIDER: f64 = 0.02;
+
+/// Deflection of a tool's tip, as far as it is known.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Deflection {
+    /// The greatest [mm].
+    Of(f64),
+    /// Not known: the tool cuts with more than a quarter of its circle, which presses it to several sides.
+    Wider,
+    /// Not known, or nothing is cut.
+    Unknown,
+}
+
+impl Deflection {
+    /// The greater one; not known where one is of a wider cut.
+    pub(crate) fn join(self, other: Deflection) -> Deflection {
+        match (self, other) {
+            (Deflection::Wider, _) | (_, Deflection::Wider) => Deflection::Wider,
+            (Deflection::Of(a), Deflection::Of(b)) => Deflection::Of(a.max(b)),
+            (Deflection::Unknown, known) | (known, Deflection::Unknown) => known,
+        }
+    }
+
+    /// The greatest, where it is known [mm].
+    pub(crate) fn known(self) -> Option<f64> {
+        if let Deflection::Of(most) = self { Some(most) } else { None }
+    }
+}
+
 /// Stretches of an edge along which its contact is summed up.
 const PARTS: u32 = 32;
 
@@ -85,14 +116,19 @@ impl Loads<'_> {
     }
 
     /// Greatest deflection of the tool's tip in a segment [mm], away from the wall beside which it cuts with a quarter of its circle at
-    /// the most; `None` where it has no such cut, and where the give of the tool is not known.
-    pub(crate) fn deflection(&self, moved: &MoveEngagement) -> Option<f64> {
-        let give = give(self.tool)?;
-        let all = moved.stretches.iter().zip(rates(moved)).zip(arcs(moved));
-        let beside = all.filter(|(_, arc)| *arc <= BESIDE);
+    /// the most; none where it has no cut, and where the give of the tool is not known.
+    pub(crate) fn deflection(&self, moved: &MoveEngagement) -> Deflection {
+        let engaged: f64 = moved.stretches.iter().map(|s| s.to - s.from).sum();
+        let all = || moved.stretches.iter().zip(rates(moved)).zip(arcs(moved));
+        let wider: f64 = all().filter(|(_, arc)| *arc > BESIDE).map(|((s, _), _)| s.to - s.from).sum();
+        if wider > WIDER * engaged {
+            return Deflection::Wider;
+        }
+        let Some(give) = give(self.tool) else { return Deflection::Unknown };
+        let beside = all().filter(|(_, arc)| *arc <= BESIDE);
         let forces =
             beside.map(|((stretch, rate), arc)| self.on(&EngagedStretch { arc, ..*stretch }, rate).force);
-        Some(RADIAL * give * forces.reduce(f64::max)?)
+        forces.reduce(f64::max).map_or(Deflection::Unknown, |force| Deflection::Of(RADIAL * give * force))
     }
 
     /// The most that can be taken where the contact is as deep and as wide as it is [mm3 by fraction of the segment]: how many lines
@@ -210,6 +246,29 @@ mod tests {
             // Three times as many lines as there should be take no more.
             assert_eq!(loads.on(&stretch, 3.0 * stretch.removed), found);
         }
+    }
+
+    #[test]
+    fn a_block_that_also_cuts_wider_has_no_deflection() {
+        let tool = end_mill(10.0, 4);
+        let force = CuttingForce { kc11: 2110.0, mc: 0.17 };
+        let loads = Loads { tool: &tool, force, speed: 400.0, time: 1.0, way: [30.0, 0.0] };
+        let stretch = |i: u32, arc: f64| {
+            let [from, to] = [i, i + 1].map(|k| f64::from(k) / 60.0);
+            EngagedStretch { from, to, removed: 1.0, arc, depth: 5.0, width: 1.0, advance: 20.0 }
+        };
+        let moved = |arcs: &dyn Fn(u32) -> f64| MoveEngagement {
+            stretches: (0..60).map(|i| stretch(i, arcs(i))).collect(),
+            spread: 0.0,
+        };
+        let beside = loads.deflection(&moved(&|_| 0.5));
+        assert!(beside.known().unwrap() > 0.0);
+        // A corner at the end of the way.
+        let mixed = loads.deflection(&moved(&|i| if i < 50 { 0.5 } else { 2.1 }));
+        assert_eq!(mixed, Deflection::Wider);
+        assert_eq!((beside.join(mixed).known(), mixed.join(beside).known()), (None, None));
+        let idle = loads.deflection(&MoveEngagement { stretches: Vec::new(), spread: 0.0 });
+        assert_eq!((idle, idle.join(beside), beside.join(idle)), (Deflection::Unknown, beside, beside));
     }
 
     #[test]

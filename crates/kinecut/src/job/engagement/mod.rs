@@ -17,7 +17,7 @@ pub use blocks::engagement_json;
 pub(crate) use blocks::{Block, blocks};
 pub(crate) use course::{Chips, Course, course};
 pub(crate) use give::deflection_beside;
-pub(crate) use load::{Loads, force_of};
+pub(crate) use load::{Deflection, Loads, force_of};
 
 /// Moves below which engagement is measured unasked.
 const FEW: u64 = 20_000;

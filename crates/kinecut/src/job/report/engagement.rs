@@ -2,7 +2,7 @@
 
 use super::EngagedRun;
 use crate::cutting::{FORCE_SPREAD, Material};
-use crate::job::engagement::{Block, Chips, Course, blocks, course};
+use crate::job::engagement::{Block, Chips, Course, Deflection, blocks, course};
 use crate::job::{Engagement, Outcome, SetupOutcome};
 use crate::page::{Cell, Chart, Follows, Row, Section, Table, fixed};
 use crate::stock::cut::MoveEngagement;
@@ -66,7 +66,7 @@ fn notes(all: &Engagement) -> [String; 3] {
 }
 
 /// Conditions of the deflection.
-const DEFLECTION: &str = "Deflection at the tip of cuts with a quarter of the circle at most, under half of the cutting force, of a bar from the holder to the tip that is 0.8 of the cutter thick along its flutes: carbide where the tool does not say its material, mills above 20 mm and face mills not; the give of holder and spindle comes on top.";
+const DEFLECTION: &str = "Deflection at the tip of blocks that cut with a quarter of the circle at most, (part) where the tool has wider ones too, under half of the cutting force, of a bar from the holder to the tip that is 0.8 of the cutter thick along its flutes: carbide where the tool does not say its material, mills above 20 mm and face mills not; the give of holder and spindle comes on top.";
 
 /// Conditions of power and torque.
 fn load_note(outcome: &Outcome) -> Option<String> {
@@ -204,7 +204,10 @@ fn table(outcome: &Outcome, blocks: &[(u32, &Block)]) -> Table {
         if has_load {
             cells.push(words(known(|b| b.power).map(|power| least(power, 2))));
             cells.push(words(known(|b| b.torque).map(|torque| least(torque, 1))));
-            cells.push(words(known(|b| b.deflection).map(|mm| least(1000.0 * mm, 0))));
+            // The greatest of those blocks that have one: others cut wider.
+            let most = known(|b| b.deflection.known()).map(|mm| least(1000.0 * mm, 0));
+            let wider = own().any(|(_, b)| b.deflection == Deflection::Wider);
+            cells.push(words(most.map(|most| if wider { format!("{most} (part)") } else { most })));
         }
         let row = Row::new(cells.into_iter().map(Cell::new).collect());
         let greatest = own().max_by(|(_, a), (_, b)| a.arc.total_cmp(&b.arc));

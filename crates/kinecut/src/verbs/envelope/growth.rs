@@ -5,9 +5,9 @@ use glam::DVec3;
 use rayon::prelude::*;
 use serde::{Serialize, Serializer};
 
-use super::sheet::{Moved, TOLERANCE, entering_at, moved, way_and_turn};
+use super::sheet::{Moved, TOLERANCE, entering_at, moved, still, way_and_turn};
 use super::{EnteringAt, EnvelopeTable, MoveSource, moving::motions};
-use crate::base::{Code, Loader, Progress, Result};
+use crate::base::{Code, Finding, Loader, Progress, Result};
 use crate::geom::Rigid;
 use crate::job::contour::given_contour;
 use crate::job::report::{BodyView, packed_body};
@@ -64,8 +64,10 @@ pub struct Growth {
     pub moments: Vec<GrowthMoment>,
     /// Walls and both ends.
     pub envelope: Envelope,
-    /// Notes of the tool's reader.
+    /// Notes of the tool's reader, and on the tolerance.
     pub notes: Vec<String>,
+    /// Findings.
+    pub findings: Vec<Finding>,
 }
 
 /// The moves of one question: one, or of a line of a program one for each of its moves.
@@ -90,11 +92,19 @@ pub fn growths(
 }
 
 fn growth(table: &EnvelopeTable, moved: Moved, intervals: usize, progress: &dyn Progress) -> Result<Growth> {
-    let Moved { title, contour, motion, until, way, mode, source, notes } = moved;
+    let Moved { title, contour, motion, until, way, mode, source, mut notes } = moved;
     let chain = ProfileChain::new(&contour);
     let wanted = table.tolerance.unwrap_or(TOLERANCE);
     // One that is no length is refused as it is.
     let tolerance = if wanted > 0.0 { wanted.max(FINENESS * chain.reach()) } else { wanted };
+    if tolerance > wanted {
+        notes.push(format!(
+            "curves and walls are within {} mm, a {:.0}th of the tool's reach, not within the tolerance of {wanted} mm: finer is \
+             not seen; `kinecut envelope` without --moments keeps it",
+            fixed(tolerance, 4),
+            1.0 / FINENESS,
+        ));
+    }
     let envelope =
         chain.envelope_by(&motion, tolerance, intervals, progress).map_err(|e| match e.code() {
             Code::SWEEP_TOLERANCE | Code::SWEEP_TOO_FINE => e.under("tolerance"),
@@ -117,6 +127,8 @@ fn growth(table: &EnvelopeTable, moved: Moved, intervals: usize, progress: &dyn 
             triangles: envelope.walls[before],
         }
     };
+    let times: Vec<f64> = (0..=intervals).map(|k| k as f64 / intervals as f64).collect();
+    let findings = Vec::from_iter(still(&chain, &motion, &times));
     let moments = (0..=intervals).into_par_iter().map(moment).collect();
     let length_and_turn = way_and_turn(&motion);
     Ok(Growth {
@@ -131,6 +143,7 @@ fn growth(table: &EnvelopeTable, moved: Moved, intervals: usize, progress: &dyn 
         moments,
         envelope,
         notes,
+        findings,
     })
 }
 
@@ -138,6 +151,7 @@ fn growth(table: &EnvelopeTable, moved: Moved, intervals: usize, progress: &dyn 
 #[derive(Serialize)]
 struct GrowthJson<'a> {
     ends: [[usize; 2]; 2],
+    findings: &'a [Finding],
     length: f64,
     mode: &'static str,
     moments: Vec<MomentJson<'a>>,
@@ -190,6 +204,7 @@ impl Serialize for Growth {
         };
         GrowthJson {
             ends: [[last, *start], [*start, mesh.triangles.len()]],
+            findings: &self.findings,
             length: self.length_and_turn[0],
             mode: self.mode,
             moments: self.moments.iter().map(MomentJson::of).collect(),
@@ -226,6 +241,16 @@ impl Answer for Growths {
     fn sections(&self) -> Vec<Section> {
         self.0.iter().map(section).collect()
     }
+
+    fn findings(&self) -> Vec<&Finding> {
+        self.0.iter().flat_map(|growth| &growth.findings).collect()
+    }
+
+    fn add_findings(&mut self, findings: Vec<Finding>) {
+        if let Some(first) = self.0.first_mut() {
+            first.findings.extend(findings);
+        }
+    }
 }
 
 fn section(growth: &Growth) -> Section {
@@ -254,4 +279,44 @@ fn section(growth: &Growth) -> Section {
     let title = if growth.title.is_empty() { "Move" } else { &growth.title };
     let words = format!("{}; {}", growth.way, growth.mode);
     Section::new(title).with(Block::Text(words)).with(table)
+}
+
+#[cfg(test)]
+mod tests {
+    use serde_json::{Value, json};
+
+    use super::*;
+    use crate::base::{MemoryLoader, Silent};
+
+    fn growth_of(rest: Value) -> Value {
+        let tool = json!({ "shape": { "end-mill": { "diameter": 10, "flute_length": 20 } } });
+        let mut question = json!({ "tool": tool });
+        for (key, value) in rest.as_object().unwrap() {
+            question[key] = value.clone();
+        }
+        let table: EnvelopeTable = serde_json::from_value(question).unwrap();
+        let all = growths(&table, 4, &MemoryLoader::default(), &Silent).unwrap();
+        assert_eq!(all.findings().len(), all.0[0].findings.len());
+        serde_json::to_value(&all).unwrap()
+    }
+
+    #[test]
+    fn a_move_of_nothing_is_warned_of() {
+        let still = growth_of(json!({ "move": { "from": [0, 0, 0], "to": [0, 0, 0] } }));
+        assert_eq!(still["findings"][0]["code"], "KC1201", "{}", still["findings"]);
+        let moves = growth_of(json!({ "move": { "from": [0, 0, 0], "to": [9, 0, 0] } }));
+        assert_eq!(moves["findings"], json!([]));
+    }
+
+    #[test]
+    fn a_tolerance_that_is_not_kept_is_told() {
+        let along = json!({ "from": [0, 0, 0], "to": [9, 0, 0] });
+        let told = |tolerance: f64| {
+            let growth = growth_of(json!({ "tolerance": tolerance, "move": along }));
+            let kept = growth["tolerance"].as_f64().unwrap() <= tolerance;
+            (kept, growth["notes"].to_string().contains("not within the tolerance"))
+        };
+        assert_eq!(told(0.02), (false, true));
+        assert_eq!(told(0.05), (true, false));
+    }
 }

@@ -167,12 +167,7 @@ fn sheet(
     let moments: Vec<f64> = (0..=STEPS).map(|k| k as f64 / STEPS as f64).collect();
     let entering: Vec<EnteringAt> = moments.par_iter().map(|&t| entering_at(&chain, &motion, t)).collect();
     let cusps: Vec<Vec<EnvelopePoint>> = moments.par_iter().map(|&t| chain.cusps(&motion, t)).collect();
-    let mut findings = Vec::new();
-    let still = |t: &f64| matches!(chain.grazing(&motion.at(*t).twist).motion, Motion::Still | Motion::Spin);
-    if moments.iter().all(still) {
-        let what = "the tool does not move, or turns about its own axis alone: it sweeps itself, and the mesh is the tool";
-        findings.push(Finding::warning(Code::NO_MOTION, what));
-    }
+    let findings = Vec::from_iter(still(&chain, &motion, &moments));
     Ok(EnvelopeSheet {
         title,
         exact_volume: exact_volume(&contour, &motion),
@@ -292,4 +287,12 @@ fn exact_volume(contour: &Contour, motion: &ToolMotion) -> Option<f64> {
         }
         _ => None,
     }
+}
+
+/// A warning where the tool sweeps itself at all of these moments.
+pub(super) fn still(chain: &ProfileChain, motion: &ToolMotion, moments: &[f64]) -> Option<Finding> {
+    let is_still =
+        |t: &f64| matches!(chain.grazing(&motion.at(*t).twist).motion, Motion::Still | Motion::Spin);
+    let what = "the tool does not move, or turns about its own axis alone: it sweeps itself, and the mesh is the tool";
+    moments.iter().all(is_still).then(|| Finding::warning(Code::NO_MOTION, what))
 }

@@ -39,7 +39,7 @@ struct SheetJson<'a> {
 }
 
 /// A band of the surface between two parallel circles; `enters`: angles about the axis from which to which it enters, at both
-/// circles; null: it leaves all round.
+/// circles; null: it enters nowhere. It leaves all round, or, of a piece in `whole`, slides along itself.
 #[derive(Serialize)]
 struct BandJson {
     enters: Option<[[f64; 2]; 2]>,

@@ -19,6 +19,8 @@ pub enum PieceOutcome {
     TwoU,
     /// One closed curve.
     Closed,
+    /// All of it grazes: it slides along itself.
+    Whole,
     /// None of these.
     Other,
 }
@@ -41,12 +43,16 @@ impl PieceOutcome {
             PieceOutcome::OneU => "one U",
             PieceOutcome::TwoU => "two U",
             PieceOutcome::Closed => "one closed loop",
+            PieceOutcome::Whole => "all of it grazes",
             PieceOutcome::Other => "other",
         }
     }
 
     /// That of a piece.
     pub fn of(grazing: &Grazing, piece: usize) -> PieceOutcome {
+        if grazing.whole.contains(&piece) {
+            return PieceOutcome::Whole;
+        }
         let spans: Vec<&GrazingSpan> = grazing.spans.iter().filter(|s| s.piece == piece).collect();
         match spans[..] {
             [] => PieceOutcome::Nothing,
@@ -149,5 +155,30 @@ impl Twists {
         let [vx, vy, vz, wx, wy] = std::array::from_fn(|_| self.hundredth());
         let lever = 2.0 / self.reach;
         Twist { shift: DVec3::new(vx, vy, vz), turn: DVec3::new(wx * lever, wy * lever, 0.0) }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use serde_json::{Value, json};
+
+    use crate::base::MemoryLoader;
+    use crate::verbs::grazing::{GrazingTable, grazing_sheet};
+
+    #[test]
+    fn a_piece_that_slides_along_itself_is_not_one_without_a_curve() {
+        let question = json!({
+            "tool": { "shape": { "end-mill": { "diameter": 10, "flute_length": 20 } } },
+            "twist": { "velocity": [600, 0, 0] },
+        });
+        let table: GrazingTable = serde_json::from_value(question).unwrap();
+        let sheet = grazing_sheet(&table, &MemoryLoader::default()).unwrap();
+        let json: Value = serde_json::to_value(&sheet).unwrap();
+        let whole: Vec<u64> = json["whole"].as_array().unwrap().iter().map(|i| i.as_u64().unwrap()).collect();
+        let pieces = json["pieces"].as_array().unwrap();
+        assert!(!whole.is_empty() && whole.len() < pieces.len(), "{whole:?}");
+        for (i, piece) in (0..).zip(pieces) {
+            assert_eq!(whole.contains(&i), piece["outcome"] == "all of it grazes", "{piece}");
+        }
     }
 }

@@ -37,7 +37,8 @@ pub struct LoadCurve {
     pub complete: bool,
     /// The way at feed from the start [mm], never falling.
     pub way: Vec<f64>,
-    /// The share of the cutting disc in material at each place of the way, from 0 to 1.
+    /// The share of the cutting disc in material at each place of the way, from 0 to 1; where it is not complete, straight
+    /// between the places that are known, which can be off by a fifth of the disc.
     pub share: Vec<f64>,
 }
 
