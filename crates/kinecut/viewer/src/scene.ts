@@ -497,6 +497,8 @@ export class View {
   private hit(x: number, y: number): Hit | null {
     if (!this.data || !this.part.visible) return null;
     const ray = new Raycaster();
+    // Also where the camera was turned since the last frame.
+    this.camera.updateMatrixWorld();
     ray.setFromCamera(new Vector2((2 * x) / this.canvas.clientWidth - 1, 1 - (2 * y) / this.canvas.clientHeight), this.camera);
     const clipped = this.renderer.localClippingEnabled;
     const hit = ray.intersectObject(this.part.children[0], false).find((h) => !clipped || this.clip.distanceToPoint(h.point) >= 0);
