@@ -1,129 +1,17 @@
-"""The workbench in a browser, as a person uses it: python3 browser.py KINECUT, with the path of the program. It serves copies of examples and
-opens them in Chromium. Needs playwright and axe-playwright-python, and Debian's Chromium. With KINECUT_SHOTS set, pictures go into that folder;
-with KINECUT_WEEKLY set, the bounds of time count, on a machine that does nothing else. With KINECUT_DIST set, the page's assets come from that
-folder (../dist after a build of the pages) in place of the program."""
+"""The workbench in a browser, as a person uses it: python3 browser.py KINECUT [STEP ...]. It serves copies of examples; needs and settings: common.py."""
 
 import hashlib
 import json
-import os
 import re
-import shutil
-import signal
-import subprocess
-import sys
-import tempfile
 from pathlib import Path
 
-from axe_playwright_python.sync_playwright import Axe
-from playwright.sync_api import Browser, Page, sync_playwright
+from common import LONG, MARK, OUTCOME, SIZES, UNMARKED, WEEKLY, Script, Served, Stage, Watched, clean, judged, open_file, shares, shot
+from playwright.sync_api import Browser, Page
 
-EXAMPLES = Path(__file__).resolve().parents[3] / "examples"
 # Changes of a diameter whose times are measured, and the bound for nineteen of twenty of them [ms].
 CHANGES = 100
 DRAWN = 100
-# A simulation may take so long on a busy machine [ms].
-LONG = 240_000
-# Widths of the window, and heights [px].
-SIZES = [(1400, 900), (800, 900), (390, 844)]
-# Put behind each letter by the pseudo-language.
-MARK = "\u0323"
 BORE = "setup[0].operation[0]"
-
-OUTCOME = '.outcome[data-state="safe"], .outcome[data-state="np"], .outcome[data-state="bad"]'
-
-# Text of the page with letters that the pseudo-language did not mark: none but names, program text and sentences of the library.
-UNMARKED = """mark => {
-  const found = [];
-  const walker = document.createTreeWalker(document.body, NodeFilter.SHOW_TEXT);
-  const isolated = /\\u2068[^\\u2069]*\\u2069/g;
-  for (let node = walker.nextNode(); node; node = walker.nextNode()) {
-    const parent = node.parentElement;
-    if (parent.closest('[translate="no"], [lang="en"], script, style, noscript, svg title')) continue;
-    const text = node.textContent.replace(isolated, "");
-    const letters = [...text];
-    if (letters.some((c, i) => /\\p{L}/u.test(c) && letters[i + 1] !== mark)) found.push(text);
-  }
-  for (const element of document.querySelectorAll("[aria-label], [title], [placeholder]")) {
-    if (element.closest('[translate="no"], [lang="en"], .cm-panels')) continue;
-    for (const name of ["aria-label"]) {
-      const text = (element.getAttribute(name) ?? "").replace(isolated, "");
-      const letters = [...text];
-      if (letters.some((c, i) => /\\p{L}/u.test(c) && letters[i + 1] !== mark)) found.push(`${name}: ${text}`);
-    }
-  }
-  return found;
-}"""
-
-
-class Served:
-    """A folder with copies of examples, and the program that serves it."""
-
-    def __init__(self, program: str, *examples: str):
-        self.folder = Path(tempfile.mkdtemp(prefix="kinecut-workbench-"))
-        for name in examples:
-            shutil.copytree(EXAMPLES / name, self.folder / name)
-        for name in EXAMPLES.glob("*.toml"):
-            shutil.copy(name, self.folder)
-        if "07_external_program" in examples:
-            shutil.move(self.folder / "07_external_program/haas_bracket.nc", self.folder)
-        arguments = [program, "open", str(self.folder), "--no-browser", "--port", "0"]
-        self.process = subprocess.Popen(arguments, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
-        self.address = ""
-        for line in self.process.stdout:
-            found = re.search(r"http://\S+#token=[0-9a-f]+", line)
-            if found:
-                self.address = found.group()
-                break
-        assert self.address, "the server told no address"
-
-    def at(self, query: str) -> str:
-        origin, fragment = self.address.split("#")
-        return f"{origin}?{query}#{fragment}"
-
-    def end(self) -> None:
-        if self.process.poll() is None:
-            self.process.send_signal(signal.SIGTERM)
-            self.process.wait(timeout=20)
-
-    def gone(self) -> None:
-        self.end()
-        shutil.rmtree(self.folder, ignore_errors=True)
-
-
-class Watched:
-    """A page whose console must stay silent, and which asks nobody but its own server."""
-
-    def __init__(self, browser: Browser, size: tuple[int, int], theme: str):
-        self.page = browser.new_page(viewport={"width": size[0], "height": size[1]}, color_scheme=theme)
-        self.said: list[str] = []
-        self.asked: set[str] = set()
-        # That pictures are read is of the test, not of the page; a refused save is told by the browser itself.
-        self.page.on("console", lambda m: any(t in m.text for t in ("ReadPixels", "409 (Conflict)")) or self.said.append(m.text))
-        self.page.on("pageerror", lambda error: self.said.append(str(error)))
-        self.page.on("request", lambda r: self.asked.add(re.sub(r"^(\w+://[^/]*).*", r"\1", r.url)))
-        self.page.on("dialog", lambda dialog: dialog.accept())
-
-    def opened(self, address: str) -> Page:
-        if built := os.environ.get("KINECUT_DIST"):
-            self.page.route("**/assets/**", lambda route: route.fulfill(path=built + re.sub(r"^\w+://[^/]*", "", route.request.url)))
-        self.page.goto(address)
-        return self.page
-
-    def close(self, address: str) -> None:
-        assert not self.said, self.said
-        own = re.sub(r"^(\w+://[^/]*).*", r"\1", address)
-        assert {a for a in self.asked if not a.startswith(("blob:", "data:"))} == {own}, self.asked
-        self.page.close()
-
-
-def open_file(page: Page, name: str) -> None:
-    page.locator('[data-open="files"]').click()
-    page.get_by_role("menuitem", name=name, exact=True).click()
-
-
-def judged(page: Page) -> str:
-    page.locator(OUTCOME).first.wait_for(timeout=LONG)
-    return page.locator(".outcome .word").inner_text()
 
 
 def text_of(page: Page) -> str:
@@ -147,19 +35,6 @@ def drawn(page: Page) -> int:
 
 def wait_drawn(page: Page, after: int) -> None:
     page.wait_for_function(f"() => Number(document.documentElement.dataset.drawn ?? 0) > {after}", timeout=LONG)
-
-
-def shot(page: Page, name: str) -> None:
-    folder = os.environ.get("KINECUT_SHOTS")
-    if folder:
-        Path(folder).mkdir(parents=True, exist_ok=True)
-        page.wait_for_timeout(300)
-        page.screenshot(path=f"{folder}/{name}.png", full_page=page.viewport_size["width"] < 700)
-
-
-def clean(page: Page, what: str) -> None:
-    violations = Axe().run(page).response["violations"]
-    assert not violations, (what, [(v["id"], [n["html"][:160] for n in v["nodes"]][:4]) for v in violations])
 
 
 def edits(page: Page, served: Served) -> None:
@@ -323,7 +198,10 @@ def keys(page: Page) -> None:
     page.get_by_role("combobox", name="Find a command").fill("top")
     page.keyboard.press("Enter")
     page.locator('[data-view="top"][aria-checked="true"]').wait_for()
+    # Keys go to the page once the dialog has left it.
+    page.locator("dialog").wait_for(state="detached")
     page.keyboard.press("1")
+    page.locator('[data-view="iso"][aria-checked="true"]').wait_for()
     page.keyboard.press("g")
     page.locator("dialog input").fill("20")
     page.keyboard.press("Enter")
@@ -394,8 +272,7 @@ def operations(page: Page) -> None:
 def findings(page: Page) -> None:
     """A job that meets a clamp: each finding leads to its line and place."""
     open_file(page, "17_vise_and_clamp/job.toml")
-    page.wait_for_function("() => document.title.includes('17_vise_and_clamp')")
-    assert judged(page) == "NOT SAFE"
+    assert judged(page, "17_vise_and_clamp/job.toml") == "NOT SAFE"
     items = page.locator(".findings > li.bad, .findings > li.np")
     assert items.count() >= 1
     go = items.first.locator(".go")
@@ -410,16 +287,14 @@ def findings(page: Page) -> None:
 def others(page: Page) -> None:
     """A program that others wrote: shown, simulated, its findings told."""
     open_file(page, "07_external_program/O1007.nc")
-    page.wait_for_function("() => document.title.includes('O1007')")
-    judged(page)
+    judged(page, "07_external_program/O1007.nc")
     assert page.locator(".pprog .l").count() > 5
     assert page.locator(".stage canvas").is_visible()
     assert page.locator(".pform h2").inner_text() == "Program of others"
     shot(page, "program-of-others")
     # Without a job beside it, tools and stock are guessed, and that is said.
     open_file(page, "haas_bracket.nc")
-    page.wait_for_function("() => document.title.includes('haas_bracket')")
-    judged(page)
+    judged(page, "haas_bracket.nc")
     assert page.locator(".guessed li").count() >= 1 and page.locator(".findings > li").count() >= 1
     shot(page, "program-guessed")
 
@@ -516,53 +391,51 @@ def starts(browser: Browser, program: str) -> None:
         served.gone()
 
 
-def main() -> None:
-    program = sys.argv[1]
-    only = sys.argv[2:]
-    with sync_playwright() as playwright:
-        browser = playwright.chromium.launch(executable_path=shutil.which("chromium"), args=["--no-sandbox"])
-        served = Served(program, "01_bore", "07_external_program", "17_vise_and_clamp")
-        taken: list[tuple[float, float]] = []
-        try:
-            watched = Watched(browser, SIZES[0], "light")
-            page = watched.opened(served.address)
-            open_file(page, "01_bore/job.toml")
-            judged(page)
-            steps = {
-                "edits": lambda: edits(page, served),
-                "completes": lambda: completes(page),
-                "mistakes": lambda: mistakes(page),
-                "plays": lambda: plays(page),
-                "keys": lambda: keys(page),
-                "operations": lambda: operations(page),
-                "saves": lambda: saves(page, served),
-                "times": lambda: taken.extend(times(page)),
-                "findings": lambda: findings(page),
-                "others": lambda: others(page),
-                "closes": lambda: watched.close(served.address),
-                "looks": lambda: looks(browser, served),
-                "pseudo": lambda: pseudo(browser, served),
-                "starts": lambda: starts(browser, program),
-            }
-            for name, step in steps.items():
-                if not only or name in only or name == "closes":
-                    step()
-                    print(f"{name}: as it should be", flush=True)
-        finally:
-            served.gone()
-        browser.close()
-    if taken:
-        late = taken[int(0.95 * len(taken))][0]
-        own = sorted(all_of_it - server for all_of_it, server in taken)
-        print(f"from a change to the drawn path: half within {taken[len(taken) // 2][0]:.0f} ms, nineteen of twenty within {late:.0f} ms")
-        print(f"without the server's part: half within {own[len(own) // 2]:.0f} ms, nineteen of twenty within {own[int(0.95 * len(own))]:.0f} ms")
-        assert "KINECUT_WEEKLY" not in os.environ or late <= DRAWN, late
+def files() -> None:
+    """The files of the pages are those of their list."""
     assets = Path(__file__).resolve().parents[1] / "dist"
     manifest = json.loads((assets / "manifest.json").read_text())
     for name, digest in manifest["files"].items():
         assert hashlib.sha256((assets / name).read_bytes()).hexdigest() == digest, name
-    print("the workbench in a browser: as it should be")
 
+
+def measured(stage: Stage) -> None:
+    taken = times(stage.page)
+    own = sorted(all_of_it - server for all_of_it, server in taken)
+    print(f"  from a change to the drawn path: {shares([one for one, _ in taken])}; without the server's part: {shares(own)}")
+    assert not WEEKLY or taken[int(0.95 * len(taken))][0] <= DRAWN, taken[int(0.95 * len(taken))]
+
+
+def begin(stage: Stage) -> Page:
+    page = stage.watched.opened(stage.served.address)
+    open_file(page, "01_bore/job.toml")
+    judged(page)
+    return page
+
+
+SCRIPT = Script(
+    "the workbench in a browser",
+    ("01_bore", "07_external_program", "17_vise_and_clamp"),
+    {
+        "edits": lambda s: edits(s.page, s.served),
+        "completes": lambda s: completes(s.page),
+        "mistakes": lambda s: mistakes(s.page),
+        "plays": lambda s: plays(s.page),
+        "keys": lambda s: keys(s.page),
+        "operations": lambda s: operations(s.page),
+        "saves": lambda s: saves(s.page, s.served),
+        "times": measured,
+        "findings": lambda s: findings(s.page),
+        "others": lambda s: others(s.page),
+        "closes": Stage.closes,
+        "looks": lambda s: looks(s.browser, s.served),
+        "pseudo": lambda s: pseudo(s.browser, s.served),
+        "starts": lambda s: starts(s.browser, s.program),
+    },
+    begin,
+    always=("closes",),
+    plain={"files": files},
+)
 
 if __name__ == "__main__":
-    main()
+    SCRIPT.main()

@@ -1,18 +1,12 @@
 """The window of a drilling in a browser, as a person uses it: python3 drill.py KINECUT [STEP ..]. It reads the printed example of Belyakov and
-Seleznev 2023 back from the page, which is reached by clicks and keys alone. Needs what browser.py needs. With KINECUT_DIST set, the page's
-assets are those of that folder in place of those in the program."""
+Seleznev 2023 back from the page, which is reached by clicks and keys alone. Needs and settings: common.py."""
 
-import json
-import os
-import re
-import shutil
-import subprocess
-import sys
 from pathlib import Path
 
-from browser import LONG, MARK, OUTCOME, SIZES, UNMARKED, Served, Watched, clean, open_file, shot
-from playwright.sync_api import Browser, Page, sync_playwright
+from common import LONG, MARK, OUTCOME, SIZES, UNMARKED, Script, Served, Stage, cells, clean, open_file, settled, shell, shot, visited
+from playwright.sync_api import Browser, Page
 
+DRILLING = "main.drilling"
 KINDS = ["square", "falling", "rising", "shaft", "shaftBeside", "bore", "boreBeside"]
 POINTS = [
     "twist", "double-ground", "cast-iron", "rounded-lips", "corner-radius", "thinned-web", "slotted-chisel", "annular", "flat", "cannon", "gun",
@@ -36,38 +30,10 @@ TYPED = {
 }  # fmt: skip
 
 
-def own_assets(page: Page) -> None:
-    """Assets of a folder in place of those in the program."""
-    folder = os.environ.get("KINECUT_DIST")
-    if not folder:
-        return
-    types = {"js": "text/javascript; charset=utf-8", "css": "text/css; charset=utf-8", "svg": "image/svg+xml"}
-
-    def fulfil(route) -> None:
-        name = re.sub(r"^\w+://[^/]*/", "", route.request.url).split("?")[0]
-        route.fulfill(path=str(Path(folder) / name), content_type=types[name.rsplit(".", 1)[1]])
-
-    page.route("**/assets/**", fulfil)
-
-
-def watched(browser: Browser, size: tuple[int, int], theme: str, address: str) -> tuple[Watched, Page]:
-    one = Watched(browser, size, theme)
-    own_assets(one.page)
-    return one, one.opened(address)
-
-
 def new_drilling(page: Page) -> None:
     page.locator('[data-open="files"]').click()
     page.get_by_role("menuitem", name="New drilling").click()
-    settled(page)
-
-
-def settled(page: Page) -> str:
-    """Waits until what is shown is of the text; tells whether it is planned or wrong."""
-    # A change is on the page after a frame.
-    page.evaluate("() => new Promise(done => requestAnimationFrame(() => requestAnimationFrame(done)))")
-    page.wait_for_function("() => ['done', 'wrong'].includes(document.querySelector('main.drilling')?.dataset.state)", timeout=LONG)
-    return page.locator("main.drilling").get_attribute("data-state")
+    settled(page, DRILLING)
 
 
 def field(page: Page, key: str):
@@ -78,17 +44,9 @@ def pair(page: Page, entry: str, leave: str):
     return page.locator(f'[data-pair="{entry} {leave}"]')
 
 
-def cells(page: Page, table: str, column: int) -> dict[str, str]:
-    """A column of a table by the names of its rows."""
-    rows = page.locator(f'[data-table="{table}"] tr[data-row]')
-    told = rows.evaluate_all("(all, k) => all.map(r => [r.dataset.row, r.cells[k].firstChild?.textContent ?? ''])", column)
-    return {key: value.strip() for key, value in told}
-
-
 def verb(program: str, text: str) -> dict:
     """The answer of the command line to the same text."""
-    run = subprocess.run([program, "drill", "-", "--json", "--paper", "--load"], input=text, capture_output=True, text=True)
-    return json.loads(run.stdout)
+    return shell(program, "drill", "-", "--paper", "--load", text=text)
 
 
 def type_the_paper(page: Page) -> dict:
@@ -104,7 +62,7 @@ def type_the_paper(page: Page) -> dict:
     page.on("response", hear)
     for key, value in TYPED.items():
         field(page, key).fill(value)
-    assert settled(page) == "done"
+    assert settled(page, DRILLING) == "done"
     page.remove_listener("response", hear)
     return asked[-1].json()
 
@@ -115,7 +73,7 @@ def paper(page: Page, served: Served, program: str) -> None:
     page.keyboard.press("Enter")
     page.locator('[data-new="drilling"]').focus()
     page.keyboard.press("Enter")
-    settled(page)
+    settled(page, DRILLING)
     answer = type_the_paper(page)
     assert page.locator("h1").inner_text() == "Hole ⌀20, into a square face, out of a shaft"
     # The curve is read at some places: what it says is between the library's numbers.
@@ -154,7 +112,7 @@ def paper(page: Page, served: Served, program: str) -> None:
     page.keyboard.press("Control+s")
     page.locator(".tab.on .dot").wait_for(state="detached")
     text = (served.folder / "drilling.toml").read_text()
-    assert settled(page) == "done" and page.title() == "drilling.toml"
+    assert settled(page, DRILLING) == "done" and page.title() == "drilling.toml"
     assert verb(program, text) == answer, "the page shows another plan than the verb's"
     assert cells(page, "paper", 3)["T_all"] == "35.360"
 
@@ -162,10 +120,17 @@ def paper(page: Page, served: Served, program: str) -> None:
 def pairs(page: Page, program: str) -> None:
     """All surfaces into all, and blind: each is planned and drawn, and is what the command line answers."""
     new_drilling(page)
+    answers: dict = {}
+    compared: set[str] = set()
+    page.on("response", hear := lambda r: r.url.endswith("/api/verb/drill") and answers.update({r.request.post_data_json["text"]: r}))
     for entry in KINDS:
         for leave in [*KINDS, "blind"]:
             pair(page, entry, leave).click()
-            assert settled(page) == "done", (entry, leave, page.locator(".across.wrong").all_inner_texts())
+            assert settled(page, DRILLING) == "done", (entry, leave, page.locator(".across.wrong").all_inner_texts())
+            # The first pair is what the window begins with.
+            for text in answers.keys() - compared:
+                assert answers[text].json() == verb(program, text), (entry, leave)
+                compared.add(text)
             assert pair(page, entry, leave).get_attribute("aria-checked") == "true", (entry, leave)
             assert page.locator('.matrix [role="radio"][aria-checked="true"]').count() == 1
             assert page.locator("svg.cut").count() == 1, (entry, leave)
@@ -173,6 +138,8 @@ def pairs(page: Page, program: str) -> None:
             cylinder = any(kind.startswith(("shaft", "bore")) for kind in (entry, leave))
             assert any("radius" in name for name in labels) == cylinder, (entry, leave, labels)
             assert ("Depth, full diameter" in " ".join(labels)) == (leave == "blind"), labels
+    page.remove_listener("response", hear)
+    assert len(compared) >= len(KINDS) * (len(KINDS) + 1) - 1, len(compared)
     shot(page, "drill-blind")
 
 
@@ -182,14 +149,14 @@ def points(page: Page, program: str) -> None:
     for kind in POINTS:
         with page.expect_response("**/api/verb/drill") as response:
             page.locator(f'button[data-point="{kind}"]').click() if kind != "twist" else field(page, "tool.diameter").fill("12")
-        assert settled(page) == "done", (kind, page.locator(".across.wrong").all_inner_texts())
+        assert settled(page, DRILLING) == "done", (kind, page.locator(".across.wrong").all_inner_texts())
         assert page.locator(f'button[data-point="{kind}"]').get_attribute("aria-checked") == "true"
         length = response.value.json()["holes"][0]["lengths"]["L_vr1"]
         drawn = float(page.locator("svg.cut").get_attribute("data-point"))
         assert abs(drawn - length) < 1e-3, (kind, drawn, length)
     # A number of the second stage of a list has a field of its own.
     field(page, "tool.point.stepped.stages[0].length").fill("11")
-    assert settled(page) == "done"
+    assert settled(page, DRILLING) == "done"
     shot(page, "drill-stepped")
 
 
@@ -199,7 +166,7 @@ def mistakes(page: Page) -> None:
     type_the_paper(page)
     before = cells(page, "zones", 5)
     field(page, "operation.exit.radius").fill("5")
-    assert settled(page) == "wrong"
+    assert settled(page, DRILLING) == "wrong"
     # The library counts the distance from the axis as wrong, which has no field before.
     told = page.locator(".strip .told")
     assert told.count() == 1 and told.inner_text() in page.locator(".across.wrong").inner_text()
@@ -212,25 +179,25 @@ def mistakes(page: Page) -> None:
     page.locator(".across.wrong button").click()
     assert page.evaluate("() => document.activeElement.id") == "f-operation.exit.offset"
     field(page, "operation.exit.radius").fill("100")
-    assert settled(page) == "done" and page.locator(".oldness, .across.wrong, .told").count() == 0
+    assert settled(page, DRILLING) == "done" and page.locator(".oldness, .across.wrong, .told").count() == 0
     # Also where the field is there already.
     field(page, "operation.length").focus()
     page.keyboard.press("Control+a")
     page.keyboard.type("-200")
-    assert settled(page) == "wrong" and page.locator('[data-key="operation.length"] .told').count() == 1
+    assert settled(page, DRILLING) == "wrong" and page.locator('[data-key="operation.length"] .told').count() == 1
     page.keyboard.press("Control+a")
     page.keyboard.type("50")
-    assert settled(page) == "done"
+    assert settled(page, DRILLING) == "done"
     field(page, "operation.exit.radius").fill("wide")
     page.keyboard.press("Enter")
     assert page.locator('[data-key="operation.exit.radius"] .told').count() == 1
     field(page, "operation.exit.radius").fill("25*4")
     page.keyboard.press("Enter")
-    assert settled(page) == "done" and cells(page, "zones", 5) == before
+    assert settled(page, DRILLING) == "done" and cells(page, "zones", 5) == before
     # The newest of many changes counts.
     for n in range(30):
         field(page, "tool.diameter").fill(f"{15 + n / 10}")
-    assert settled(page) == "done"
+    assert settled(page, DRILLING) == "done"
     assert page.locator("svg.cut .size text").first.text_content() == "⌀ 17.9"
     assert page.locator("h1").inner_text().startswith("Hole ⌀17.9")
 
@@ -243,24 +210,24 @@ def hands(page: Page) -> None:
     page.wait_for_function("() => document.activeElement.dataset.pair === 'falling square'")
     page.keyboard.press("ArrowRight")
     page.wait_for_function("() => document.activeElement.dataset.pair === 'falling falling'")
-    assert settled(page) == "done" and field(page, "operation.entry.inclination").input_value() == "-10"
+    assert settled(page, DRILLING) == "done" and field(page, "operation.entry.inclination").input_value() == "-10"
     page.locator('button[data-point="twist"]').focus()
     for name in ("double-ground", "corner-radius"):
         page.keyboard.press("ArrowRight" if name == "double-ground" else "ArrowDown")
         # One row down is four pictures on.
         wanted = "double-ground" if name == "double-ground" else "thinned-web"
         page.wait_for_function("wanted => document.activeElement.dataset.point === wanted", arg=wanted)
-    assert settled(page) == "done"
+    assert settled(page, DRILLING) == "done"
     for _ in range(12):
         page.keyboard.press("Control+z")
-    assert settled(page) == "done"
+    assert settled(page, DRILLING) == "done"
     assert pair(page, "square", "square").get_attribute("aria-checked") == "true"
     assert page.locator('button[data-point="twist"]').get_attribute("aria-checked") == "true"
     page.keyboard.press("Control+y")
-    assert settled(page) == "done"
+    assert settled(page, DRILLING) == "done"
     assert pair(page, "square", "square").get_attribute("aria-checked") == "false"
     page.keyboard.press("Control+z")
-    settled(page)
+    settled(page, DRILLING)
 
     # The drill is drawn where one drags it; the slider does the same by keys; both mark the zone.
     box = page.locator("svg.cut").bounding_box()
@@ -327,11 +294,11 @@ def leaves(page: Page, served: Served) -> None:
 def opens(page: Page) -> None:
     """Questions of the folder open in the window: with a mesh, and with comments that stay."""
     open_file(page, "03_drill_through_shaft/figure_7.toml")
-    assert settled(page) == "done" and cells(page, "paper", 3)["T_all"] == "35.360"
+    assert settled(page, DRILLING) == "done" and cells(page, "paper", 3)["T_all"] == "35.360"
     assert page.locator(".tab.on .dot").count() == 0
     open_file(page, "03_drill_through_shaft/housing.toml")
     page.wait_for_function("() => document.title.includes('housing')")
-    assert settled(page) == "done", page.locator(".across.wrong").all_inner_texts()
+    assert settled(page, DRILLING) == "done", page.locator(".across.wrong").all_inner_texts()
     assert "mesh" in page.locator(".matrix .chosen").inner_text()
     shot(page, "drill-mesh")
 
@@ -347,7 +314,7 @@ def several(page: Page, served: Served) -> None:
     page.get_by_role("menuitem", name="several.toml").wait_for(timeout=LONG)
     page.get_by_role("menuitem", name="several.toml").click()
     page.wait_for_function("() => document.title.includes('several')")
-    assert settled(page) == "done"
+    assert settled(page, DRILLING) == "done"
     # The bore on the way has a zone of its own, in which the drill goes in and out at once.
     assert "mixed" in cells(page, "zones", 5) and page.locator(".drawing .small-print").count() == 1
     which = page.locator(".drilling .head select")
@@ -364,9 +331,9 @@ def looks(browser: Browser, served: Served) -> None:
     """Both themes at three widths: nothing that axe objects to, nothing that scrolls sideways."""
     for theme in ("light", "dark"):
         for width, height in SIZES:
-            one, page = watched(browser, (width, height), theme, served.address)
+            one, page = visited(browser, (width, height), theme, served.address)
             open_file(page, "03_drill_through_shaft/figure_7.toml")
-            settled(page)
+            settled(page, DRILLING)
             page.locator("[data-drawings]").wait_for(timeout=LONG)
             shot(page, f"drill-{theme}-{width}")
             clean(page, f"{theme} {width}")
@@ -382,26 +349,26 @@ def looks(browser: Browser, served: Served) -> None:
 
 def pseudo(browser: Browser, served: Served) -> None:
     """No text but names, numbers, units, program text and sentences of the library is outside the catalogue."""
-    one, page = watched(browser, (1400, 900), "light", served.at("lang=pseudo"))
+    one, page = visited(browser, (1400, 900), "light", served.at("lang=pseudo"))
     page.locator('[data-open="new"]').click()
     page.locator('[data-new="drilling"]').click()
-    settled(page)
+    settled(page, DRILLING)
     found = page.evaluate(UNMARKED, MARK)
     page.locator("details.rest").evaluate("e => (e.open = true)")
     page.locator("details.more").evaluate_all("all => all.forEach(d => (d.open = true))")
     for entry, leave in (("falling", "shaftBeside"), ("boreBeside", "blind"), ("shaft", "bore")):
         pair(page, entry, leave).click()
-        settled(page)
+        settled(page, DRILLING)
         found += page.evaluate(UNMARKED, MARK)
     for kind in POINTS:
         page.locator(f'button[data-point="{kind}"]').click()
-        settled(page)
+        settled(page, DRILLING)
         found += page.evaluate(UNMARKED, MARK)
     page.locator(".travel input").focus()
     page.keyboard.press("End")
     found += page.evaluate(UNMARKED, MARK)
     field(page, "tool.diameter").fill("0")
-    assert settled(page) == "wrong"
+    assert settled(page, DRILLING) == "wrong"
     found += page.evaluate(UNMARKED, MARK)
     shot(page, "drill-pseudo")
     assert not found, sorted(set(found))
@@ -409,36 +376,25 @@ def pseudo(browser: Browser, served: Served) -> None:
     one.close(served.address)
 
 
-def main() -> None:
-    program = sys.argv[1]
-    only = sys.argv[2:]
-    with sync_playwright() as playwright:
-        browser = playwright.chromium.launch(executable_path=shutil.which("chromium"), args=["--no-sandbox"])
-        served = Served(program, "03_drill_through_shaft")
-        try:
-            one, page = watched(browser, SIZES[0], "light", served.address)
-            steps = {
-                "paper": lambda: paper(page, served, program),
-                "pairs": lambda: pairs(page, program),
-                "points": lambda: points(page, program),
-                "mistakes": lambda: mistakes(page),
-                "hands": lambda: hands(page),
-                "leaves": lambda: leaves(page, served),
-                "opens": lambda: opens(page),
-                "several": lambda: several(page, served),
-                "closes": lambda: one.close(served.address),
-                "looks": lambda: looks(browser, served),
-                "pseudo": lambda: pseudo(browser, served),
-            }
-            for name, step in steps.items():
-                if not only or name in only or name == "closes":
-                    step()
-                    print(f"{name}: as it should be", flush=True)
-        finally:
-            served.gone()
-        browser.close()
-    print("the window of a drilling: as it should be")
-
+SCRIPT = Script(
+    "the window of a drilling",
+    ("03_drill_through_shaft",),
+    {
+        "paper": lambda s: paper(s.page, s.served, s.program),
+        "pairs": lambda s: pairs(s.page, s.program),
+        "points": lambda s: points(s.page, s.program),
+        "mistakes": lambda s: mistakes(s.page),
+        "hands": lambda s: hands(s.page),
+        "leaves": lambda s: leaves(s.page, s.served),
+        "opens": lambda s: opens(s.page),
+        "several": lambda s: several(s.page, s.served),
+        "closes": Stage.closes,
+        "looks": lambda s: looks(s.browser, s.served),
+        "pseudo": lambda s: pseudo(s.browser, s.served),
+    },
+    lambda s: s.watched.opened(s.served.address),
+    always=("closes",),
+)
 
 if __name__ == "__main__":
-    main()
+    SCRIPT.main()

@@ -1,23 +1,15 @@
 """The window of face milling in a browser, as a person uses it: python3 face.py KINECUT [STEP ...]. Its numbers are held against those that the
-program itself prints with `kinecut face --json`. With KINECUT_SHOTS set, pictures go into that folder; with KINECUT_WEEKLY set, the bounds of time
-count, on a machine that does nothing else; with KINECUT_DIST set, the page's files come from that folder, not from the program."""
+program itself prints with `kinecut face --json`. Needs and settings: common.py."""
 
-import json
-import os
 import re
-import shutil
-import subprocess
-import sys
-from pathlib import Path
 
-from browser import EXAMPLES, LONG, MARK, SIZES, UNMARKED, Served, Watched, clean, shot
-from playwright.sync_api import Browser, Page, Route, sync_playwright
+from common import EXAMPLES, LONG, MARK, SIZES, UNMARKED, WEEKLY, Script, Served, Stage, Watched, clean, shares, shell, shot
+from playwright.sync_api import Browser, Page
 
 COVER = "04_gear_pump_cover/face.toml"
 # Moves of the part whose times are measured, and the bound for nineteen of twenty answers under the pointer [ms].
 MOVES = 60
 ANSWERED = 50
-TYPES = {".js": "text/javascript", ".css": "text/css", ".svg": "image/svg+xml"}
 
 
 class Verb:
@@ -33,26 +25,10 @@ class Verb:
         return self.of(text, *flags)
 
     def of(self, text: str, *flags: str) -> dict:
-        folder = EXAMPLES / "04_gear_pump_cover"
-        run = subprocess.run([self.program, "face", "-", "--json", *flags], input=text, capture_output=True, text=True, cwd=folder)
-        return json.loads(run.stdout)
-
-
-def own_dist(page: Page) -> None:
-    """Serves the page's files from a folder."""
-    folder = os.environ.get("KINECUT_DIST")
-    if not folder:
-        return
-
-    def give(route: Route) -> None:
-        path = Path(folder) / re.sub(r"^\w+://[^/]*/", "", route.request.url)
-        route.fulfill(body=path.read_bytes(), content_type=TYPES[path.suffix])
-
-    page.route("**/assets/**", give)
+        return shell(self.program, "face", "-", *flags, text=text, folder=EXAMPLES / "04_gear_pump_cover")
 
 
 def opened(watched: Watched, served: Served, query: str = "") -> Page:
-    own_dist(watched.page)
     page = watched.opened(served.at(query) if query else served.address)
     page.locator('[data-open="facing"]').click()
     return page
@@ -118,7 +94,7 @@ def reads(page: Page, verb: Verb) -> None:
     assert page.title() == f"Facing {COVER}"
 
 
-def drags(page: Page, verb: Verb) -> None:
+def drags(page: Page) -> None:
     """The ring turns the part, anything else shifts it; the exits follow, and their numbers are the verb's."""
     held = page.locator(".held")
     held.scroll_into_view_if_needed()
@@ -145,8 +121,6 @@ def drags(page: Page, verb: Verb) -> None:
     assert 0.5 < offset < 4, offset
     put(page, turn="337", offset="2.4")
     # The same at the shell: the middle of the width is that of the least offset and the greatest.
-    asked = page.evaluate("() => performance.getEntriesByType('resource').length")
-    assert asked > 0
     assert fact(page, "hand").startswith("136.8 mm bad") and "of 289.0 mm of tooth exits" in fact(page, "hand"), fact(page, "hand")
     assert fact(page, "pass").startswith("19.4 s") and "796 rev/min, 669 mm/min" in fact(page, "pass"), fact(page, "pass")
     red = page.locator(".exits .ex-bad")
@@ -395,7 +369,7 @@ def weights(page: Page, verb: Verb, served: Served) -> None:
     path.write_text(original)
 
 
-def drops(page: Page, served: Served, verb: Verb) -> None:
+def drops(page: Page, served: Served) -> None:
     """A drawing is dropped on the window: it is asked about at once, and saved with its question when one wants."""
     text = (EXAMPLES / "04_gear_pump_cover/cover.dxf").read_text()
     transfer = page.evaluate_handle("text => { const d = new DataTransfer(); d.items.add(new File([text], 'dropped.dxf')); return d; }", text)
@@ -408,12 +382,10 @@ def drops(page: Page, served: Served, verb: Verb) -> None:
     page.locator(".tab.on .dot").wait_for(state="detached")
     assert 'outline = "dropped.dxf"' in (served.folder / "dropped-face.toml").read_text()
     # A cutter that is too small for one pass: no placement, and that is said; nothing is green.
-    before = drawn(page)
     number(page, "diameter").fill("60")
     page.wait_for_function("() => document.querySelector('[data-fact=hand] b')?.textContent === 'Not possible here'", timeout=LONG)
     page.wait_for_function("() => document.querySelector('[data-fact=least] b')?.textContent === 'none in one pass'", timeout=LONG)
     assert page.locator(".exits").count() == 0 and page.locator(".ex-unknown").count() == 1 and page.locator(".cert .tag.safe").count() == 0
-    assert before >= 0
     shot(page, "face-too-wide")
     clean(page, "too wide")
     number(page, "diameter").fill("100")
@@ -436,7 +408,7 @@ def looks(browser: Browser, served: Served) -> None:
             watched.close(served.address)
 
 
-def changes(page: Page, served: Served, verb: Verb) -> None:
+def changes(page: Page, served: Served) -> None:
     """Another program changes the drawing: what is shown is of the new one."""
     cover_file = served.folder / "dropped.dxf"
     text = cover_file.read_text()
@@ -472,53 +444,37 @@ def pseudo(browser: Browser, served: Served) -> None:
     watched.close(served.address)
 
 
-def main() -> None:
-    program = sys.argv[1]
-    only = sys.argv[2:]
-    verb = Verb(str(Path(program).resolve()))
-    taken: tuple[list[float], list[float]] = ([], [])
-    with sync_playwright() as playwright:
-        browser = playwright.chromium.launch(executable_path=shutil.which("chromium"), args=["--no-sandbox"])
-        served = Served(program, "04_gear_pump_cover")
-        try:
-            watched = Watched(browser, SIZES[0], "light")
-            page = opened(watched, served)
+def measured(stage: Stage) -> None:
+    taken = times(stage.page)
+    for what, all_of_it in zip(("from a move to its exits on the screen", "question and answer"), taken):
+        print(f"  {what}: {shares(all_of_it)}")
+    assert not WEEKLY or taken[1][int(0.95 * MOVES)] <= ANSWERED, taken[1]
 
-            def measured() -> None:
-                nonlocal taken
-                taken = times(page)
 
-            steps = {
-                "reads": lambda: reads(page, verb),
-                "drags": lambda: drags(page, verb),
-                "arrows": lambda: arrows(page),
-                "times": measured,
-                "late": lambda: late(page),
-                "graph": lambda: graph(page, verb),
-                "finds": lambda: finds(page, verb),
-                "mistakes": lambda: mistakes(page, verb),
-                "ways": lambda: ways(page, verb),
-                "paper": lambda: paper(page, verb),
-                "weights": lambda: weights(page, verb, served),
-                "drops": lambda: drops(page, served, verb),
-                "changes": lambda: changes(page, served, verb),
-                "closes": lambda: watched.close(served.address),
-                "looks": lambda: looks(browser, served),
-                "pseudo": lambda: pseudo(browser, served),
-            }
-            for name, step in steps.items():
-                if not only or name in only or name in ("reads", "closes"):
-                    step()
-                    print(f"{name}: as it should be", flush=True)
-        finally:
-            served.gone()
-        browser.close()
-    if taken[0]:
-        for what, all_of_it in zip(("from a move to its exits on the screen", "question and answer"), taken):
-            print(f"{what}: half within {all_of_it[len(all_of_it) // 2]:.0f} ms, nineteen of twenty within {all_of_it[int(0.95 * len(all_of_it))]:.0f} ms")
-        assert "KINECUT_WEEKLY" not in os.environ or taken[1][int(0.95 * MOVES)] <= ANSWERED, taken[1]
-    print("the window of face milling: as it should be")
-
+SCRIPT = Script(
+    "the window of face milling",
+    ("04_gear_pump_cover",),
+    {
+        "reads": lambda s: reads(s.page, Verb(s.program)),
+        "drags": lambda s: drags(s.page),
+        "arrows": lambda s: arrows(s.page),
+        "times": measured,
+        "late": lambda s: late(s.page),
+        "graph": lambda s: graph(s.page, Verb(s.program)),
+        "finds": lambda s: finds(s.page, Verb(s.program)),
+        "mistakes": lambda s: mistakes(s.page, Verb(s.program)),
+        "ways": lambda s: ways(s.page, Verb(s.program)),
+        "paper": lambda s: paper(s.page, Verb(s.program)),
+        "weights": lambda s: weights(s.page, Verb(s.program), s.served),
+        "drops": lambda s: drops(s.page, s.served),
+        "changes": lambda s: changes(s.page, s.served),
+        "closes": Stage.closes,
+        "looks": lambda s: looks(s.browser, s.served),
+        "pseudo": lambda s: pseudo(s.browser, s.served),
+    },
+    lambda s: opened(s.watched, s.served),
+    always=("reads", "closes"),
+)
 
 if __name__ == "__main__":
-    main()
+    SCRIPT.main()

@@ -1,20 +1,18 @@
 """The windows of a grazing curve and of an envelope in a browser, as a person uses them: python3 grazing.py KINECUT [STEP ..]. Numbers are
 read back from the page and compared with what the command line prints for the same text; the forms of the curve on a torus are reached by
-dragging. Needs what browser.py needs. With KINECUT_DIST set, the page's assets are those of that folder in place of those in the program."""
+dragging. Needs and settings: common.py."""
 
 import json
 import math
-import os
-import shutil
-import subprocess
-import sys
 from statistics import median
 
-from browser import DRAWN, LONG, MARK, SIZES, UNMARKED, Served, clean, open_file, shot
-from drill import watched
-from playwright.sync_api import Browser, Page, sync_playwright
+from common import LONG, MARK, SIZES, UNMARKED, WEEKLY, Script, Served, Stage, clean, open_file, painted, settled, shell, shot, visited
+from playwright.sync_api import Browser, Page
 
 FOLDER = "06_five_axis_sweep"
+MOVING = "main.moving"
+# The bound for nineteen of twenty answers to a key [ms].
+DRAWN = 100
 SECTION = """title = "Corner of 5 about a fixed centre"
 tool.shape.apt = { corner_radius = 5, centre_radius = 6, centre_height = 8, lower_angle = 10, upper_angle = 0, height = 40 }
 twist = { velocity = [300, 40, -260], turn = [120, 900, 0] }
@@ -23,8 +21,7 @@ twist = { velocity = [300, 40, -260], turn = [120, 900, 0] }
 
 def asked(program: str, verb: str, text: str, beside: str, *more: str):
     """The answer of the command line to the same text."""
-    run = subprocess.run([program, verb, "-", "--json", *more], input=text, capture_output=True, text=True, cwd=beside)
-    return json.loads(run.stdout)
+    return shell(program, verb, "-", *more, text=text, folder=beside)
 
 
 class Heard:
@@ -50,16 +47,20 @@ class Heard:
         self.page.remove_listener("response", self.hear)
 
 
-def settled(page: Page) -> str:
-    page.evaluate("() => new Promise(done => requestAnimationFrame(() => requestAnimationFrame(done)))")
-    is_settled = "() => ['done', 'wrong'].find(state => state === document.querySelector('main.moving')?.dataset.state)"
-    return page.wait_for_function(is_settled, timeout=LONG).json_value()
-
-
 def opened(page: Page, name: str) -> None:
     open_file(page, f"{FOLDER}/{name}")
     page.locator(f'.tab.on button[title="{FOLDER}/{name}"]').wait_for()
-    assert settled(page) == "done", name
+    assert settled(page, MOVING) == "done", name
+
+
+def drawn(page: Page) -> None:
+    """Waits for what comes after the answer: the cases of the paper where they are looked at, the volumes of a move."""
+    painted(page)
+    page.wait_for_function(
+        """() => !document.querySelector('details.paper[open]:not(:has(q))')
+          && (!document.querySelector('[data-fact="whole"]') || /cm³/.test(document.querySelector('[data-fact="whole"] dd').textContent))""",
+        timeout=LONG,
+    )
 
 
 def number(text: str) -> float:
@@ -96,7 +97,7 @@ def agrees(page: Page, sheet: dict) -> None:
     for name, known in (("velocity", sheet["twist"]["velocity"]), ("turn", sheet["twist"]["turn"]), ("top", sheet["ends"][1]["velocity"])):
         told = vector(page, name)
         assert all(abs(a - b) <= 6e-6 * max(1, abs(b)) for a, b in zip(told, known)), (name, told, known)
-    # Folds stand in the plane at their angles.
+    # Folds are in the plane at their angles.
     frame = page.locator(".plane .frame").get_attribute("d")
     left, right = (float(part) for part in (frame[1:].split(" ")[0], frame.split("H")[1].split("V")[0]))
     places = sorted(page.locator(".plane svg .fold").evaluate_all("all => all.map(c => Number(c.getAttribute('cx')))"))
@@ -131,10 +132,7 @@ def drag(page: Page, which: str, right: float, down: float, steps: int = 24) -> 
         page.mouse.move(x + right * i / steps, y + down * i / steps)
         page.wait_for_timeout(16)
     page.mouse.up()
-    page.wait_for_timeout(60)
-    assert settled(page) == "done"
-    page.wait_for_timeout(40)
-    assert settled(page) == "done"
+    assert settled(page, MOVING) == "done"
 
 
 def hands(page: Page, served: Served, program: str) -> None:
@@ -173,17 +171,15 @@ def hands(page: Page, served: Served, program: str) -> None:
     assert moved[0] > known[0] and moved[1] > known[1], (known, moved)
     agrees(page, asked(program, "grazing", heard.text(), beside))
     print(f"  from the key to the curve: {median(times):.0f} ms in the middle, {max(times):.0f} ms at most", flush=True)
-    if os.environ.get("KINECUT_WEEKLY"):
+    if WEEKLY:
         assert sorted(times)[int(0.95 * len(times))] < DRAWN, times
     # Typed numbers; the spin of the spindle changes nothing.
     lengths = rows(page, "loops")
     page.locator("#g-turn-Z").fill("5000")
-    assert settled(page) == "done"
-    page.wait_for_timeout(40)
+    assert settled(page, MOVING) == "done"
     assert vector(page, "turn")[2] == 5000 and rows(page, "loops") == lengths
     page.locator("#g-velocity-X").fill("777")
-    assert settled(page) == "done"
-    page.wait_for_timeout(40)
+    assert settled(page, MOVING) == "done"
     assert vector(page, "velocity")[0] == 777
     agrees(page, asked(program, "grazing", heard.text(), beside))
     heard.end()
@@ -193,7 +189,7 @@ def hands(page: Page, served: Served, program: str) -> None:
         if page.locator(".tab.on .dot").count() == 0:
             break
         page.keyboard.press("Control+z")
-        settled(page)
+        settled(page, MOVING)
     assert page.locator(".tab.on .dot").count() == 0, "undo does not lead back"
 
 
@@ -218,8 +214,7 @@ def outcomes(page: Page, served: Served, program: str) -> None:
         ("Torus inward: two U", 0, 1),
     ):
         page.locator(f'[data-case="{case}"]').click()
-        page.wait_for_timeout(40)
-        assert settled(page) == "done"
+        assert settled(page, MOVING) == "done"
         page.locator('[data-view="top"]').click()
         was = outcome(page)
         assert was == case.split(": ")[1], (case, was)
@@ -248,14 +243,12 @@ def outcomes(page: Page, served: Served, program: str) -> None:
         if page.locator(".tab.on .dot").count() == 0:
             break
         page.keyboard.press("Control+z")
-        settled(page)
+        settled(page, MOVING)
 
 
 def radius(page: Page, served: Served) -> None:
     """The radius of a torus is not in the equation of its folds; its centre is."""
     (served.folder / FOLDER / "section.toml").write_text(SECTION)
-    page.wait_for_function("() => true")
-    page.wait_for_timeout(1500)
     opened(page, "section.toml")
 
     def folds() -> list[str]:
@@ -265,20 +258,18 @@ def radius(page: Page, served: Served) -> None:
     assert known, rows(page, "spans")
     field = page.locator('[data-key="tool.shape.apt.corner_radius"] input')
     field.fill("4")
-    assert settled(page) == "done"
-    page.wait_for_timeout(40)
+    assert settled(page, MOVING) == "done"
     assert folds() == known, (known, folds())
     page.locator('[data-key="tool.shape.apt.centre_radius"] input').fill("7")
-    assert settled(page) == "done"
-    page.wait_for_timeout(40)
+    assert settled(page, MOVING) == "done"
     assert folds() != known
     # A wrong number: its sentence at its field; what is older is said to be, and stays.
     field.fill("-1")
-    assert settled(page) == "wrong"
+    assert settled(page, MOVING) == "wrong"
     assert page.locator(".across.wrong").is_visible() and page.locator(".oldness").is_visible()
     assert rows(page, "spans"), "what was known has gone"
     field.fill("5")
-    assert settled(page) == "done" and page.locator(".across.wrong").count() == 0
+    assert settled(page, MOVING) == "done" and page.locator(".across.wrong").count() == 0
 
 
 def places(page: Page) -> None:
@@ -287,24 +278,24 @@ def places(page: Page) -> None:
     plane = page.locator(".plane svg")
     box = plane.bounding_box()
     page.mouse.move(box["x"] + box["width"] * 0.62, box["y"] + 240)
-    page.wait_for_timeout(60)
+    painted(page)
     assert page.locator(".plane .spot").count() == 1 and page.locator(".marks .spot").count() == 1
     assert page.locator(".readout").get_attribute("data-readout") in ("enters", "leaves")
     # On a fold of the curve.
     page.locator(".plane svg .fold").first.hover(force=True)
-    page.wait_for_timeout(60)
+    painted(page)
     assert page.locator(".readout").get_attribute("data-readout") == "curve"
     plane.focus()
     told = page.locator(".readout").inner_text()
     for _ in range(3):
         page.keyboard.press("ArrowRight")
-    page.wait_for_timeout(60)
+    painted(page)
     assert page.locator(".readout").inner_text() != told
     page.keyboard.press("Escape")
     # On the tool itself.
     page.locator('[data-view="front"]').click()
     page.locator(".stage canvas").hover()
-    page.wait_for_timeout(120)
+    painted(page)
     assert page.locator(".readout").get_attribute("data-readout") != "", "nothing under the pointer in the middle of the tool"
 
 
@@ -316,7 +307,7 @@ def lists(page: Page, served: Served, program: str) -> None:
     all_of = asked(program, "grazing", text, beside)
     for i, sheet in enumerate(all_of):
         page.locator(".head select").select_option(str(i))
-        page.wait_for_timeout(60)
+        painted(page)
         agrees(page, sheet)
     heard = Heard(page, "grazing")
     page.locator('[data-view="top"]').click()
@@ -329,7 +320,7 @@ def lists(page: Page, served: Served, program: str) -> None:
     # The tool of a file is put into the text, and then has fields.
     page.locator("[data-put]").click()
     page.locator('[data-key="grazing[3].tool.shape.barrel.diameter"] input').fill("18")
-    assert settled(page) == "done"
+    assert settled(page, MOVING) == "done"
     opened(page, "moment.toml")
     assert page.locator("[data-grip]").count() == 0 and page.locator(".motion fieldset[disabled]").count() == 4
 
@@ -381,24 +372,25 @@ def sweeps(page: Page, served: Served, program: str) -> None:
     page.wait_for_function("() => document.querySelector('[data-play]').dataset.play === 'off'")
     # A number of the move, and a wrong one.
     page.locator('[data-key="move.to"] input').first.fill("40")
-    assert settled(page) == "done"
-    page.wait_for_timeout(60)
+    assert settled(page, MOVING) == "done"
     assert abs(number(page.locator('[data-fact="way"] dd').first.evaluate("d => d.firstChild.textContent")) - math.hypot(40, 10, 8)) < 6e-4
     page.locator('[data-key="tool.shape.bull-nose.diameter"] input').fill("0")
-    assert settled(page) == "wrong" and page.locator(".across.wrong").is_visible()
+    assert settled(page, MOVING) == "wrong" and page.locator(".across.wrong").is_visible()
     page.locator('[data-key="tool.shape.bull-nose.diameter"] input').fill("20")
-    assert settled(page) == "done"
+    assert settled(page, MOVING) == "done"
 
 
-def moves(page: Page, served: Served) -> None:
+def moves(page: Page) -> None:
     """Each class of moves has its growth."""
     opened(page, "envelopes.toml")
+    moved(page, 20)
     for i in range(page.locator(".head select option").count()):
-        page.locator(".head select").select_option(str(i))
-        page.locator(".time input").fill("20")
-        page.wait_for_timeout(400)
+        if i > 0:
+            with page.expect_response("**/api/verb/grazing", timeout=LONG):
+                page.locator(".head select").select_option(str(i))
+        painted(page)
         assert page.locator(".across").count() == 0, (i, page.locator(".across").all_inner_texts())
-        assert page.locator('[data-table="spans"] tbody tr').count() > 2, i
+        page.locator('[data-table="spans"] tbody tr').nth(2).wait_for(timeout=LONG)
         assert int(page.locator(".tool canvas").get_attribute("data-triangles")) > 0, i
 
 
@@ -407,22 +399,24 @@ def begun(page: Page) -> None:
     for name, wanted in (("grazing", "Bull-nose end mill in motion"), ("envelope", "Bull-nose end mill, leaning over along a line")):
         page.locator('[data-open="new"]').click()
         page.locator(f'[data-new="{name}"]').click()
-        assert settled(page) == "done"
+        assert settled(page, MOVING) == "done"
         assert page.locator("h1").inner_text() == wanted
         page.keyboard.press("Control+s")
         page.wait_for_function("() => document.querySelector('.tab.on .dot') === null", timeout=LONG)
-        assert settled(page) == "done"
+        assert settled(page, MOVING) == "done"
 
 
 def looks(browser: Browser, served: Served) -> None:
     """Both themes, three widths: no violation, no sideways scroll."""
     for theme in ("light", "dark"):
         for size in SIZES:
-            one, page = watched(browser, size, theme, served.address)
+            one, page = visited(browser, size, theme, served.address)
             page.locator('[data-open="files"]').wait_for()
             for name in ("tool.toml", "envelope.toml"):
                 opened(page, name)
-                page.wait_for_timeout(900)
+                if name == "envelope.toml":
+                    page.wait_for_function("() => document.documentElement.dataset.growth !== undefined && document.documentElement.dataset.moment !== undefined", timeout=LONG)
+                painted(page)
                 wide = page.evaluate("() => document.documentElement.scrollWidth - innerWidth")
                 assert wide <= 0, (name, size, wide)
                 clean(page, f"{name} {theme} {size[0]}")
@@ -432,51 +426,40 @@ def looks(browser: Browser, served: Served) -> None:
 
 def pseudo(browser: Browser, served: Served) -> None:
     """No text outside the catalogue."""
-    one, page = watched(browser, SIZES[0], "light", served.at("lang=pseudo"))
+    one, page = visited(browser, SIZES[0], "light", served.at("lang=pseudo"))
     found = []
     for name in ("tool.toml", "motions.toml", "moment.toml", "envelope.toml"):
         page.locator('[data-open="files"]').click()
         page.get_by_role("menuitem", name=f"{FOLDER}/{name}", exact=True).click()
         page.locator(f'.tab.on button[title="{FOLDER}/{name}"]').wait_for()
-        settled(page)
+        settled(page, MOVING)
         page.locator("details").evaluate_all("all => all.forEach(d => (d.open = true))")
-        page.wait_for_timeout(2500)
+        drawn(page)
         found += page.evaluate(UNMARKED, MARK)
     assert not found, sorted(set(found))
     one.close(served.address)
 
 
-def main() -> None:
-    program = sys.argv[1]
-    only = sys.argv[2:]
-    with sync_playwright() as playwright:
-        browser = playwright.chromium.launch(executable_path=shutil.which("chromium"), args=["--no-sandbox"])
-        served = Served(program, FOLDER)
-        try:
-            one, page = watched(browser, SIZES[0], "light", served.address)
-            steps = {
-                "numbers": lambda: numbers(page, served, program),
-                "hands": lambda: (opened(page, "tool.toml"), hands(page, served, program)),
-                "outcomes": lambda: outcomes(page, served, program),
-                "radius": lambda: radius(page, served),
-                "places": lambda: places(page),
-                "lists": lambda: lists(page, served, program),
-                "sweeps": lambda: sweeps(page, served, program),
-                "moves": lambda: moves(page, served),
-                "begun": lambda: begun(page),
-                "closes": lambda: one.close(served.address),
-                "looks": lambda: looks(browser, served),
-                "pseudo": lambda: pseudo(browser, served),
-            }
-            for name, step in steps.items():
-                if not only or name in only or name == "closes":
-                    step()
-                    print(f"{name}: as it should be", flush=True)
-        finally:
-            served.gone()
-        browser.close()
-    print("the windows of a moving tool: as it should be")
-
+SCRIPT = Script(
+    "the windows of a moving tool",
+    (FOLDER,),
+    {
+        "numbers": lambda s: numbers(s.page, s.served, s.program),
+        "hands": lambda s: (opened(s.page, "tool.toml"), hands(s.page, s.served, s.program)),
+        "outcomes": lambda s: outcomes(s.page, s.served, s.program),
+        "radius": lambda s: radius(s.page, s.served),
+        "places": lambda s: places(s.page),
+        "lists": lambda s: lists(s.page, s.served, s.program),
+        "sweeps": lambda s: sweeps(s.page, s.served, s.program),
+        "moves": lambda s: moves(s.page),
+        "begun": lambda s: begun(s.page),
+        "closes": Stage.closes,
+        "looks": lambda s: looks(s.browser, s.served),
+        "pseudo": lambda s: pseudo(s.browser, s.served),
+    },
+    lambda s: s.watched.opened(s.served.address),
+    always=("closes",),
+)
 
 if __name__ == "__main__":
-    main()
+    SCRIPT.main()

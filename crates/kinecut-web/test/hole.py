@@ -1,18 +1,14 @@
 """The window of a milled hole in a browser, as a person uses it: python3 hole.py KINECUT [STEP ..]. It reads the worked example of Sorokin, But and
-Kombarov 2013 back from the page. Needs what browser.py needs. With KINECUT_DIST set, the page's assets are those of that folder in place of
-those in the program."""
+Kombarov 2013 back from the page. Needs and settings: common.py."""
 
-import json
 import math
 import re
-import shutil
-import subprocess
-import sys
 
-from browser import LONG, MARK, OUTCOME, SIZES, UNMARKED, Served, clean, open_file, shot
-from drill import field, watched
-from playwright.sync_api import Browser, Page, sync_playwright
+from common import LONG, MARK, MINUS, OUTCOME, SIZES, UNMARKED, Script, Served, Stage, cells, clean, kept_back, open_file, settled, shell, shot, visited
+from drill import field
+from playwright.sync_api import Browser, Page
 
+HOLE = "main.hole"
 # What the paper prints of its finishing, and what of its roughing.
 FINISHING = {
     "roll": "9.04481", "psi": "0.946567", "touchX": "64.913", "touchY": "−46.758", "length": "242.250", "startRadius": "57.581",
@@ -28,7 +24,6 @@ OTHERWISE = {
     "operation.finish.turns": "3",
 }  # fmt: skip
 STRATEGIES = ["involute", "lens-1", "lens-2", "archimedean", "arcs-2", "arcs-4", "rings", "rings-tangent", "trochoidal"]
-MINUS = "\u2212"
 # Notes when the pointer moves and when another length is on the page.
 WATCH = """() => {
   window.dragged = { moves: [], drawn: [] };
@@ -41,20 +36,13 @@ def new_hole(page: Page) -> None:
     page.locator('[data-open="files"]').click()
     page.get_by_role("menuitem", name="New hole").click()
     page.locator("main.hole").wait_for(timeout=LONG)
-    settled(page)
-
-
-def settled(page: Page) -> str:
-    """Waits until what is shown is of the text; tells whether it is planned or wrong."""
-    page.evaluate("() => new Promise(done => requestAnimationFrame(() => requestAnimationFrame(done)))")
-    page.wait_for_function("() => ['done', 'wrong'].includes(document.querySelector('main.hole')?.dataset.state)", timeout=LONG)
-    return page.locator("main.hole").get_attribute("data-state")
+    settled(page, HOLE)
 
 
 def choose(page: Page, name: str) -> None:
     page.locator(f'[data-choose="{name}"]').click()
     page.locator(f'main.hole[data-pass="{name}"]').wait_for(timeout=LONG)
-    settled(page)
+    settled(page, HOLE)
 
 
 def start(page: Page, x: str, y: str) -> None:
@@ -67,13 +55,6 @@ def start_of(page: Page) -> tuple[float, float]:
     return float(inputs.nth(0).input_value()), float(inputs.nth(1).input_value())
 
 
-def cells(page: Page, table: str, column: int) -> dict[str, str]:
-    """A column of a table by the names of its rows; nothing in rows that have a sentence in its place."""
-    rows = page.locator(f'[data-table="{table}"] tr[data-row]')
-    told = rows.evaluate_all("(all, k) => all.map(r => [r.dataset.row, r.cells[k]?.firstChild?.textContent ?? ''])", column)
-    return {key: value.strip() for key, value in told}
-
-
 def numbers(page: Page) -> dict[str, str]:
     return cells(page, "paper", 2)
 
@@ -84,8 +65,7 @@ def number(text: str) -> float:
 
 def verb(program: str, text: str, samples: str) -> dict:
     """The answer of the command line to the same text."""
-    run = subprocess.run([program, "hole", "-", "--json", "--samples", samples], input=text, capture_output=True, text=True)
-    return json.loads(run.stdout)
+    return shell(program, "hole", "-", "--samples", samples, text=text)
 
 
 def saved(page: Page, served: Served) -> str:
@@ -93,7 +73,7 @@ def saved(page: Page, served: Served) -> str:
     if page.locator(".tab.on .dot").count():
         page.keyboard.press("Control+s")
         page.locator(".tab.on .dot").wait_for(state="detached")
-        settled(page)
+        settled(page, HOLE)
     return (served.folder / page.title().split()[-1]).read_text()
 
 
@@ -116,17 +96,17 @@ def paper(page: Page, served: Served, program: str) -> None:
     page.locator('[data-new="hole"]').focus()
     page.keyboard.press("Enter")
     page.locator("main.hole").wait_for(timeout=LONG)
-    settled(page)
+    settled(page, HOLE)
     for key, value in OTHERWISE.items():
         field(page, key).fill(value)
     start(page, "-20", "12")
-    assert settled(page) == "done", page.locator(".across.wrong").all_inner_texts()
+    assert settled(page, HOLE) == "done", page.locator(".across.wrong").all_inner_texts()
     other = numbers(page)
     assert all(other[key] != value for key, value in FINISHING.items()), other
     for key, value in TYPED.items():
         field(page, key).fill(value)
     start(page, "-40", "40")
-    assert settled(page) == "done"
+    assert settled(page, HOLE) == "done"
     assert page.locator("h1").inner_text() == "Milled hole ⌀200"
     told = numbers(page)
     assert {key: told[key] for key in FINISHING} == FINISHING, told
@@ -142,8 +122,7 @@ def paper(page: Page, served: Served, program: str) -> None:
     told = numbers(page)
     assert {key: told[key] for key in ROUGHING} == ROUGHING, told
     text = saved(page, served)
-    answer = verb(program, text, "rough")
-    rough = run_of(answer, "rough")
+    rough = run_of(verb(program, text, "rough"), "rough")
     assert page.locator('[data-fact="time"] dd').inner_text().startswith(f"{rough['run']['time']:.3f} s")
     degrees = math.degrees(rough["run"]["peaks"]["engagement"])
     assert page.locator('[data-fact="engagement"] dd').inner_text().startswith(f"{degrees:.2f}°")
@@ -172,7 +151,7 @@ def handles(page: Page, served: Served, program: str) -> None:
         page.mouse.move(x + i * scale / 2, y + i * scale * 0.75)
         page.wait_for_timeout(16)
     page.mouse.up()
-    assert settled(page) == "done"
+    assert settled(page, HOLE) == "done"
     moves, drawn = page.evaluate("() => [dragged.moves, dragged.drawn]")
     late = sorted(min((d for d in drawn if d >= m), default=math.inf) - m for m in moves)
     print(f"  {len(moves)} moves of T0, {len(drawn)} answers on the page; a move is drawn after {late[len(late) // 2]:.0f} ms, {late[-1]:.0f} ms at most")
@@ -183,14 +162,14 @@ def handles(page: Page, served: Served, program: str) -> None:
     told = numbers(page)
     assert all(told[key] != before[key] for key in ("roll", "psi", "length", "startRadius", "visible")), told
     assert told["circle"] == before["circle"]
-    answer = run_of(verb(program, saved(page, served), "finish"), "finish")
-    assert told["roll"] == f"{answer['roll']:.5f}" and told["length"] == f"{answer['length']:.3f}", (told, answer["roll"], answer["length"])
+    known = run_of(verb(program, saved(page, served), "finish"), "finish")
+    assert told["roll"] == f"{known['roll']:.5f}" and told["length"] == f"{known['length']:.3f}", (told, known["roll"], known["length"])
     shot(page, "hole-dragged")
 
     handle.focus()
     for key in ("ArrowLeft", "Shift+ArrowUp", "Alt+ArrowRight"):
         page.keyboard.press(key)
-        settled(page)
+        settled(page, HOLE)
     moved = start_of(page)
     assert abs(moved[0] - (now[0] - 0.9)) < 1e-6 and abs(moved[1] - (now[1] + 10)) < 1e-6, (now, moved)
     assert handle.get_attribute("aria-valuetext") == f"X {moved[0]:.3f}, Y {moved[1]:.3f} from the centre".replace("-", MINUS)
@@ -200,7 +179,7 @@ def handles(page: Page, served: Served, program: str) -> None:
     touch = page.locator('[data-handle="touch"]')
     touch.focus()
     page.keyboard.press("Shift+ArrowRight")
-    settled(page)
+    settled(page, HOLE)
     turned = start_of(page)
     assert abs(math.hypot(*turned) - math.hypot(*moved)) < 2e-3, (turned, moved)
     by = math.degrees(math.atan2(turned[1], turned[0]) - math.atan2(moved[1], moved[0]))
@@ -214,7 +193,7 @@ def handles(page: Page, served: Served, program: str) -> None:
     page.mouse.down()
     page.mouse.move(middle[0] + 60, middle[1] - 90, steps=8)
     page.mouse.up()
-    settled(page)
+    settled(page, HOLE)
     told = numbers(page)
     angle = math.degrees(math.atan2(number(told["touchY"]), number(told["touchX"])))
     assert abs(angle - math.degrees(math.atan2(90, 60))) < 1.2, angle
@@ -227,17 +206,17 @@ def handles(page: Page, served: Served, program: str) -> None:
     for i in range(1, 6):
         session.send("Input.dispatchTouchEvent", {"type": "touchMove", "touchPoints": [{"x": spot[0] + 4 * i, "y": spot[1] + 3 * i}]})
     session.send("Input.dispatchTouchEvent", {"type": "touchEnd", "touchPoints": []})
-    settled(page)
+    settled(page, HOLE)
     fingered = start_of(page)
     assert abs(fingered[0] - turned[0]) > 1, (fingered, turned)
 
     # Undo goes back over all of it, to what was saved.
     for _ in range(40):
         page.keyboard.press("Control+z")
-    settled(page)
+    settled(page, HOLE)
     assert start_of(page) == now, (start_of(page), now)
     page.keyboard.press("Control+y")
-    settled(page)
+    settled(page, HOLE)
     assert start_of(page) != now
 
 
@@ -320,6 +299,14 @@ def ways(page: Page, served: Served, program: str) -> None:
     page.wait_for_function("() => document.querySelectorAll('[data-table=ways] input:enabled').length === 3", timeout=LONG)
     contacts = cells(page, "ways", 6)
     assert contacts == {"g2": "G2", "g4": "G4", "g6": "G6"}, contacts
+    # The row of the hole's own contact is marked, whichever it is.
+    own = page.locator('[data-table="ways"] tr.on')
+    for contact in ("g6", "g2"):
+        page.locator('[data-key="operation.finish.contact"] select').select_option(contact)
+        settled(page, HOLE)
+        page.locator(f'[data-table="ways"] tr.on[data-row="{contact}"]').wait_for()
+        assert own.count() == 1
+    page.wait_for_function("() => !document.querySelector('[data-table=ways] tr[data-old]') && document.querySelectorAll('[data-table=ways] input:enabled').length === 3", timeout=LONG)
     # A higher contact touches the allowance earlier; the jerk steps in the first alone.
     steps = cells(page, "ways", 8)
     assert steps["g2"] == "0.00155" and (steps["g4"], steps["g6"]) == ("0", "0"), steps
@@ -346,10 +333,15 @@ def ways(page: Page, served: Served, program: str) -> None:
     shot(page, "hole-strategies")
     for name in STRATEGIES[3:]:
         table.locator(f'tr[data-row="{name}"] input').uncheck()
-    # They follow the numbers.
+    # They follow the numbers; until its answer has come, a run that is laid over is marked as older.
     before = known[1]["lens-1"]
-    field(page, "operation.rough.stepover").fill("8")
-    settled(page)
+    ghost = page.locator('svg.involute [data-ghost="lens-1"]')
+    assert "aged" not in ghost.get_attribute("class")
+    with kept_back(page, "**/api/verb/hole", "-lens-1.toml"):
+        field(page, "operation.rough.stepover").fill("8")
+        settled(page, HOLE)
+        page.locator('[data-row="lens-1"][data-old]').wait_for()
+        assert "aged" in ghost.get_attribute("class") and "(older)" in page.locator(".charts .key").inner_text()
     page.wait_for_function("was => { const r = document.querySelector('[data-row=lens-1]'); return !r.dataset.old && r.cells[1].textContent !== was }", arg=before, timeout=LONG)
     assert number(cells(page, "ways", 1)["lens-1"]) < 0.6 * number(before)
 
@@ -359,7 +351,7 @@ def mistakes(page: Page) -> None:
     new_hole(page)
     before = numbers(page)
     start(page, "-80", "40")
-    assert settled(page) == "wrong"
+    assert settled(page, HOLE) == "wrong"
     told = page.locator('[data-key="operation.finish.start"] .told')
     assert told.count() == 1 and told.inner_text() in page.locator(".across.wrong").inner_text()
     assert page.locator(".oldness").count() == 1 and numbers(page) == before
@@ -369,19 +361,19 @@ def mistakes(page: Page) -> None:
     page.locator(".across.wrong button").click()
     assert page.evaluate("() => document.activeElement.id") == "f-operation.finish.start"
     start(page, "-40", "40")
-    assert settled(page) == "done" and page.locator(".oldness, .across.wrong, .told").count() == 0
+    assert settled(page, HOLE) == "done" and page.locator(".oldness, .across.wrong, .told").count() == 0
     for key, value in (("operation.diameter", "30"), ("tool.diameter", "0"), ("operation.rough.stepover", "-1"), ("operation.rough.allowance", "90"), ("dynamics.jerk", "-5")):
         known = field(page, key).input_value()
         field(page, key).fill(value)
-        assert settled(page) == "wrong", key
+        assert settled(page, HOLE) == "wrong", key
         assert page.locator(".across.wrong").count() == 1
         field(page, key).fill(known)
-        assert settled(page) == "done", key
+        assert settled(page, HOLE) == "done", key
     assert numbers(page) == before
     # The newest of many changes counts.
     for n in range(30):
         field(page, "operation.diameter").fill(f"{150 + n}")
-    assert settled(page) == "done" and page.locator("h1").inner_text() == "Milled hole ⌀179"
+    assert settled(page, HOLE) == "done" and page.locator("h1").inner_text() == "Milled hole ⌀179"
     assert numbers(page)["radius"] == "69.500"
 
 
@@ -408,7 +400,7 @@ def opens(page: Page) -> None:
     """A question of the folder opens in the window: a helix, a control with involutes of its own."""
     open_file(page, "12_compare/hole.toml")
     page.wait_for_function("() => document.title.includes('12_compare')")
-    assert settled(page) == "done" and page.locator(".tab.on .dot").count() == 0
+    assert settled(page, HOLE) == "done" and page.locator(".tab.on .dot").count() == 0
     # Its base radius is one that the control can print.
     assert numbers(page)["base"] == "6.366200"
     choose(page, "rough")
@@ -419,7 +411,7 @@ def opens(page: Page) -> None:
     lengths = cells(page, "ways", 1)
     assert number(lengths["constant-engagement-free"]) < 0.7 * number(lengths["involute"]), lengths
     page.locator('[data-key="operation.strategy"] select').select_option("constant-engagement")
-    assert settled(page) == "done"
+    assert settled(page, HOLE) == "done"
     assert page.locator('[data-chart="engagement"] .limit').count() == 1
     shot(page, "hole-engagement")
 
@@ -431,19 +423,18 @@ def equal(page: Page, served: Served, program: str) -> None:
     page.locator('[data-act="stop"]').click()
     page.locator('[data-act="compare"]').click()
     page.locator('[data-table="equal"]').wait_for(timeout=LONG)
-    run = subprocess.run([program, "hole", "-", "--json", "--compare"], input=saved(page, served), capture_output=True, text=True)
-    answer = json.loads(run.stdout)["comparison"]
+    told = shell(program, "hole", "-", "--compare", text=saved(page, served))["comparison"]
     # A file that was new is another text: it is asked for again.
     page.locator('[data-act="compare"]').click()
     page.locator('[data-table="equal"]').wait_for(timeout=LONG)
-    for row in answer["rows"]:
+    for row in told["rows"]:
         figures = row["figures"]
         if figures:
-            told = [cells(page, "equal", c)[row["strategy"]] for c in (1, 2, 5)]
-            assert told == [f"{figures['length']:.1f}", str(figures["blocks"]), f"{figures['runs'][0]['time']:.2f}"], (row["strategy"], told)
-    assert page.locator("[data-claims]").get_attribute("data-claims") == str(len(answer["claims"]))
+            shown = [cells(page, "equal", c)[row["strategy"]] for c in (1, 2, 5)]
+            assert shown == [f"{figures['length']:.1f}", str(figures["blocks"]), f"{figures['runs'][0]['time']:.2f}"], (row["strategy"], shown)
+    assert page.locator("[data-claims]").get_attribute("data-claims") == str(len(told["claims"]))
     field(page, "operation.diameter").fill("190")
-    settled(page)
+    settled(page, HOLE)
     assert page.locator(".equal .tag.np").count() == 1
 
 
@@ -451,7 +442,7 @@ def looks(browser: Browser, served: Served) -> None:
     """Both themes at three widths: nothing that axe objects to, nothing that scrolls sideways."""
     for theme in ("light", "dark"):
         for width, height in SIZES:
-            one, page = watched(browser, (width, height), theme, served.address)
+            one, page = visited(browser, (width, height), theme, served.address)
             new_hole(page)
             for name in ("finish", "rough"):
                 choose(page, name)
@@ -471,11 +462,11 @@ def looks(browser: Browser, served: Served) -> None:
 
 def pseudo(browser: Browser, served: Served) -> None:
     """No text but names, numbers, units, program text and sentences of the library is outside the catalogue."""
-    one, page = watched(browser, (1400, 900), "light", served.at("lang=pseudo"))
+    one, page = visited(browser, (1400, 900), "light", served.at("lang=pseudo"))
     page.locator('[data-open="new"]').click()
     page.locator('[data-new="hole"]').click()
     page.locator("main.hole").wait_for(timeout=LONG)
-    settled(page)
+    settled(page, HOLE)
     found = page.evaluate(UNMARKED, MARK)
     page.locator("details.rest").evaluate("e => (e.open = true)")
     page.locator("details.records").evaluate("e => (e.open = true)")
@@ -488,10 +479,10 @@ def pseudo(browser: Browser, served: Served) -> None:
     page.locator('[data-axis="time"]').click()
     found += page.evaluate(UNMARKED, MARK)
     page.locator('[data-key="operation.strategy"] select').select_option("ramping")
-    settled(page)
+    settled(page, HOLE)
     found += page.evaluate(UNMARKED, MARK)
     field(page, "tool.diameter").fill("0")
-    assert settled(page) == "wrong"
+    assert settled(page, HOLE) == "wrong"
     found += page.evaluate(UNMARKED, MARK)
     shot(page, "hole-pseudo")
     assert not found, sorted(set(found))
@@ -499,36 +490,25 @@ def pseudo(browser: Browser, served: Served) -> None:
     one.close(served.address)
 
 
-def main() -> None:
-    program = sys.argv[1]
-    only = sys.argv[2:]
-    with sync_playwright() as playwright:
-        browser = playwright.chromium.launch(executable_path=shutil.which("chromium"), args=["--no-sandbox"])
-        served = Served(program, "12_compare")
-        try:
-            one, page = watched(browser, SIZES[0], "light", served.address)
-            steps = {
-                "paper": lambda: paper(page, served, program),
-                "handles": lambda: handles(page, served, program),
-                "cursor": lambda: cursor(page, served, program),
-                "ways": lambda: ways(page, served, program),
-                "mistakes": lambda: mistakes(page),
-                "leaves": lambda: leaves(page, served),
-                "opens": lambda: opens(page),
-                "equal": lambda: equal(page, served, program),
-                "closes": lambda: one.close(served.address),
-                "looks": lambda: looks(browser, served),
-                "pseudo": lambda: pseudo(browser, served),
-            }
-            for name, step in steps.items():
-                if not only or name in only or name == "closes":
-                    step()
-                    print(f"{name}: as it should be", flush=True)
-        finally:
-            served.gone()
-        browser.close()
-    print("the window of a milled hole: as it should be")
-
+SCRIPT = Script(
+    "the window of a milled hole",
+    ("12_compare",),
+    {
+        "paper": lambda s: paper(s.page, s.served, s.program),
+        "handles": lambda s: handles(s.page, s.served, s.program),
+        "cursor": lambda s: cursor(s.page, s.served, s.program),
+        "ways": lambda s: ways(s.page, s.served, s.program),
+        "mistakes": lambda s: mistakes(s.page),
+        "leaves": lambda s: leaves(s.page, s.served),
+        "opens": lambda s: opens(s.page),
+        "equal": lambda s: equal(s.page, s.served, s.program),
+        "closes": Stage.closes,
+        "looks": lambda s: looks(s.browser, s.served),
+        "pseudo": lambda s: pseudo(s.browser, s.served),
+    },
+    lambda s: s.watched.opened(s.served.address),
+    always=("closes",),
+)
 
 if __name__ == "__main__":
-    main()
+    SCRIPT.main()

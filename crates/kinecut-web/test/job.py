@@ -1,17 +1,17 @@
 """The window of a job, as a person uses it beyond browser.py: python3 job.py KINECUT [STEP...]. Times while one types, operations in program
-and time, measuring, operations made of picked faces, findings in the picture, files from elsewhere. The same needs and pictures as browser.py."""
+and time, measuring, operations made of picked faces, findings in the picture, files from elsewhere. Needs and settings:
+common.py."""
 
 import base64
 import math
 import re
-import shutil
 import struct
-import sys
 import tomllib
 
-from playwright.sync_api import Browser, Page, sync_playwright
-
-from browser import EXAMPLES, LONG, MARK, OUTCOME, SIZES, UNMARKED, Served, Watched, clean, drawn, field, judged, open_file, shot, text_of, wait_drawn
+from browser import begin as bore
+from browser import drawn, field, text_of, wait_drawn
+from common import EXAMPLES, LONG, MARK, OUTCOME, SIZES, UNMARKED, Script, Served, Stage, Watched, clean, judged, open_file, shot
+from playwright.sync_api import Browser, Page
 
 BORE = "setup[0].operation[0]"
 SMALL = """format = 1
@@ -77,9 +77,8 @@ def operations(page: Page) -> None:
     """Bands of operations in time, their lines in the program, and the form: one selection."""
     with page.expect_response("**/api/plan", timeout=LONG) as answer:
         open_file(page, "21_plate_by_sizes/job.toml")
-    page.wait_for_function("() => document.title.includes('21_plate_by_sizes')")
     planned = answer.value.json()
-    judged(page)
+    judged(page, "21_plate_by_sizes/job.toml")
     runs = planned["operations"]
     lines = planned["programs"][0]["text"].split("\n")
     asked = tomllib.loads(text_of(page))["setup"][0]["operation"]
@@ -248,8 +247,7 @@ def measures(page: Page) -> None:
 def inspects(page: Page) -> None:
     """Through a plate from side to side: the server tells the material between, the planes their distance."""
     open_file(page, "small.toml")
-    page.wait_for_function("() => document.title.includes('small.toml')")
-    judged(page)
+    judged(page, "small.toml")
     page.locator('[data-measure="off"]').click()
     page.locator(".stage canvas").focus()
     page.keyboard.press("3")
@@ -301,8 +299,7 @@ def block(low: list[float], high: list[float]) -> bytes:
 def drops(page: Page, served: Served) -> None:
     """Files from elsewhere: a job and a program are opened, a mesh and a drawing go to the open job, others are told."""
     drop(page, "mine.toml", SMALL.encode())
-    page.wait_for_function("() => document.title.includes('mine.toml')")
-    assert judged(page) == "SAFE" and (served.folder / "mine.toml").read_text() == SMALL
+    assert judged(page, "mine.toml") == "SAFE" and (served.folder / "mine.toml").read_text() == SMALL
 
     mesh = block([0, 0, -10], [40, 30, 0])
     drop(page, "wanted.stl", mesh)
@@ -349,10 +346,9 @@ def drops(page: Page, served: Served) -> None:
         page.locator("#stock-2").fill("-8")
     assert asked.value.post_data_json["stock"] == [-3, -3, -8, 33, 3, 0]
     page.get_by_role("button", name="Correct the guess in a job").click()
-    page.wait_for_function("() => document.title.includes('SLOT.PRG.toml')")
+    judged(page, "SLOT.PRG.toml")
     job = tomllib.loads(text_of(page))
     assert job["setup"][0]["program"]["file"] == "SLOT.PRG.nc" and job["tool"][0]["diameter"] == 6
-    judged(page)
 
     drop(page, "holiday.jpg", b"\xff\xd8\xff\xe0 no program")
     page.locator(".across", has_text="holiday.jpg is nothing that kinecut reads").wait_for()
@@ -368,8 +364,7 @@ def drops(page: Page, served: Served) -> None:
 def marks(page: Page) -> None:
     """Findings have the numbers of their list in the picture; one chooses the other."""
     open_file(page, "17_vise_and_clamp/job.toml")
-    page.wait_for_function("() => document.title.includes('17_vise_and_clamp')")
-    assert judged(page) == "NOT SAFE"
+    assert judged(page, "17_vise_and_clamp/job.toml") == "NOT SAFE"
     numbers = page.locator(".findings .no").all_inner_texts()
     assert numbers == [str(i + 1) for i in range(len(numbers))] and numbers
     labels = page.locator(".marks .mark text").all_text_contents()
@@ -419,7 +414,7 @@ def looks(browser: Browser, served: Served) -> None:
     by = 115 * scale(page)
     for way in (-1, 1):
         page.mouse.click(box["x"] + box["width"] / 2 + way * by, box["y"] + box["height"] / 2 + by)
-        page.wait_for_timeout(300)
+        page.locator(".measured .xyz").nth((way + 1) // 2).wait_for()
         found += page.evaluate(UNMARKED, MARK)
     drop(page, "wanted.stl", block([0, 0, -10], [40, 30, 0]))
     page.locator(".across .acts button").first.wait_for()
@@ -435,36 +430,27 @@ def looks(browser: Browser, served: Served) -> None:
     watched.close(served.address)
 
 
-def main() -> None:
-    program, only = sys.argv[1], sys.argv[2:]
-    with sync_playwright() as playwright:
-        browser = playwright.chromium.launch(executable_path=shutil.which("chromium"), args=["--no-sandbox"])
-        served = Served(program, "01_bore", "17_vise_and_clamp", "21_plate_by_sizes")
-        (served.folder / "small.toml").write_text(SMALL)
-        try:
-            watched = Watched(browser, SIZES[0], "light")
-            page = watched.opened(served.address)
-            open_file(page, "01_bore/job.toml")
-            judged(page)
-            steps = {
-                "feeds": lambda: feeds(page),
-                "operations": lambda: operations(page),
-                "measures": lambda: measures(page),
-                "marks": lambda: marks(page),
-                "inspects": lambda: inspects(page),
-                "drops": lambda: drops(page, served),
-                "closes": lambda: watched.close(served.address),
-                "looks": lambda: looks(browser, served),
-            }
-            for name, step in steps.items():
-                if not only or name in only or name == "closes":
-                    step()
-                    print(f"{name}: as it should be", flush=True)
-        finally:
-            served.gone()
-        browser.close()
-    print("the window of a job in a browser: as it should be")
+def begin(stage: Stage) -> Page:
+    (stage.served.folder / "small.toml").write_text(SMALL)
+    return bore(stage)
 
+
+SCRIPT = Script(
+    "the window of a job in a browser",
+    ("01_bore", "17_vise_and_clamp", "21_plate_by_sizes"),
+    {
+        "feeds": lambda s: feeds(s.page),
+        "operations": lambda s: operations(s.page),
+        "measures": lambda s: measures(s.page),
+        "marks": lambda s: marks(s.page),
+        "inspects": lambda s: inspects(s.page),
+        "drops": lambda s: drops(s.page, s.served),
+        "closes": Stage.closes,
+        "looks": lambda s: looks(s.browser, s.served),
+    },
+    begin,
+    always=("closes",),
+)
 
 if __name__ == "__main__":
-    main()
+    SCRIPT.main()

@@ -1,25 +1,15 @@
-"""Attacks on the workbench from pages in a real browser: none reads, none writes, and the own page goes on.
-
-    python crates/kinecut-web/test/security.py PATH/TO/kinecut
-
-Needs Playwright for Python and a Chromium (`CHROMIUM`, default /usr/bin/chromium).
-"""
+"""Attacks on the workbench from pages in a real browser: python3 security.py KINECUT. None reads, none writes, and the own page goes on. Needs and
+settings: common.py."""
 
 import hashlib
 import http.server
-import json
 import os
-import pathlib
 import re
-import subprocess
-import sys
-import tempfile
 import threading
 
-from playwright.sync_api import sync_playwright
+from common import EVIL, Script, Stage
 
 SECRET = "secret-of-the-folder"
-EVIL = "evil.example"
 
 # What a page of others may try. Each gives what it could read, or nothing.
 ATTACK = """async ({ base, id, token, sha256 }) => {
@@ -108,24 +98,9 @@ class Others(http.server.BaseHTTPRequestHandler):
         pass
 
 
-def serve(kinecut, folder):
-    """Starts the workbench; the program, its base address and its token."""
-    program = subprocess.Popen(
-        [kinecut, "open", "--no-browser", "--json", str(folder)], stdout=subprocess.PIPE, text=True
-    )
-    said = ""
-    while not said.rstrip().endswith("}"):
-        line = program.stdout.readline()
-        assert line, f"it ended: {said}"
-        said += line
-    base, token = json.loads(said)["address"].split("/#token=")
-    return program, base, token
-
-
-def check(what, is_so):
-    print(("ok   " if is_so else "FAIL ") + what)
-    if not is_so:
-        sys.exit(1)
+def check(what: str, is_so: bool) -> None:
+    assert is_so, what
+    print(f"  {what}")
 
 
 def own_page(browser, base, token, name):
@@ -147,80 +122,72 @@ def own_page(browser, base, token, name):
     return answer, own["id"], [text for text in said if "Content Security Policy" in text]
 
 
-def main():
-    kinecut = sys.argv[1]
-    folder = pathlib.Path(tempfile.mkdtemp(prefix="kinecut-security-"))
+def attacks(stage: Stage) -> None:
+    browser, folder = stage.browser, stage.served.folder
+    base, token = stage.served.address.split("/#token=")
+    port = base.rsplit(":", 1)[1]
+    for name in folder.iterdir():
+        name.unlink()
     file = folder / "job.toml"
     text = f"# {SECRET}\nformat = 1\n"
     file.write_text(text)
-    program, base, token = serve(kinecut, folder)
-    port = base.rsplit(":", 1)[1]
     others = http.server.ThreadingHTTPServer(("127.0.0.1", 0), Others)
     threading.Thread(target=others.serve_forever, daemon=True).start()
     other_port = others.server_address[1]
 
-    def untouched(what):
+    def untouched(what: str) -> None:
         check(f"{what}: nothing was written", file.read_text() == text and os.listdir(folder) == ["job.toml"])
 
     try:
-        with sync_playwright() as playwright:
-            browser = playwright.chromium.launch(
-                executable_path=os.environ.get("CHROMIUM", "/usr/bin/chromium"),
-                # The browser's own guard of the local network is off: what is looked at are those of the server.
-                args=[
-                    "--no-sandbox",
-                    f"--host-resolver-rules=MAP {EVIL} 127.0.0.1",
-                    "--disable-features=LocalNetworkAccessChecks,BlockInsecurePrivateNetworkRequests,PrivateNetworkAccessChecks",
-                ],
-            )
-            answer, own, policy = own_page(browser, base, token, "job.toml")
-            check("the own page reads the folder", bool(own))
-            check("no message about its policy", not policy)
-            headers = answer.headers
-            check("its policy has a nonce of its own", bool(re.search(r"'nonce-[0-9a-f]{32}'", headers["content-security-policy"])))
-            given = {"base": base, "id": own, "token": token, "sha256": hashlib.sha256(text.encode()).hexdigest()}
-            # Pages of another port, of another name, and of localhost, which is another origin than 127.0.0.1.
-            for origin in (f"http://127.0.0.1:{other_port}", f"http://{EVIL}:{other_port}", f"http://localhost:{other_port}"):
-                page = browser.new_page()
-                page.goto(origin)
-                for name, got in page.evaluate(ATTACK, given).items():
-                    check(f"{origin}: {name} gives nothing", got == "")
-                page.close()
-                untouched(origin)
-            # A name that was bound to this machine after its page was loaded: the page is of one origin with the server then.
+        answer, own, policy = own_page(browser, base, token, "job.toml")
+        check("the own page reads the folder", bool(own))
+        check("no message about its policy", not policy)
+        headers = answer.headers
+        check("its policy has a nonce of its own", bool(re.search(r"'nonce-[0-9a-f]{32}'", headers["content-security-policy"])))
+        given = {"base": base, "id": own, "token": token, "sha256": hashlib.sha256(text.encode()).hexdigest()}
+        # Pages of another port, of another name, and of localhost, which is another origin than 127.0.0.1.
+        for origin in (f"http://127.0.0.1:{other_port}", f"http://{EVIL}:{other_port}", f"http://localhost:{other_port}"):
             page = browser.new_page()
-            page.route(
-                re.compile(rf"http://{EVIL}:{port}/start"),
-                lambda route: route.fulfill(body="<!doctype html><title>rebound</title><body>", content_type="text/html"),
-            )
-            page.goto(f"http://{EVIL}:{port}/start")
-            for name, got in page.evaluate(ATTACK, {**given, "base": f"http://{EVIL}:{port}"}).items():
-                check(f"rebound name: {name} gives nothing", SECRET not in got and got == "")
-            status = page.evaluate("fetch('/api/project', {headers: {Authorization: 'Bearer ' + '%s'}}).then(a => a.status)" % token)
-            check("rebound name: refused even with the token", status == 403)
-            check("rebound name: the page is refused", page.goto(f"http://{EVIL}:{port}/").status == 403)
+            page.goto(origin)
+            for name, got in page.evaluate(ATTACK, given).items():
+                check(f"{origin}: {name} gives nothing", got == "")
             page.close()
-            untouched("rebound name")
-            # A window that another page opens keeps no hold of it.
-            page = browser.new_page()
-            page.goto(f"http://127.0.0.1:{other_port}")
-            with page.expect_popup() as popup:
-                page.evaluate("(base) => { window.got = window.open(base + '/'); }", base)
-            popup.value.wait_for_load_state()
-            check("an opened window is closed to its opener", page.evaluate("window.got.closed || !window.got.length"))
-            page.close()
-            # The own origin without the token.
-            page = browser.new_page()
-            page.goto(base + "/")
-            status = page.evaluate("fetch('/api/project').then(a => a.status)")
-            check("without the token: refused", status == 401)
-            _, again, _ = own_page(browser, base, token, "job.toml")
-            check("the own page goes on", again == own)
-            browser.close()
-        check("it still runs", program.poll() is None)
+            untouched(origin)
+        # A name that was bound to this machine after its page was loaded: the page is of one origin with the server then.
+        page = browser.new_page()
+        page.route(
+            re.compile(rf"http://{EVIL}:{port}/start"),
+            lambda route: route.fulfill(body="<!doctype html><title>rebound</title><body>", content_type="text/html"),
+        )
+        page.goto(f"http://{EVIL}:{port}/start")
+        for name, got in page.evaluate(ATTACK, {**given, "base": f"http://{EVIL}:{port}"}).items():
+            check(f"rebound name: {name} gives nothing", SECRET not in got and got == "")
+        status = page.evaluate("fetch('/api/project', {headers: {Authorization: 'Bearer ' + '%s'}}).then(a => a.status)" % token)
+        check("rebound name: refused even with the token", status == 403)
+        check("rebound name: the page is refused", page.goto(f"http://{EVIL}:{port}/").status == 403)
+        page.close()
+        untouched("rebound name")
+        # A window that another page opens keeps no hold of it.
+        page = browser.new_page()
+        page.goto(f"http://127.0.0.1:{other_port}")
+        with page.expect_popup() as popup:
+            page.evaluate("(base) => { window.got = window.open(base + '/'); }", base)
+        popup.value.wait_for_load_state()
+        check("an opened window is closed to its opener", page.evaluate("window.got.closed || !window.got.length"))
+        page.close()
+        # The own origin without the token.
+        page = browser.new_page()
+        page.goto(base + "/")
+        status = page.evaluate("fetch('/api/project').then(a => a.status)")
+        check("without the token: refused", status == 401)
+        _, again, _ = own_page(browser, base, token, "job.toml")
+        check("the own page goes on", again == own)
+        check("it still runs", stage.served.process.poll() is None)
     finally:
-        program.terminate()
-        program.wait()
+        others.shutdown()
 
 
-main()
+SCRIPT = Script("the guards of the workbench", (), {"attacks": attacks})
+
+if __name__ == "__main__":
+    SCRIPT.main()

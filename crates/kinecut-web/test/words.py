@@ -1,16 +1,12 @@
 """The languages of the workbench: python3 words.py KINECUT [STEP ...]. `catalogues` reads the sources alone (`words.py - catalogues`);
-the other steps use the page as a person does. Needs what browser.py needs. With KINECUT_SHOTS set, pictures of the windows go into that folder; with KINECUT_DIST set, the page's
-assets are those of that folder in place of those in the program."""
+the other steps use the page as a person does. Needs and settings: common.py."""
 
 import json
 import re
-import shutil
-import subprocess
-import sys
 from pathlib import Path
 
-from browser import LONG, MARK, OUTCOME, UNMARKED, Served, Watched, clean, open_file, shot
-from playwright.sync_api import Browser, Page, sync_playwright
+from common import LONG, MARK, OUTCOME, SIZES, UNMARKED, Script, Served, Watched, clean, open_file, shell, shot
+from playwright.sync_api import Browser, Page
 
 WORDS = Path(__file__).resolve().parents[1] / "ui/src/words"
 ENTRY = re.compile(r'^\s+(?:"([^"]+)"|(\w+)): ("(?:[^"\\]|\\.)*"),', re.M)
@@ -21,7 +17,6 @@ WHOLE = ("drill", "face")
 PARTS = ("app", *WHOLE)
 COVER = "04_gear_pump_cover/face.toml"
 DRILLING = "03_drill_through_shaft/figure_7.toml"
-SIZES = [(1400, 900), (800, 900), (390, 844)]
 # Words in Latin letters that are the same in all languages.
 LATIN = {"kinecut", "toml", "nc", "stl", "dxf", "svg", "shift", "alt", "ctrl", "enter", "esc", "webgl", "id"}
 
@@ -89,8 +84,7 @@ def catalogues() -> None:
 
 
 def verb(program: str, name: str, text: str, folder: Path) -> dict:
-    run = subprocess.run([program, name, "-", "--json"], input=text, capture_output=True, text=True, cwd=folder)
-    return json.loads(run.stdout)
+    return shell(program, name, "-", text=text, folder=folder)
 
 
 def choose(page: Page, tag: str) -> None:
@@ -155,7 +149,7 @@ def chooses(browser: Browser, served: Served, program: str) -> None:
     page.goto(served.at("lang=ru"))
     page.wait_for_function("() => document.documentElement.lang === 'ru'", timeout=LONG)
     choose(page, "en")
-    assert "lang=" not in page.url and "#token=" not in page.url or "lang=" not in page.url, page.url
+    assert "lang=" not in page.url, page.url
     watched.close(served.address)
 
 
@@ -298,32 +292,16 @@ def pseudo(browser: Browser, served: Served) -> None:
     assert not found, sorted(set(found))
 
 
-def main() -> None:
-    program = str(Path(sys.argv[1]).resolve())
-    only = sys.argv[2:]
-    if not only or "catalogues" in only:
-        catalogues()
-        print("catalogues: as it should be", flush=True)
-    if only == ["catalogues"]:
-        return
-    with sync_playwright() as playwright:
-        browser = playwright.chromium.launch(executable_path=shutil.which("chromium"), args=["--no-sandbox"])
-        served = Served(program, "01_bore", "03_drill_through_shaft", "04_gear_pump_cover")
-        try:
-            steps = {
-                "chooses": lambda: chooses(browser, served, program),
-                "looks": lambda: looks(browser, served),
-                "pseudo": lambda: pseudo(browser, served),
-            }
-            for name, step in steps.items():
-                if not only or name in only:
-                    step()
-                    print(f"{name}: as it should be", flush=True)
-        finally:
-            served.gone()
-        browser.close()
-    print("the languages of the workbench: as it should be")
-
+SCRIPT = Script(
+    "the languages of the workbench",
+    ("01_bore", "03_drill_through_shaft", "04_gear_pump_cover"),
+    {
+        "chooses": lambda s: chooses(s.browser, s.served, s.program),
+        "looks": lambda s: looks(s.browser, s.served),
+        "pseudo": lambda s: pseudo(s.browser, s.served),
+    },
+    plain={"catalogues": catalogues},
+)
 
 if __name__ == "__main__":
-    main()
+    SCRIPT.main()
