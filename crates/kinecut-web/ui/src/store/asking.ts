@@ -58,7 +58,12 @@ export class Asker {
     const old = () => generation !== this.generation || signal.aborted;
     try {
       const told = await kind.ask(question, signal);
-      if (old() || ("wrong" in told && told.wrong.code === CANCELLED)) return;
+      if (old()) return;
+      if ("wrong" in told && told.wrong.code === CANCELLED) {
+        // Given up by the server, and nothing newer is asked by this text.
+        this.timer = window.setTimeout(() => void this.run(), REST);
+        return;
+      }
       batch(() => {
         doc.planning.value = false;
         doc.refused.value = null;

@@ -4,7 +4,7 @@ import { evaluate } from "../base/number";
 import { num, word } from "./language";
 import { Symbol } from "./marks";
 import type { Field, Figure } from "./model";
-import { type State, change, values } from "./state";
+import { type State, change, stepped, values } from "./state";
 
 export function Fields({ figure, state }: { figure: Figure; state: State }) {
   return (
@@ -49,12 +49,12 @@ function Typed({ figure, state, field }: Props) {
     draft.value = text;
     const n = evaluate(text);
     const { [field.key]: _, ...others } = state.wrong.value;
-    if (n === null || n < field.min || n > field.max) {
+    if (n === null || n < field.min || n > field.max || (field.digits === 0 && !Number.isInteger(n))) {
       state.wrong.value = { ...others, [field.key]: text };
       return;
     }
     state.wrong.value = others;
-    change(figure, state, { [field.key]: n });
+    change(figure, state, { [field.key]: n }, true);
   };
   return (
     <div class={`field${wrong === undefined ? "" : " wrong"}`}>
@@ -81,7 +81,7 @@ function Typed({ figure, state, field }: Props) {
             draft.value = null;
             const { [field.key]: _, ...others } = state.wrong.value;
             state.wrong.value = others;
-            change(figure, state, { [field.key]: now + by * field.step * (e.shiftKey ? 10 : e.altKey ? 0.1 : 1) });
+            stepped(() => change(figure, state, { [field.key]: now + by * field.step * (e.shiftKey ? 10 : e.altKey ? 0.1 : 1) }));
           }}
         />
         <span class="unit q">{field.unit && word(field.unit)}</span>

@@ -1,46 +1,53 @@
 // One figure of the page: picture, inputs, numbers, explanation, the input to copy, the question for the class.
 import { useSignal } from "@preact/signals";
-import { useLayoutEffect, useRef } from "preact/hooks";
+import { useEffect, useLayoutEffect, useRef } from "preact/hooks";
+import { isAlone } from "./asked";
 import { Fields } from "./fields";
 import { type Key, has, num, word } from "./language";
 import { Prose, Symbol } from "./marks";
-import { type Drawing, type Figure, type Row, shown } from "./model";
-import { change, reset, stateOf, values } from "./state";
+import { type Drawing, type Figure, type Row, type Values, shown } from "./model";
+import { type View, change, pump, reset, show, stateOf, values, viewOf } from "./state";
 
 /** Widest picture [px]: as wide as a page of paper. */
 const WIDEST = 700;
 
 export function FigureView({ figure }: { figure: Figure }) {
   const state = stateOf(figure);
-  const v = values(figure, state);
+  const view = viewOf(figure, state);
+  useEffect(() => pump(figure, state));
+  const { v, data } = view;
+  const isDrawn = view.is === "there" || view.is === "older";
   const mine = state.mode.value === "mine";
   const printed = state.printed.value;
-  const wrong = figure.wrong?.(v) ?? null;
-  const rows = wrong ? [] : figure.rows(v);
-  const texts: Record<string, string> = {};
+  const wrong = isDrawn ? (figure.wrong?.(v, data) ?? null) : null;
+  const warns = isDrawn && !wrong ? (figure.warns?.(v, data) ?? null) : null;
+  const unread = Object.keys(state.wrong.value).length > 0;
+  const rows = wrong || !isDrawn ? [] : figure.rows(v, data);
+  const texts: Record<string, string> = isDrawn ? { ...figure.more?.(v, data) } : {};
   for (const f of figure.fields) texts[f.key] = texts[`${f.key}field`] = num(v[f.key], f.digits, true);
   for (const r of rows) {
     texts[r.key] = shown(r);
     texts[`${r.key}Printed`] = shown(r, r.printed ?? r.value);
   }
   const key = (end: string): Key => `${figure.words}.${end}` as Key;
-  const said = wrong ? word(wrong, texts) : word(key("says"), texts);
+  const sentence = wrong ? word(wrong, texts) : [key("says"), ...(warns ? [warns] : [])].map((k) => word(k, texts)).join(" ");
+  const said = isDrawn ? sentence : reason(view);
   const differs = rows.some((r) => differing(r));
   const difference = !differs && has(key("agrees")) ? key("agrees") : key("differs");
   const heading = headingOf(figure);
   const paragraphs = ["p1", "p2", "p3", "p4"].map(key).filter(has);
   return (
-    <article class="figure" id={`figure-${figure.id}`} data-figure={figure.id} aria-labelledby={`title-${figure.id}`}>
+    <article class="figure" id={`figure-${figure.id}`} data-figure={figure.id} data-is={view.is} data-more={view.more && !isAlone() ? "asked" : undefined} aria-labelledby={`title-${figure.id}`}>
       <header>
         <h2 id={`title-${figure.id}`}>
           <span class="no">{heading}</span> {word(key("title"))}
         </h2>
         <div class="switches">
           <div class="seg" role="group" aria-label={word("case.which")}>
-            <button aria-pressed={!mine} data-case="paper" onClick={() => (state.mode.value = "paper")}>
+            <button aria-pressed={!mine} data-case="paper" onClick={() => show(state, "paper")}>
               {word("case.paper")}
             </button>
-            <button aria-pressed={mine} data-case="mine" onClick={() => (state.mode.value = "mine")}>
+            <button aria-pressed={mine} data-case="mine" onClick={() => show(state, "mine")}>
               {word("case.mine")}
             </button>
           </div>
@@ -61,14 +68,30 @@ export function FigureView({ figure }: { figure: Figure }) {
       </header>
       <div class="body">
         <figure>
-          <Picture figure={figure} drawing={{ v, printed, rows: new Map(rows.map((r) => [r.key, r])), text: (row) => texts[row] ?? "–", set: (patch) => change(figure, state, patch), id: figure.words, width: WIDEST }} said={said} />
-          {wrong && (
-            <p class="sentence" role="status">
-              <Prose text={word(wrong, texts)} />
+          {isDrawn && (
+            <Picture
+              figure={figure}
+              drawing={{ v, data, printed, rows: new Map(rows.map((r) => [r.key, r])), text: (row) => texts[row] ?? "–", set: (patch) => change(figure, state, patch), now: () => values(figure, state), id: figure.words, width: WIDEST }}
+              said={said}
+            />
+          )}
+          {view.is === "older" && <p class="older">{word("figure.older")}</p>}
+          {!isDrawn && (
+            <p class={view.is === "waits" ? "waits" : "sentence"} role="status">
+              <Prose text={word(reasonKey(view))} /> {view.why && <span lang="en" translate={false}>{view.why}</span>}
             </p>
           )}
+          {[wrong, warns, unread ? ("field.older" as const) : null].map(
+            (told) =>
+              told && (
+                <p key={told} class="sentence" role="status" data-sentence={told}>
+                  <Prose text={word(told, texts)} />
+                </p>
+              ),
+          )}
           <figcaption>
-            {!wrong && <Prose text={word(key("caption"), texts)} />} {word(figure.table ? "figure.drawnTable" : "figure.drawn", { after: figure.after })}
+            {!wrong && isDrawn && <Prose text={word(key("caption"), texts)} />} {figure.drawn ? word(figure.drawn) : word(figure.table ? "figure.drawnTable" : "figure.drawn", { after: figure.after })}
+            {figure.asks ? ` ${word(isAlone() ? "figure.saved" : "figure.asked", { verb: verbsOf(figure, v), n: String(state.saved.length) })}` : isAlone() ? ` ${word("figure.computed")}` : ""}
           </figcaption>
         </figure>
         <div class="side">
@@ -79,15 +102,16 @@ export function FigureView({ figure }: { figure: Figure }) {
         </div>
       </div>
       <div class="words">
-        {figure.mistake && !wrong && <p class="differs">
+        {figure.mistake && !wrong && isDrawn && <p class="differs">
             <Prose text={word(difference, texts)} />
           </p>}
-        {paragraphs.map((p) => (
+        {isDrawn && paragraphs.map((p) => (
           <p key={p}>
             <Prose text={word(p, texts)} />
           </p>
         ))}
-        <Copy text={figure.toml(v)} name={`${word("copy.what")}: ${heading}`} />
+        {isDrawn && !wrong && figure.below?.(data)}
+        <Copy text={figure.toml(v, data)} name={`${word("copy.what")}: ${heading}`} />
         <details class="ask">
           <summary>
             <b>{word("ask.head")}</b> <Prose text={word(key("ask"))} />
@@ -99,6 +123,19 @@ export function FigureView({ figure }: { figure: Figure }) {
       </div>
     </article>
   );
+}
+
+/** Names of the verbs that answer, kept apart from the words round them. */
+function verbsOf(figure: Figure, v: Values): string {
+  return `\u2068${[...new Set(figure.asks?.(v).map((q) => q.verb))].join(", ")}\u2069`;
+}
+
+function reasonKey({ is }: View): Key {
+  return is === "unsaved" ? "figure.unsaved" : is === "silent" ? "figure.silent" : is === "none" ? "figure.none" : "figure.waits";
+}
+
+function reason(view: View): string {
+  return `${word(reasonKey(view))} ${view.why ?? ""}`.trim();
 }
 
 /** Whether the paper has another number, as far as digits are shown. */

@@ -1,10 +1,22 @@
 // Texts of the teaching pages. A page that is saved works alone: all languages are in it.
 import { signal } from "@preact/signals";
-import { teaching as de } from "../words/de/teaching";
-import { teaching as en } from "../words/en/teaching";
+import { asked as deAsked } from "../words/de/asked";
+import { teaching as deOwn } from "../words/de/teaching";
+import { asked as enAsked } from "../words/en/asked";
+import { teaching as enOwn } from "../words/en/teaching";
 import { marked } from "../words/pseudo";
-import { teaching as ru } from "../words/ru/teaching";
-import { teaching as uk } from "../words/uk/teaching";
+import { plurals } from "../words/plurals";
+import { asked as ruAsked } from "../words/ru/asked";
+import { teaching as ruOwn } from "../words/ru/teaching";
+import { asked as ukAsked } from "../words/uk/asked";
+import { teaching as ukOwn } from "../words/uk/teaching";
+
+const en = { ...enOwn, ...enAsked } as const;
+const [uk, ru, de] = [
+  { ...ukOwn, ...ukAsked },
+  { ...ruOwn, ...ruAsked },
+  { ...deOwn, ...deAsked },
+];
 
 export type Key = keyof typeof en;
 
@@ -24,10 +36,21 @@ export function has(key: string): key is Key {
   return key in en;
 }
 
-/** The text of a key in the page's language; `{name}` is replaced by an argument. */
+/**
+ * The text of a key in the page's language. `{name}` is replaced by an argument, `{name#one|other}` by the form for a number of it, in the
+ * order of the forms of the language.
+ */
 export function word(key: Key, values: Record<string, string> = {}): string {
-  const pattern = WORDS[language.value][key] ?? en[key];
-  return (language.value === "pseudo" ? marked(pattern) : pattern).replace(/\{(\w+)\}/g, (_, name: string) => values[name] ?? "");
+  const own = language.value === "pseudo" ? undefined : WORDS[language.value][key];
+  const { select, order } = plurals(own === undefined ? "en" : language.value);
+  const pattern = own ?? en[key];
+  return (language.value === "pseudo" ? marked(pattern) : pattern).replace(/\{(\w+)(?:#([^}]*))?\}/g, (_, name: string, forms: string | undefined) => {
+    const value = values[name] ?? "";
+    if (forms === undefined) return value;
+    const all = forms.split("|");
+    const form = all[order.indexOf(select(Number(value.replace(",", "."))))] ?? all[all.length - 1];
+    return language.value === "pseudo" ? marked(form) : form;
+  });
 }
 
 /** A number with so many decimals, a real minus, and the decimal sign of the language. */

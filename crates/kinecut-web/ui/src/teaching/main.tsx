@@ -5,12 +5,14 @@ import { type Tag, isTag, language } from "./language";
 import { FiguresPage } from "./page";
 import { PAPERS } from "./papers";
 import type { Parts } from "./save";
-import { take } from "./state";
+import { type Ask, askedBy } from "./asked";
+import { take, takeAnswers } from "./state";
 
 const paper = signal(PAPERS[0].no);
 
 /** Shows the pages in an element; gives back what takes them away. */
-export function mount(into: HTMLElement, first: Tag | null, parts: () => Promise<Parts>): () => void {
+export function mount(into: HTMLElement, first: Tag | null, parts: () => Promise<Parts>, ask: Ask): () => void {
+  askedBy(ask);
   if (first) language.value = first;
   render(<FiguresPage paper={paper} parts={parts} />, into);
   return () => render(null, into);
@@ -23,7 +25,10 @@ if (own) {
   paper.value = Number(own.dataset.paper);
   if (isTag(own.dataset.language)) language.value = own.dataset.language;
   const open = PAPERS.find((p) => p.no === paper.value);
-  if (open) take(open.figures, own.dataset.own ?? "{}");
+  if (open) {
+    take(open.figures, own.dataset.own ?? "{}");
+    takeAnswers(open.figures, document.getElementById("kinecut-answers")?.textContent ?? '{"inputs":{},"answers":{}}');
+  }
   effect(() => {
     root.lang = language.value;
   });

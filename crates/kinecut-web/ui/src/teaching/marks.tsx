@@ -3,6 +3,7 @@ import type { ComponentChildren } from "preact";
 import { type Key, num, word } from "./language";
 import type { Drawing, Point } from "./model";
 import { type Box, type Plane, round, ticks } from "./plane";
+import { stepped } from "./state";
 
 /** A symbol of the catalogue: what follows the underscore is its index. */
 export function Symbol({ of }: { of: Key }) {
@@ -166,11 +167,35 @@ export function Handle({ at, name, value, min, max, told, move, step }: HandlePr
         if (!by) return;
         e.preventDefault();
         const k = e.shiftKey ? 10 : e.altKey ? 0.1 : 1;
-        step(by[0] * k, by[1] * k);
+        stepped(() => step(by[0] * k, by[1] * k));
       }}
     >
       <circle cx={at[0]} cy={at[1]} r="16" class="reach" />
       <circle cx={at[0]} cy={at[1]} r="7" class="grip" />
+    </g>
+  );
+}
+
+/** A place of the picture that is pressed, by mouse, finger or Enter. */
+export function Press({ at, width, text, press, mark }: { at: Point; width: number; text: string; press: () => void; mark: string }) {
+  return (
+    <g
+      class="press"
+      role="button"
+      tabindex={0}
+      aria-label={text}
+      data-press={mark}
+      onClick={press}
+      onKeyDown={(e: KeyboardEvent) => {
+        if (e.key !== "Enter" && e.key !== " ") return;
+        e.preventDefault();
+        press();
+      }}
+    >
+      <rect x={at[0]} y={at[1]} width={width} height="28" rx="4" class="box" />
+      <text x={at[0] + width / 2} y={at[1] + 18} text-anchor="middle">
+        {text}
+      </text>
     </g>
   );
 }

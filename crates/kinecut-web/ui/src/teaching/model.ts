@@ -1,5 +1,6 @@
 // A figure of a paper: a function of numbers to a picture, with what can be changed and what comes out.
 import type { VNode } from "preact";
+import type { Question } from "./asked";
 import { type Key, num, scientific } from "./language";
 
 export type Values = Record<string, number>;
@@ -20,6 +21,10 @@ export interface Field {
   options?: Key[];
   /** Whether it counts with the other inputs as they are; else it is not shown. */
   counts?: (v: Values) => boolean;
+  /** Of a figure that asks: no part of its questions, so that it changes nothing of the answers. */
+  free?: boolean;
+  /** Of a figure that asks: values whose answers a saved page holds. */
+  saved?: number[];
 }
 
 /** A number that comes out: in the table, in the picture and in the file of numbers to the same digit. */
@@ -53,8 +58,12 @@ export interface Drawing {
   text: (row: string) => string;
   /** Changes inputs; they are brought into their bounds and to their digits. */
   set: (values: Values) => void;
+  /** The inputs as they are wanted now: a figure that asks may still draw those before. */
+  now: () => Values;
   /** For names of elements that must differ between figures. */
   id: string;
+  /** What is kept of the answers, of a figure that asks. */
+  data: unknown[];
 }
 
 export interface Figure {
@@ -66,15 +75,27 @@ export interface Figure {
   after: string;
   fields: Field[];
   start: Values;
+  /** A sentence of its own about its origin, where the paper at hand has no picture. */
+  drawn?: Key;
   /** Whether it is a table in the paper. */
   table?: boolean;
   /** Whether the paper is wrong here, and both can be seen. */
   mistake?: boolean;
-  rows: (v: Values) => Row[];
+  /** Questions for kinecut, whose answers are all that the figure shows; without them it is a closed form. */
+  asks?: (v: Values) => Question[];
+  /** More inputs whose answers a saved page holds, beside those of the fields one by one. */
+  series?: (base: Values) => Values[];
+  /** What follows the explanation. */
+  below?: (data: unknown[]) => VNode;
+  rows: (v: Values, data: unknown[]) => Row[];
+  /** Words for its sentences, beside its numbers. */
+  more?: (v: Values, data: unknown[]) => Record<string, string>;
   /** A sentence in place of results that do not exist. */
-  wrong?: (v: Values) => Key | null;
+  wrong?: (v: Values, data: unknown[]) => Key | null;
+  /** A sentence beside results that do not hold for the whole. */
+  warns?: (v: Values, data: unknown[]) => Key | null;
   draw: (c: Drawing) => { height: number; children: VNode };
-  toml: (v: Values) => string;
+  toml: (v: Values, data: unknown[]) => string;
 }
 
 /** Values within the bounds of their fields and with no more digits than those. */
@@ -89,7 +110,13 @@ export function bounded(fields: Field[], values: Values): Values {
   );
 }
 
-/** A number of TOML: digits without an end of zeros, and a point where it must be a float. */
+/** A number of TOML: digits without an end of zeros. */
 export function tomlNumber(n: number, digits = 6): string {
   return String(Number(n.toFixed(digits)));
+}
+
+/** A length of which a whole number of parts is to fill another: rounded up, so that there is no part more. */
+export function tomlAbove(n: number, digits = 6): string {
+  const power = 10 ** digits;
+  return String(Number((Math.ceil(n * power - 1e-6) / power).toFixed(digits)));
 }

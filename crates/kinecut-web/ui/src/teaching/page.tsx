@@ -19,17 +19,19 @@ interface Props {
 export function FiguresPage({ paper, parts }: Props) {
   const open = PAPERS.find((p) => p.no === paper.value) ?? PAPERS[0];
   const failed = useSignal("");
+  const saving = useSignal("");
   const tag: Tag = language.value;
   useEffect(() => {
     if (!parts) document.title = word(open.title);
   }, [tag, open.no]);
   const save = async (of: () => Promise<Parts>) => {
     try {
-      download(`kinecut-figures-${open.no}-${tag}.html`, "text/html", await alone(open, word(open.title), await of()));
+      download(`kinecut-figures-${open.no}-${tag}.html`, "text/html", await alone(open, word(open.title), await of(), (n, all) => (saving.value = word("page.saving", { n: String(n), of: String(all) }))));
       failed.value = "";
     } catch (error) {
       failed.value = error instanceof Error ? error.message : String(error);
     }
+    saving.value = "";
   };
   return (
     <main class="tg" lang={tag === "pseudo" ? "en-x-pseudo" : tag} data-paper={open.no}>
@@ -80,6 +82,11 @@ export function FiguresPage({ paper, parts }: Props) {
           )}
         </div>
       </header>
+      {saving.value && (
+        <p class="sentence" role="status">
+          {saving.value}
+        </p>
+      )}
       {failed.value && (
         <p class="sentence" role="alert">
           <span lang="en">{failed.value}</span>

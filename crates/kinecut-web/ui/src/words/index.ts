@@ -1,6 +1,7 @@
 // All texts of the workbench: one catalogue a language, by keys; what a language lacks is English.
 import { effect, signal } from "@preact/signals";
 import { type Catalogue, type Key, en } from "./en";
+import { plurals } from "./plurals";
 import { marked } from "./pseudo";
 import type { Unit } from "./units";
 
@@ -72,20 +73,6 @@ const UNIT = /\} (?=(?:%|мм|мс|с|mm|ms|s|об|м\/|m\/|1\/)(?!\p{L}))/gu;
 
 /** Isolates: what stands between them is no text of the catalogue. */
 const [OPEN, CLOSE] = ["\u2068", "\u2069"];
-
-const rules = new Map<string, { select: (n: number) => string; order: string[] }>();
-
-/** Plural forms of a language, in the order of its catalogue. */
-function plurals(tag: string): { select: (n: number) => string; order: string[] } {
-  let known = rules.get(tag);
-  if (!known) {
-    const of = new Intl.PluralRules(tag);
-    const used: string[] = of.resolvedOptions().pluralCategories;
-    known = { select: (n) => of.select(n), order: ["zero", "one", "two", "few", "many", "other"].filter((form) => used.includes(form)) };
-    rules.set(tag, known);
-  }
-  return known;
-}
 
 /**
  * The text of a key. `{name}` is replaced by an argument, `{name#one|other}` by the form for a number of it, in the order of the forms of

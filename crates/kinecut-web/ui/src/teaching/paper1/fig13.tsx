@@ -1,7 +1,7 @@
 // Figure 3: the involute of a circle, its thread, and the circles that it touches.
 import { word } from "../language";
 import { Axes, Dot, Handle, Label, ScaleBar } from "../marks";
-import { type Drawing, type Figure, type Point, type Row, type Values, tomlNumber } from "../model";
+import { type Drawing, type Figure, type Point, type Row, type Values, tomlAbove, tomlNumber } from "../model";
 import { type Box, Plane, add, polar } from "../plane";
 import { TURN, involute, unrolled } from "../involute";
 import { RADIUS, TURNS, pieces } from "./fields";
@@ -120,5 +120,5 @@ export const fig13: Figure = {
   mistake: true,
   rows,
   draw,
-  toml: (v) => `diameter = ${tomlNumber(2 * v.R + 42)}\nrough = { stepover = ${tomlNumber(v.R / v.n)}, allowance = 1, feed = 6000 }`,
+  toml: (v) => `diameter = ${tomlNumber(2 * v.R + 42)}\nrough = { stepover = ${tomlAbove(v.R / v.n)}, allowance = 1, feed = 6000 }`,
 };

@@ -82,7 +82,8 @@ export const fig14: Figure = {
   rows,
   draw,
   toml: (v) => {
-    const at = (v.R * (v.n - 1)) / v.n;
-    return `finish = { turns = ${v.n}, feed = 3000, start = [${tomlNumber(at * Math.sin(v.psi))}, ${tomlNumber(-at * Math.cos(v.psi))}] }`;
+    // Half a turn before the circle: near a whole turn the angle ψ hangs on the last digits of the start.
+    const [x, y] = involute(v.R / (TURN * v.n), v.psi)(TURN * (v.n - 0.5));
+    return `finish = { turns = ${v.n}, feed = 3000, start = [${tomlNumber(x)}, ${tomlNumber(y)}] }`;
   },
 };

@@ -54,7 +54,7 @@ function draw(c: Drawing) {
           value={v.x0}
           min={-500}
           max={500}
-          told={`${c.v.x0}; ${c.v.y0}`}
+          told={`${c.text("x0")}; ${c.text("y0")}`}
           move={(at) => {
             const [x, y] = plane.back(at);
             c.set({ x0: x, y0: y });

@@ -19,6 +19,8 @@ interface Spiral {
 const INVOLUTE = 0;
 const LENS = 1;
 const ARCHIMEDES = 2;
+/** Names of the paths in an input. */
+const STRATEGIES = ["involute", "lens-1", "archimedean"];
 
 function spiral(v: Values, way = v.way): Spiral {
   const R = (v.D - v.d) / 2 - v.delta;
@@ -81,7 +83,9 @@ function rows(v: Values): Row[] {
 }
 
 function wrong(v: Values) {
-  return v.d >= v.D ? ("f16.tooLarge" as const) : (v.D - v.d) / 2 - v.delta <= 0 ? ("f16.noRoom" as const) : null;
+  if (v.d >= v.D) return "f16.tooLarge" as const;
+  if ((v.D - v.d) / 2 - v.delta <= 0) return "f16.noRoom" as const;
+  return v.H > v.d ? ("f16.ridges" as const) : null;
 }
 
 function draw(c: Drawing) {
@@ -110,7 +114,7 @@ function draw(c: Drawing) {
           value={v.D}
           min={10}
           max={400}
-          told={`${v.D}`}
+          told={`${c.text("D")}`}
           move={(at) => c.set({ D: 2 * Math.hypot(...plane.back(at)) })}
           step={(dx, dy) => c.set({ D: v.D + dx + dy })}
         />
@@ -197,5 +201,5 @@ export const fig16: Figure = {
   wrong,
   rows,
   draw,
-  toml: (v) => `diameter = ${tomlNumber(v.D)}\nrough = { stepover = ${tomlNumber(v.H)}, allowance = ${tomlNumber(v.delta)}, feed = 6000 }`,
+  toml: (v) => `diameter = ${tomlNumber(v.D)}\nstrategy = "${STRATEGIES[v.way]}"\nrough = { stepover = ${tomlNumber(v.H)}, allowance = ${tomlNumber(v.delta)}, feed = 6000 }`,
 };

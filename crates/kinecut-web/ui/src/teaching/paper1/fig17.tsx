@@ -6,6 +6,9 @@ import { type Box, Plane } from "../plane";
 import { TURN, lens, lensAt, lensCurvatureRadius, lensLength, lensReach } from "../involute";
 import { RADIUS, TURNS, X0, Y0, pieces } from "./fields";
 
+/** Names of the contacts in an input. */
+const CONTACTS = ["g2", "g4", "g6"];
+
 function rotate([x, y]: Point, angle: number): Point {
   const [c, s] = [Math.cos(angle), Math.sin(angle)];
   return [c * x - s * y, s * x + c * y];
@@ -48,21 +51,27 @@ function misread(v: Values) {
   return { path: turnedBack, end: turnedBack(l.end) };
 }
 
+/** The roll angle as table 3 has it; its last digit is rounded up. */
+const PRINTED = 9.04482;
+
 function rows(v: Values): Row[] {
   const l = lead(v);
   const m = misread(v);
   const far = Math.hypot(...m.end);
-  const paper = v.x0 === -40 && v.y0 === 40 && v.R === 80 && v.n === 2;
+  // Onto the wall, and nowhere beyond it: by the points of the curve.
+  const end = Math.hypot(...l.path(l.end));
+  const beyond = Math.max(...Array.from({ length: 257 }, (_, i) => Math.hypot(...l.path(l.t0 + ((l.end - l.t0) * i) / 256)))) - v.R;
+  const paper = v.contact === 0 && v.x0 === -40 && v.y0 === 40 && v.R === 80 && v.n === 2;
   return [
     { key: "r", symbol: "s.r", name: "q.r", unit: "u.mm", value: l.r, digits: 6 },
     { key: "x", symbol: "s.xT", name: "q.xT", unit: "u.mm", value: l.touch[0], digits: 3, ...(paper ? { printed: 0 } : {}) },
     { key: "y", symbol: "s.yT", name: "q.yT", unit: "u.mm", value: l.touch[1], digits: 3, ...(paper ? { printed: -79 } : {}) },
-    { key: "theta0", symbol: "s.theta0", name: "q.theta0", unit: "u.rad", value: l.t0 + l.psi, digits: 5, ...(v.contact === 0 ? { printed: l.t0 } : {}) },
+    { key: "theta0", symbol: "s.theta0", name: "q.theta0", unit: "u.rad", value: l.t0 + l.psi, digits: 5, ...(v.contact === 0 ? { printed: paper ? PRINTED : l.t0 } : {}) },
     { key: "L", symbol: "s.L", name: "q.L", unit: "u.mm", value: l.length, digits: 3 },
     { key: "Rn", symbol: "s.Rn", name: "q.Rn", unit: "u.mm", value: l.rn, digits: 3 },
     { key: "circle", symbol: "s.Lc", name: "q.Lcircle", unit: "u.mm", value: TURN * v.R, digits: 3 },
-    { key: "end", symbol: "s.Rend", name: "q.Rend", unit: "u.mm", value: v.R, digits: 2, printed: far },
-    { key: "gouge", symbol: "s.gouge", name: "q.gouge", unit: "u.mm", value: 0, digits: 2, printed: Math.max(0, far - v.R) },
+    { key: "end", symbol: "s.Rend", name: "q.Rend", unit: "u.mm", value: end, digits: 2, ...(v.contact === 0 ? { printed: far } : {}) },
+    { key: "gouge", symbol: "s.gouge", name: "q.gouge", unit: "u.mm", value: Math.max(0, beyond), digits: 2, ...(v.contact === 0 ? { printed: Math.max(0, far - v.R) } : {}) },
     { key: "first", symbol: "s.eps", name: "q.firstTouch", unit: "u.rad", value: l.first, digits: 3 },
     { key: "way", symbol: "s.lw", name: "q.thin", unit: "u.mm", value: l.way, digits: 2 },
     { key: "jerk", symbol: "s.dj", name: "q.jerkStep", unit: "u.mmS3", value: l.jerk, digits: 3 },
@@ -75,7 +84,7 @@ function draw(c: Drawing) {
   // Where the circle fills the width, the legend is above it.
   const head = width < 620 ? 84 : 0;
   const ok = Math.hypot(v.x0, v.y0) < v.R;
-  const m = ok && c.printed ? misread(v) : null;
+  const m = ok && c.printed && v.contact === 0 ? misread(v) : null;
   const out = Math.min(1.6 * v.R, Math.max(1.12 * v.R, 1.06 * Math.hypot(v.x0, v.y0), m ? 1.06 * Math.hypot(...m.end) : 0));
   const plane = new Plane([-out, -out], [out, out], { left: (width - size) / 2, top: 8 + head, width: size, height: size });
   const O = plane.at([0, 0]);
@@ -104,7 +113,7 @@ function draw(c: Drawing) {
           value={v.x0}
           min={-500}
           max={500}
-          told={`${v.x0}; ${v.y0}`}
+          told={`${c.text("x0")}; ${c.text("y0")}`}
           move={(at) => {
             const [x, y] = plane.back(at);
             c.set({ x0: x, y0: y });
@@ -185,5 +194,5 @@ export const fig17: Figure = {
   wrong: (v) => (Math.hypot(v.x0, v.y0) >= v.R ? "f15.outside" : null),
   rows,
   draw,
-  toml: (v) => `finish = { turns = ${v.n}, feed = ${tomlNumber(v.F * 1000)}, start = [${tomlNumber(v.x0)}, ${tomlNumber(v.y0)}] }`,
+  toml: (v) => `finish = { turns = ${v.n}, feed = ${tomlNumber(v.F * 1000)}, contact = "${CONTACTS[v.contact]}", start = [${tomlNumber(v.x0)}, ${tomlNumber(v.y0)}] }`,
 };

@@ -76,14 +76,14 @@ function draw(c: Drawing) {
         <Label at={[plane.x(0) + 30, A[1] - 34]} symbol="s.halfPhi" />
         <ScaleBar plane={plane} at={[14, tall + 8]} />
         {ok && <Formula c={c} y={tall + 40} />}
-        <Handle at={rim} name={word("q2.D")} value={v.D} min={1} max={100} told={`${v.D}`} move={(to) => c.set({ D: 2 * Math.abs(plane.back(to)[0]) })} step={(dx) => c.set({ D: v.D + dx })} />
+        <Handle at={rim} name={word("q2.D")} value={v.D} min={1} max={100} told={`${c.text("D")}`} move={(to) => c.set({ D: 2 * Math.abs(plane.back(to)[0]) })} step={(dx) => c.set({ D: v.D + dx })} />
         <Handle
           at={right[1].map((n, i) => (corners.length === 2 ? (n + A[i]) / 2 : n)) as Point}
           name={word("q2.point")}
           value={v.point}
           min={60}
           max={170}
-          told={`2φ ${v.point}°`}
+          told={`2φ ${c.text("point")}°`}
           move={(to) => {
             const [x, z] = plane.back(to);
             c.set({ point: (Math.atan2(Math.abs(x), Math.max(0.001, z)) * 360) / Math.PI });

@@ -90,7 +90,7 @@ function draw(c: Drawing) {
             value={v.alpha}
             min={-60}
             max={60}
-            told={`α ${v.alpha}°`}
+            told={`α ${c.text("alpha")}°`}
             move={(to) => {
               const [u, z] = plane.back(to);
               c.set({ alpha: (Math.atan2(z, Math.max(0.1, u + v.x)) * 180) / Math.PI });
@@ -104,7 +104,7 @@ function draw(c: Drawing) {
             value={v.RS}
             min={5}
             max={500}
-            told={`RS ${v.RS}`}
+            told={`RS ${c.text("RS")}`}
             move={(to) => c.set({ RS: Math.hypot(v.x, plane.back(to)[1]) })}
             step={(dx, dy) => c.set({ RS: v.RS + dy, x: v.x + dx * 0.5 })}
           />

@@ -16,13 +16,14 @@ function rows(v: Values): Row[] {
   const own = contact(s, corners);
   const paper = printed(s, corners);
   const L1 = pointLength(v);
+  const end = own.last - v.overrun;
   return [
     { key: "L1", symbol: "s.Lvr1", name: "q2.L1", unit: "u.mm", value: L1, digits: 3 },
     { key: "L2", symbol: "s.Lvyh2", name: "q2.L2out", unit: "u.mm", value: own.first - own.last - L1, digits: 3, printed: paper.added },
     { key: "Z1", symbol: "s.Zout1", name: "q2.Zout1", unit: "u.mm", value: own.first, digits: 3, printed: paper.first },
-    { key: "Z2", symbol: "s.Zout2", name: "q2.Zout2", unit: "u.mm", value: own.last - v.overrun, digits: 3, printed: paper.last - v.overrun },
+    { key: "Z2", symbol: "s.Zout2", name: "q2.Zout2", unit: "u.mm", value: end, digits: 3, printed: paper.last - v.overrun },
     { key: "crescent", symbol: "s.crescent", name: "q2.crescent", unit: "u.mm", value: Math.max(0, paper.last - own.last), digits: 3 },
-    { key: "left", symbol: "s.left", name: "q2.left", unit: "u.mm", value: 0, digits: 3, printed: Math.max(0, paper.last - own.last - v.overrun) },
+    { key: "left", symbol: "s.left", name: "q2.left", unit: "u.mm", value: Math.max(0, end - own.last), digits: 3, printed: Math.max(0, paper.last - v.overrun - own.last) },
     { key: "half", symbol: "s.yz", name: "q2.half", unit: "u.mm", value: Math.sqrt(Math.max(0, v.D * v.D * 0.25 - v.x * v.x)), digits: 3 },
   ];
 }
@@ -106,7 +107,7 @@ function View({ c, box, across, ok }: { c: Drawing; box: Box; across: boolean; o
           value={v.RS}
           min={5}
           max={500}
-          told={`RS ${v.RS}`}
+          told={`RS ${c.text("RS")}`}
           // Near the drill a large cylinder is almost flat: the hand moves its radius by shares.
           move={(to) => c.set({ RS: v.RS * Math.exp(((v.kind === 0 ? 1 : -1) * (to[1] - plane.y(height(s, 0)))) / 160), x: v.x })}
           step={(dx, dy) => c.set({ RS: v.RS + dy, x: v.x + dx * 0.5 })}

@@ -3,8 +3,8 @@ import { word } from "../language";
 import { Axes, Handle, Label, ScaleBar } from "../marks";
 import { type Drawing, type Figure, type Point, type Row, type Values, tomlNumber } from "../model";
 import { type Box, Plane, turned } from "../plane";
-import { angleAt, lengths } from "./lengths";
-import { COVER, along, turnedEdge } from "./part";
+import { angleAt, isWide, lengths } from "./lengths";
+import { COVER, CUTTER, LEAST, along, turnedEdge } from "./part";
 
 const SAMPLES = 1440;
 
@@ -15,7 +15,7 @@ function rows(v: Values): Row[] {
     { key: "good", symbol: "s.Lgood", name: "q4.goodLength", unit: "u.mm", value: all.exits - all.bad, digits: 2 },
     { key: "exits", symbol: "s.Lexit", name: "q4.exitLength", unit: "u.mm", value: all.exits, digits: 2 },
     { key: "entries", symbol: "s.Lentry", name: "q4.entryLength", unit: "u.mm", value: all.entries, digits: 2 },
-    { key: "share", symbol: "s.share", name: "q4.share", unit: "u.percent", value: (100 * all.bad) / all.exits, digits: 1 },
+    { key: "share", symbol: "s.share", name: "q4.share", unit: "u.percent", value: all.exits > 0 ? (100 * all.bad) / all.exits : NaN, digits: 1 },
   ];
 }
 
@@ -36,9 +36,17 @@ function draw(c: Drawing) {
           {(s) => (
             <>
               <path d={`M${s.x(0)} ${box.top}H${s.x(v.psi0)}V${box.top + box.height}H${s.x(0)}Z`} class="hatched" />
-              {all.bins.map((n, i) => (
-                <path key={i} d={`M${s.x(10 * i) + 1} ${s.y(0)}V${s.y(n)}H${s.x(10 * i + 10) - 1}V${s.y(0)}Z`} class={10 * i + 10 <= v.psi0 ? "badBar" : "bar"} />
-              ))}
+              {all.bins.map((n, i) => {
+                // Of the bar in which the threshold lies, the part below it is bad.
+                const bad = Math.min(n, Math.max(0, all.bad - all.bins.slice(0, i).reduce((sum, m) => sum + m, 0)));
+                const bar = (from: number, to: number) => `M${s.x(10 * i) + 1} ${s.y(from)}V${s.y(to)}H${s.x(10 * i + 10) - 1}V${s.y(from)}Z`;
+                return (
+                  <g key={i}>
+                    {bad > 0 && <path d={bar(0, bad)} class="badBar" />}
+                    {n > bad && <path d={bar(bad, n)} class="bar" />}
+                  </g>
+                );
+              })}
               <path d={`M${s.x(v.psi0)} ${box.top}V${box.top + box.height}`} class="second" />
               <Label at={[s.x(v.psi0) + (v.psi0 > 120 ? -8 : 8), box.top + 14]} symbol="s.Psi0" anchor={v.psi0 > 120 ? "end" : "start"} />
               <Label at={[s.x(v.psi0 / 2), box.top + 14]} symbol="s.Lbad" row="bad" c={c} anchor="middle" />
@@ -48,7 +56,7 @@ function draw(c: Drawing) {
                 value={v.psi0}
                 min={1}
                 max={179}
-                told={`Ψ₀ ${v.psi0}°`}
+                told={`Ψ₀ ${c.text("psi0")}°`}
                 move={(to) => c.set({ psi0: ((to[0] - box.left) / box.width) * 180 })}
                 step={(dx, dy) => c.set({ psi0: v.psi0 + dx + dy })}
               />
@@ -83,7 +91,7 @@ function Plan({ c, box }: { c: Drawing; box: Box }) {
       <path d={kinds.curve} class="curve" />
       <path d={kinds.badEdge} class="badEdge" />
       <path d={`M${plane.x(-65)} ${y}H${plane.x(65)}`} class="axis" marker-end="url(#tg-arrow)" />
-      <path d={`M${plane.x(0)} ${plane.y(v.c - 50)}A${50 * plane.scale} ${50 * plane.scale} 0 0 0 ${plane.x(0)} ${plane.y(v.c + 50)}`} class="ghost" />
+      <path d={`M${plane.x(0)} ${plane.y(v.c - CUTTER)}A${CUTTER * plane.scale} ${CUTTER * plane.scale} 0 0 0 ${plane.x(0)} ${plane.y(v.c + CUTTER)}`} class="ghost" />
       <ScaleBar plane={plane} at={[box.left + 6, box.top + box.height]} />
       <Handle
         at={ring}
@@ -91,7 +99,7 @@ function Plan({ c, box }: { c: Drawing; box: Box }) {
         value={v.gamma}
         min={0}
         max={360}
-        told={`γ ${v.gamma}°`}
+        told={`γ ${c.text("gamma")}°`}
         move={(to) => {
           const [x, z] = plane.back(to);
           c.set({ gamma: (turned(Math.atan2(z, x)) * 180) / Math.PI });
@@ -104,7 +112,7 @@ function Plan({ c, box }: { c: Drawing; box: Box }) {
         value={v.c}
         min={-60}
         max={60}
-        told={`c ${v.c}`}
+        told={`c ${c.text("c")}`}
         move={(to) => c.set({ c: plane.back(to)[1] })}
         step={(dx, dy) => c.set({ c: v.c + 0.5 * (dx + dy) })}
       />
@@ -121,7 +129,8 @@ export const fig41: Figure = {
     { key: "gamma", symbol: "s.gamma", name: "q4.gamma", unit: "u.deg", min: 0, max: 360, step: 1, digits: 4 },
     { key: "c", symbol: "s.c", name: "q4.c", unit: "u.mm", min: -60, max: 60, step: 0.5, digits: 4 },
   ],
-  start: { psi0: 90, gamma: 322.7262, c: 0.5212 },
+  start: { psi0: 90, gamma: Number(LEAST.placement.turn.toFixed(4)), c: Number(LEAST.placement.offset.toFixed(4)) },
+  warns: (v) => (isWide(lengths(v.gamma, v.c, v.psi0, 72).reach) ? "f45.wide" : null),
   rows,
   draw,
   toml: (v) => `placement = { angle = ${tomlNumber(v.gamma)}, offset = ${tomlNumber(v.c)} }`,

@@ -3,11 +3,10 @@ import { word } from "../language";
 import { Handle, Label, ScaleBar } from "../marks";
 import { type Drawing, type Figure, type Point, type Row, type Values, tomlNumber } from "../model";
 import { Plane, turned } from "../plane";
-import { COVER, type Crossing, type Edge, along, crossings, turnedEdge } from "./part";
+import { isWide, lengths } from "./lengths";
+import { COVER, CUTTER, type Crossing, type Edge, FEED, LEAST, LOOPS, along, crossings, turnedEdge } from "./part";
 
 const TURN = 2 * Math.PI;
-const FEED = 0.84;
-const CUTTER = 50;
 const r = FEED / TURN;
 const deg = (n: number) => (n * 180) / Math.PI;
 
@@ -43,7 +42,7 @@ function rows(v: Values): Row[] {
 function outline(plane: Plane, edges: Edge[]): string {
   const piece = (edge: Edge) => plane.line(Array.from({ length: edge.centre ? 49 : 2 }, (_, i) => along(edge, i / (edge.centre ? 48 : 1))));
   const joined = (part: Edge[]) => part.map((edge, i) => (i ? piece(edge).replace("M", "L") : piece(edge))).join("") + "Z";
-  return joined(edges.slice(0, 4)) + joined(edges.slice(4, 6)) + edges.slice(6).map((edge) => joined([edge])).join("");
+  return LOOPS.map(({ first, count }) => joined(edges.slice(first, first + count))).join("");
 }
 
 function draw(c: Drawing) {
@@ -81,7 +80,7 @@ function draw(c: Drawing) {
           value={v.m}
           min={-130}
           max={130}
-          told={`${v.m}; ${v.c}`}
+          told={`${c.text("m")}; ${c.text("c")}`}
           move={(to) => {
             const [x, y] = plane.back(to);
             c.set({ m: x / FEED, c: y });
@@ -94,7 +93,7 @@ function draw(c: Drawing) {
           value={v.gamma}
           min={0}
           max={360}
-          told={`γ ${v.gamma}°`}
+          told={`γ ${c.text("gamma")}°`}
           move={(to) => {
             const [x, y] = plane.back(to);
             c.set({ gamma: deg(turned(Math.atan2(y, x))) });
@@ -177,9 +176,10 @@ export const fig43: Figure = {
     { key: "psi0", symbol: "s.Psi0", name: "q4.psi0", unit: "u.deg", min: 1, max: 179, step: 1, digits: 1 },
     { key: "exit", symbol: "s.i", name: "q4.exit", min: 1, max: 12, step: 1, digits: 0 },
   ],
-  start: { gamma: 322.726, c: 0.521, m: -50, psi0: 90, exit: 1 },
+  start: { gamma: Number(LEAST.placement.turn.toFixed(3)), c: Number(LEAST.placement.offset.toFixed(3)), m: -50, psi0: 90, exit: 1 },
   mistake: true,
   wrong: (v) => (state(v).exits.length === 0 ? "f43.none" : null),
+  warns: (v) => (isWide(lengths(v.gamma, v.c, v.psi0, 72).reach) ? "f45.wide" : null),
   rows,
   draw,
   toml: (v) => `placement = { angle = ${tomlNumber(v.gamma)}, offset = ${tomlNumber(v.c)} }`,

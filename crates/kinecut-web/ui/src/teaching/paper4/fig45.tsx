@@ -3,10 +3,8 @@ import { word } from "../language";
 import { Axes, Handle, type Scale } from "../marks";
 import { type Drawing, type Figure, type Row, type Values, tomlNumber } from "../model";
 import type { Box } from "../plane";
-import { CUTTER, lengths, survey } from "./lengths";
-
-/** The least burr length of this cover at a threshold of 90°, which `kinecut face` proves over all turns and offsets. */
-const LEAST = { value: 117.690179516327, bound: 117.689682687012, gamma: 322.726166403619, c: 0.521249266645555 };
+import { isWide, lengths, survey } from "./lengths";
+import { CUTTER, LEAST } from "./part";
 
 function rows(v: Values): Row[] {
   const here = lengths(v.gamma, v.c, v.psi0, 1440);
@@ -17,10 +15,10 @@ function rows(v: Values): Row[] {
     { key: "largest", symbol: "s.Psimax", name: "q4.largest", unit: "u.deg", value: here.largest, digits: 1 },
     { key: "reach", symbol: "s.reach", name: "q4.reach", unit: "u.mm", value: here.reach, digits: 2 },
     { key: "least", symbol: "s.Lmin", name: "q4.leastLength", unit: "u.mm", value: LEAST.value, digits: 3 },
-    { key: "bound", symbol: "s.Lbound", name: "q4.bound", unit: "u.mm", value: LEAST.bound, digits: 4 },
+    { key: "bound", symbol: "s.Lbound", name: "q4.bound", unit: "u.mm", value: LEAST.lower_bound, digits: 4 },
   ];
   if (!best) return found;
-  return [...found, { key: "here", symbol: "s.gammaMin", name: "q4.bestTurn", unit: "u.deg", value: best.gamma, digits: 0 }, { key: "hereLength", symbol: "s.Lhere", name: "q4.bestLength", unit: "u.mm", value: best.bad, digits: 1 }];
+  return [...found, { key: "here", symbol: "s.gammaMin", name: "q4.bestTurn", unit: "u.deg", value: best.gamma, digits: 0 }, { key: "hereLength", symbol: "s.Lhere", name: "q4.bestLength", unit: "u.mm", value: lengths(best.gamma, v.c, v.psi0, 1440).bad, digits: 1 }];
 }
 
 function draw(c: Drawing) {
@@ -28,8 +26,9 @@ function draw(c: Drawing) {
   const all = survey(v);
   const upper: Box = { left: 56, top: 34, width: width - 76, height: 110 };
   const lower: Box = { left: 56, top: 224, width: width - 76, height: 190 };
-  const most = Math.max(...all.map((p) => p.bad)) * 1.05;
-  const low = Math.min(LEAST.value, ...all.map((p) => p.bad)) * 0.9;
+  // The least over all placements is in the chart, wherever the curve is.
+  const lengthsSeen = [LEAST.value, ...all.filter((p) => !p.wide).map((p) => p.bad)];
+  const [low, most] = [Math.min(...lengthsSeen) * 0.9, Math.max(...lengthsSeen) * 1.05];
   // Where the part is too wide there is no curve.
   const line = (of: (p: (typeof all)[number]) => number, s: Scale) => all.map((p, i) => (p.wide ? "" : `${i === 0 || all[i - 1].wide ? "M" : "L"}${s.x(p.gamma).toFixed(1)} ${s.y(of(p)).toFixed(1)}`)).join("");
   const wide = (s: Scale, box: Box) => all.filter((p) => p.wide).map((p) => `M${s.x(p.gamma - 0.5).toFixed(1)} ${box.top}H${s.x(Math.min(360, p.gamma + 0.5)).toFixed(1)}V${box.top + box.height}H${s.x(p.gamma - 0.5).toFixed(1)}Z`).join("");
@@ -60,7 +59,7 @@ function draw(c: Drawing) {
                 value={v.gamma}
                 min={0}
                 max={360}
-                told={`γ ${v.gamma}°, ${c.text("bad")}`}
+                told={`γ ${c.text("gamma")}°, ${c.text("bad")}`}
                 move={(to) => c.set({ gamma: ((to[0] - lower.left) / lower.width) * 360 })}
                 step={(dx, dy) => c.set({ gamma: (v.gamma + dx + dy + 360) % 360 })}
               />
@@ -82,6 +81,7 @@ export const fig45: Figure = {
   ],
   start: { gamma: 20, c: 0, psi0: 90 },
   wrong: (v) => (Math.abs(v.c) > CUTTER ? "f45.outside" : null),
+  warns: (v) => (isWide(lengths(v.gamma, v.c, v.psi0, 72).reach) ? "f45.wide" : null),
   rows,
   draw,
   toml: (v) => `placement = { angle = ${tomlNumber(v.gamma)}, offset = ${tomlNumber(v.c)} }`,

@@ -1,9 +1,8 @@
 // Edge lengths by the angle at which teeth meet them, for a feed that is small against the cutter: each place of the outline is met by the
 // front arc where its distance from the centre line says, and the angle is that of the arc less that of the outward normal.
 import type { Point, Values } from "../model";
-import { COVER, type Edge, along, direction, turnedEdge } from "./part";
+import { COVER, CUTTER, type Edge, MARGIN, along, direction, turnedEdge } from "./part";
 
-export const CUTTER = 50;
 const BINS = 18;
 
 export interface Lengths {
@@ -71,6 +70,11 @@ export function lengths(gamma: number, c: number, psi0: number, samples: number)
   return all;
 }
 
+/** Whether the cutter, with its margin, does not reach the whole part. */
+export function isWide(reach: number): boolean {
+  return reach > CUTTER - MARGIN + 1e-9;
+}
+
 const surveys = new Map<string, { gamma: number; bad: number; largest: number; wide: boolean }[]>();
 
 /** Each degree of turn, at one offset. */
@@ -80,7 +84,7 @@ export function survey({ c, psi0 }: Values) {
   if (!found) {
     found = Array.from({ length: 361 }, (_, gamma) => {
       const { bad, largest, reach } = lengths(gamma, c, psi0, 72);
-      return { gamma, bad, largest, wide: reach > CUTTER - 1 };
+      return { gamma, bad, largest, wide: isWide(reach) };
     });
     if (surveys.size > 20) surveys.clear();
     surveys.set(key, found);

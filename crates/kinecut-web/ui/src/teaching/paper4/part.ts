@@ -1,5 +1,7 @@
-// The cover of a gear pump (examples/04_gear_pump_cover): outlines with the material on the right, and their crossings with a tooth's path.
+// The cover of a gear pump, and the crossings of its outline with a tooth's path. Its numbers are those that `kinecut face --json` prints of
+// examples/04_gear_pump_cover/face.toml: test/teaching.py compares cover.json with the program.
 import type { Point } from "../model";
+import cover from "./cover.json";
 
 export interface Edge {
   start: Point;
@@ -9,30 +11,23 @@ export interface Edge {
   sweep?: number;
 }
 
-const HALF = -Math.PI;
-const BORE = 4.521142305848379;
-const [GEAR_Y, BOLT] = [16.97056274847714, 3.5];
+/** The cover as it is drawn in DXF, material on the right. */
+export const COVER: Edge[] = cover.outline.edges.map((edge) => ({
+  start: edge.start as Point,
+  end: edge.end as Point,
+  ...(edge.centre && edge.sweep !== undefined ? { centre: edge.centre as Point, sweep: (edge.sweep * Math.PI) / 180 } : {}),
+}));
 
-function bolt(x: number, y: number, side: 1 | -1): Edge {
-  return { start: [x + BOLT, y], end: [x + BOLT, y], centre: [x, y], sweep: side * 2 * Math.PI };
-}
+/** First edge of each closed line and the number of its edges. */
+export const LOOPS = cover.outline.loops;
 
-export const COVER: Edge[] = [
-  { start: [-14, 40], end: [14, 40] },
-  { start: [14, 40], end: [14, -40], centre: [14, 0], sweep: HALF },
-  { start: [14, -40], end: [-14, -40] },
-  { start: [-14, -40], end: [-14, 40], centre: [-14, 0], sweep: HALF },
-  { start: [0, GEAR_Y], end: [0, -GEAR_Y], centre: [-14, 0], sweep: BORE },
-  { start: [0, -GEAR_Y], end: [0, GEAR_Y], centre: [14, 0], sweep: BORE },
-  ...[
-    [-46, 0],
-    [46, 0],
-    [-30, 28],
-    [30, 28],
-    [-30, -28],
-    [30, -28],
-  ].map(([x, y]) => bolt(x, y, 1)),
-];
+/** Radius of the cutter, its feed in a turn, and how far it has to reach beyond the part [mm]. */
+export const CUTTER = cover.cutter.radius;
+export const FEED = cover.cutter.feed_per_revolution;
+export const MARGIN = cover.margin;
+
+/** The least burr length at a threshold of 90°, its placement, and the bound below which no placement is. */
+export const LEAST = cover.optimum;
 
 export function turnedPoint([x, y]: Point, angle: number): Point {
   const [c, s] = [Math.cos(angle), Math.sin(angle)];

@@ -18,6 +18,13 @@ function printedPlace(v: Values): Place {
   return [v.R - short * Math.cos(v.phi), v.R - short * Math.sin(v.phi), v.z * Math.cos(v.alpha)];
 }
 
+/** Distance of the end of the chain of matrices from the end of the generatrix. */
+function astray(v: Values): number {
+  const end = { ...v, z: v.s };
+  const place4 = chain(end).reduceRight<number[]>((p, { matrix }) => [0, 1, 2, 3].map((row) => p.reduce((sum, n, k) => sum + matrix[4 * row + k] * n, 0)), [0, 0, 0, 1]);
+  return Math.hypot(...place(end).map((n, k) => n - place4[k]));
+}
+
 function rows(v: Values): Row[] {
   const [x, y, z] = place(v);
   const [px, py] = printedPlace(v);
@@ -29,7 +36,7 @@ function rows(v: Values): Row[] {
     { key: "top", symbol: "s.Rs", name: "q5.top", unit: "u.mm", value: v.R - v.s * Math.sin(v.alpha), digits: 3, printed: v.R + v.s * Math.sin(v.alpha) },
     { key: "height", symbol: "s.h", name: "q5.height", unit: "u.mm", value: v.s * Math.cos(v.alpha), digits: 3 },
     { key: "degrees", symbol: "s.alpha", name: "q5.alpha", unit: "u.deg", value: (v.alpha * 180) / Math.PI, digits: 3 },
-    { key: "off", symbol: "s.Dmax", name: "q5.off", unit: "u.mm", value: 0, digits: 1, printed: 2 * v.s * Math.sin(v.alpha) * Math.cos(v.alpha) },
+    { key: "off", symbol: "s.Dmax", name: "q5.off", unit: "u.mm", value: astray(v), digits: 1, printed: Math.abs(2 * v.s * Math.sin(v.alpha) * Math.cos(v.alpha)) },
   ];
 }
 
@@ -126,7 +133,7 @@ function Net({ c, box }: { c: Drawing; box: Box }) {
         value={v.phi}
         min={0}
         max={6.283}
-        told={`φ ${v.phi}, z ${v.z}`}
+        told={`φ ${c.text("phi")}, z ${c.text("z")}`}
         move={(at) => c.set(near(at))}
         step={(dx, dy) => c.set({ phi: (v.phi + dx * 0.05 + 2 * Math.PI) % (2 * Math.PI), z: v.z + dy })}
       />
@@ -163,7 +170,7 @@ function Plan({ c, box }: { c: Drawing; box: Box }) {
         value={v.phi}
         min={0}
         max={6.283}
-        told={`φ ${v.phi}`}
+        told={`φ ${c.text("phi")}`}
         move={(at) => {
           const [px, py] = plane.back(at);
           c.set({ phi: (Math.atan2(py, px) + 2 * Math.PI) % (2 * Math.PI) });
@@ -203,14 +210,14 @@ function Section({ c, box }: { c: Drawing; box: Box }) {
       <Label at={[top[0] + 8, top[1] - 8]} text="1" />
       <Label at={[O[0] + 6, plane.y(v.s * cos + 0.2 * v.R)]} symbol="s.axisZ" />
       <Dot at={P} />
-      <Handle at={base} name={word("q5.R")} value={v.R} min={1} max={300} told={`R ${v.R}`} move={(at) => c.set({ R: plane.back(at)[0] })} step={(dx) => c.set({ R: v.R + dx })} />
+      <Handle at={base} name={word("q5.R")} value={v.R} min={1} max={300} told={`R ${c.text("R")}`} move={(at) => c.set({ R: plane.back(at)[0] })} step={(dx) => c.set({ R: v.R + dx })} />
       <Handle
         at={top}
         name={word("q5.alphaRad")}
         value={v.alpha}
         min={-1.2}
         max={1.4}
-        told={`α ${v.alpha}`}
+        told={`α ${c.text("alpha")}`}
         move={(at) => {
           const [x, z] = plane.back(at);
           c.set({ alpha: Math.atan2(v.R - x, z) });

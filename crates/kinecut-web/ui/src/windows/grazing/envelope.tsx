@@ -36,7 +36,11 @@ export function EnvelopeWindow({ doc }: { doc: Document }) {
       <div class="cols">
         <div class="stack">
           <SweepView scrub={scrub} dim={old} />
-          {growth && <TimePanel scrub={scrub} growth={growth} />}
+          {growth && (
+            <div class={old ? "older" : ""}>
+              <TimePanel scrub={scrub} growth={growth} />
+            </div>
+          )}
         </div>
         <div class="stack">
           <Plane looked={looked} dim={old || scrub.late.value} />
@@ -44,8 +48,12 @@ export function EnvelopeWindow({ doc }: { doc: Document }) {
         </div>
         <div class="stack">{schema && <Settings doc={doc} verb="envelope" schema={schema} item={item} keys={["move", "screw", "joints", "of", "tool"]} />}</div>
       </div>
-      {moment && <Spans sheet={moment} looked={looked} />}
-      {growth && <Notes notes={growth.notes} findings={scrub.current(scrub.whole.value)?.findings ?? []} />}
+      {moment && (
+        <div class={old || scrub.late.value ? "older" : ""}>
+          <Spans sheet={moment} looked={looked} />
+        </div>
+      )}
+      {growth && <Notes notes={growth.notes} findings={scrub.current(scrub.whole.value)?.findings ?? growth.findings} />}
     </main>
   );
 }

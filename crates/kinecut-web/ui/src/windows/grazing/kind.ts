@@ -33,7 +33,7 @@ export const envelope: QuestionKind = {
     const wrong = asFinding(answer);
     return wrong ? { wrong } : { answer };
   },
-  findings: (answer) => answersOf<Growth>(answer).flatMap((one) => (isGrowth(one) ? [] : [one])),
+  findings: (answer) => answersOf<Growth>(answer).flatMap((one) => (isGrowth(one) ? one.findings : [one])),
   Window: EnvelopeWindow,
   begin: { command: "command.envelope", stem: "envelope", text: BEGIN.envelope },
 };

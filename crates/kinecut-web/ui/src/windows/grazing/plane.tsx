@@ -4,7 +4,8 @@ import { useMemo } from "preact/hooks";
 import { untranslated } from "../../app/verbatim";
 import { fixed } from "../../base/format";
 import { t } from "../../words";
-import { KINDS, type Piece, type Sheet } from "./sheet";
+import { curvesOf, regionsOf } from "./planelines";
+import type { Piece, Sheet } from "./sheet";
 import type { Looked } from "./state";
 import { useWidth } from "./width";
 
@@ -170,62 +171,6 @@ function Drawing({ sheet, looked, width }: { sheet: Sheet; looked: Looked; width
   );
 }
 
-type X = (theta: number) => number;
-type Y = (piece: number, u: number) => number;
-
-/** Turns by which what leaves the plane on one side is drawn again on the other. */
-const AGAIN = [-720, -360, 0, 360, 720];
-
-function regionsOf(sheet: Sheet, x: X, y: Y): string {
-  let d = "";
-  for (const { piece, u, enters } of sheet.bands) {
-    if (!enters) continue;
-    const [a, b] = [y(piece, u[0]), y(piece, u[1])];
-    const [[p, q], [r, s]] = enters;
-    for (const by of AGAIN) {
-      if (Math.max(q, s) + by < 0 || Math.min(p, r) + by > 360) continue;
-      d += `M${x(p + by).toFixed(1)} ${a.toFixed(2)}H${x(q + by).toFixed(1)}L${x(s + by).toFixed(1)} ${b.toFixed(2)}H${x(r + by).toFixed(1)}Z`;
-    }
-  }
-  return d;
-}
-
-interface Line {
-  span: number;
-  kind: number;
-  d: string;
-}
-
-/** Each branch of each span as one line, as often as it is seen. */
-function curvesOf(sheet: Sheet, x: X, y: Y): Line[] {
-  const lines = new Map<string, Line>();
-  for (const { points } of sheet.loops) {
-    let before: (typeof points)[number] | null = null;
-    let theta = 0;
-    let way: [number, number][] = [];
-    const close = () => {
-      if (before && way.length > 1) {
-        const key = `${before.span} ${before.branch}`;
-        const line = lines.get(key) ?? { span: before.span, kind: KINDS.indexOf(sheet.spans[before.span].kind), d: "" };
-        const [low, high] = [Math.min(...way.map((w) => w[0])), Math.max(...way.map((w) => w[0]))];
-        for (const by of AGAIN) if (high + by >= 0 && low + by <= 360) line.d += `M${way.map(([a, b]) => `${x(a + by).toFixed(1)} ${b.toFixed(2)}`).join("L")}`;
-        lines.set(key, line);
-      }
-      way = [];
-    };
-    for (const p of points) {
-      // The middle of a disc has no angle; the curve goes on from it as it came.
-      if (p.point[0] === 0 && p.point[1] === 0 && p.normal[0] === 0 && p.normal[1] === 0) continue;
-      if (before && (before.span !== p.span || before.branch !== p.branch)) close();
-      theta = way.length > 0 ? p.theta + Math.round((theta - p.theta) / 360) * 360 : p.theta;
-      way.push([theta, y(p.piece, p.u)]);
-      before = p;
-    }
-    close();
-  }
-  return [...lines.values()];
-}
-
 /** The place that is looked at, in words. */
 export function ReadOut({ looked }: { looked: Looked }) {
   const sheet = looked.sheet.value;
@@ -233,12 +178,12 @@ export function ReadOut({ looked }: { looked: Looked }) {
   if (!sheet) return null;
   const piece = spot && sheet.pieces[spot.piece];
   return (
-    <p class="readout" role="status" data-readout={spot ? (spot.on ? "curve" : spot.enters ? "enters" : "leaves") : ""}>
+    <p class="readout" role="status" data-readout={spot ? (spot.on ? "curve" : spot.enters ? "enters" : sheet.whole.includes(spot.piece) ? "slides" : "leaves") : ""}>
       {spot && piece ? (
         <>
           <b translate={false}>{piece.what}</b>{" "}
           <span>{t(piece.parameter === "mm" ? "grazing.atWay" : "grazing.atNormal", { u: fixed(spot.u, 3), theta: fixed(spot.theta, 2), z: fixed(spot.point[2], 3) })}</span>{" "}
-          <b>{t(spot.on ? "grazing.onCurve" : spot.enters ? "grazing.enters" : "grazing.leaves")}</b>
+          <b>{t(spot.on ? "grazing.onCurve" : spot.enters ? "grazing.enters" : sheet.whole.includes(spot.piece) ? "grazing.slides" : "grazing.leaves")}</b>
         </>
       ) : (
         <span class="q">{t("grazing.readHow")}</span>

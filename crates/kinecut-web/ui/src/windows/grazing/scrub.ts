@@ -29,7 +29,7 @@ class Line<T> {
     this.stop();
     const { signal } = (this.control = new AbortController());
     const beside = this.doc.isNew ? {} : { beside: this.doc.id };
-    const told = await api.verb<unknown>(this.verb, { generation: ++this.generation, new: `${this.name}.json`, ...beside, text: JSON.stringify(question) }, signal);
+    const told = await api.verb<unknown>(this.verb, { generation: ++this.generation, new: `${this.doc.name.replaceAll("/", "-")}-${this.name}.json`, ...beside, text: JSON.stringify(question) }, signal);
     const all = answersOf<T>(told);
     return signal.aborted || all.some((one) => (one as api.Finding).code === "KC0009") ? null : all;
   }
@@ -95,6 +95,8 @@ export class Scrub {
     });
     effect(() => {
       void this.doc.text.value;
+      // Where play was halted the volume is asked for.
+      void this.playing.value;
       this.later();
     });
   }

@@ -121,6 +121,7 @@ export interface Growth {
   moments: Moment[];
   pieces: Piece[];
   notes: string[];
+  findings: Finding[];
   vertices: number;
   triangles: number;
   /** Triangles of the tool at the start, and at the end: from, before. */
@@ -166,7 +167,7 @@ export function isSwept(answer: Swept | Finding | undefined): answer is Swept {
 }
 
 /** Radius and height of a place of a piece. */
-export function placeOf(piece: Piece, u: number): Pair {
+export function placeOf(piece: Pick<Piece, "start" | "end" | "centre" | "radius" | "from" | "to">, u: number): Pair {
   if (piece.centre) {
     const [phi, r] = [(u * Math.PI) / 180, piece.radius ?? 0];
     return [piece.centre[0] + r * Math.cos(phi), piece.centre[1] + r * Math.sin(phi)];

@@ -172,6 +172,7 @@ export class Stage {
 
   private ray(x: number, y: number): Raycaster {
     const ray = new Raycaster();
+    this.camera.updateMatrixWorld();
     ray.setFromCamera(new Vector2((2 * x) / this.canvas.clientWidth - 1, 1 - (2 * y) / this.canvas.clientHeight), this.camera);
     return ray;
   }

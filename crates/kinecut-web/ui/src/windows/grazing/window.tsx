@@ -37,7 +37,11 @@ export function GrazingWindow({ doc }: { doc: Document }) {
         <div class="stack">
           <Plane looked={looked} dim={old} />
           <ReadOut looked={looked} />
-          {sheet && <MotionPanel doc={doc} looked={looked} sheet={sheet} isFixed={isFixed} />}
+          {sheet && (
+            <div class={old ? "older" : ""}>
+              <MotionPanel doc={doc} looked={looked} sheet={sheet} isFixed={isFixed} />
+            </div>
+          )}
         </div>
         <div class="stack">{schema && <Settings doc={doc} verb="grazing" schema={schema} item={item} keys={["tool", "moment"]} />}</div>
       </div>

@@ -54,8 +54,9 @@ export interface Samples {
   speed: number[];
   along: number[];
   acceleration: number[];
-  jerk_along: number[];
-  jerk: number[];
+  /** Null of a control without a limit of jerk. */
+  jerk_along: (number | null)[];
+  jerk: (number | null)[];
   curvature: (number | null)[];
   engagement: (number | null)[];
 }
@@ -63,21 +64,26 @@ export interface Samples {
 export interface Run {
   length: number;
   time: number;
-  stops: number;
-  smoothed: number;
+  /** Null of a control with a planner of its own, which does not tell. */
+  stops: number | null;
+  smoothed: number | null;
   farthest: number;
   measured: [number, number] | null;
+  engagement_places: number;
+  /** The reason for which a load that is asked for is not measured. */
+  unmeasured: Finding | null;
   peaks: {
     speed: number;
     along: number;
     acceleration: number;
-    jerk_along: number;
-    jerk: number;
+    jerk_along: number | null;
+    jerk: number | null;
     engagement: number | null;
     axis_acceleration: number;
-    axis_jerk: number;
+    axis_jerk: number | null;
   };
   cycle: number;
+  finest: number;
   /** The joint at which the circle at the wall begins. */
   closing: Joint | null;
   joint_count: number;

@@ -84,7 +84,7 @@ interface Curve {
 function All({ state, plan, pass, run, width }: { state: State; plan: Plan; pass: Pass; run: Run; width: number }) {
   const svg = useRef<SVGSVGElement>(null);
   const axis = state.axis.value;
-  const others = state.others.ghosts(pass.pass).filter(({ other }) => !isSame(other.id, plan, pass));
+  const others = state.others.ghosts(pass.pass).filter(({ other }) => !isSame(other.id, state, plan, pass));
   const longest = Math.max(...[run, ...others.map((g) => g.run)].map((r) => (axis === "way" ? r.length : r.time)));
   const own = axis === "way" ? run.length : run.time;
   const [from, to] = state.window.value;
@@ -143,7 +143,7 @@ function All({ state, plan, pass, run, width }: { state: State; plan: Plan; pass
             axis={axis}
             limit={limitOf(state, plan, quantity.name)}
             curves={[
-              ...others.map(({ other, run: of, index }) => ({ name: `ghost g${index}`, id: other.id, run: of, column: quantity.column })),
+              ...others.map(({ other, run: of, index, isOld }) => ({ name: `ghost g${index}${isOld ? " aged" : ""}`, id: other.id, run: of, column: quantity.column })),
               ...(quantity.along ? [{ name: `own along ${pass.pass}`, run, column: quantity.along }] : []),
               { name: `own ${pass.pass}`, run, column: quantity.column },
             ]}
@@ -171,8 +171,8 @@ function All({ state, plan, pass, run, width }: { state: State; plan: Plan; pass
 }
 
 /** Whether a way of doing it is the one that the text asks for. */
-export function isSame(id: string, plan: Plan, pass: Pass): boolean {
-  return pass.pass === "rough" && id === plan.strategy;
+export function isSame(id: string, state: State, plan: Plan, pass: Pass): boolean {
+  return id === (pass.pass === "rough" ? plan.strategy : state.contact.value);
 }
 
 function placeOf(axis: Axis, value: number): string {
@@ -315,9 +315,9 @@ function Legend({ state, pass }: { state: State; pass: Pass }) {
       <span>
         {sample("joint")} {t("hole.keyJoint")}
       </span>
-      {state.others.ghosts(pass.pass).map(({ other, index }) => (
+      {state.others.ghosts(pass.pass).map(({ other, index, isOld }) => (
         <span key={other.id}>
-          {sample(`ghost g${index}`)} <code translate={false}>{other.id}</code>
+          {sample(`ghost g${index}`)} <code translate={false}>{other.id}</code> {isOld && t("hole.ghostOld")}
         </span>
       ))}
     </div>

@@ -10,7 +10,7 @@ import { t } from "../../words";
 
 interface Row {
   strategy: string;
-  figures: { length: number; blocks: number; load: { most: number; mean: number }; runs: { feed: number; time: number; stops: number }[] } | null;
+  figures: { length: number; blocks: number; load: { most: number; mean: number }; runs: { feed: number; time: number; stops: number | null }[] } | null;
   error: api.Finding | null;
 }
 

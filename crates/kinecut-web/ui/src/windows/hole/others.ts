@@ -10,6 +10,9 @@ import type { PassName, State } from "./state";
 /** The others are asked for when the answer has rested for so long [ms]. */
 const REST = 360;
 
+/** Code of a finding: a newer question came before the answer. */
+const CANCELLED = "KC0009";
+
 export interface Other {
   id: string;
   /** Its pass; null where it is not possible. */
@@ -61,11 +64,12 @@ export class Others {
   }
 
   /** Those of a pass that are laid over and known. */
-  ghosts(pass: PassName): { other: Other; run: NonNullable<Pass["run"]>; index: number }[] {
+  ghosts(pass: PassName): { other: Other; run: NonNullable<Pass["run"]>; index: number; isOld: boolean }[] {
+    const text = this.state.doc.answered.value?.text;
     return idsOf(pass).flatMap((id, index) => {
       const other = this.known.value.get(id);
       const run = other?.pass?.run;
-      return other && run && this.shown.value.has(id) ? [{ other, run, index }] : [];
+      return other && run && this.shown.value.has(id) ? [{ other, run, index, isOld: other.text !== text }] : [];
     });
   }
 
@@ -83,7 +87,7 @@ export class Others {
         // A name of its own: requests of one name follow one another.
         const question = { generation: ++this.generation, new: `${doc.name.replaceAll("/", "-")}-${id}.toml`, text: own, samples: pass };
         const answer = await api.verb<Plan>("hole", question, stop);
-        if (stop.aborted) return;
+        if (stop.aborted || (answer as api.Finding).code === CANCELLED) return;
         const plan = planOf(answer);
         const found = plan?.passes.find((p) => p.pass === pass) ?? null;
         const why = plan ? null : ((answer as api.Finding).message ?? null);

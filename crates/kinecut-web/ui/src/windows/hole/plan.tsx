@@ -228,8 +228,8 @@ function Path({ run, pass }: { run: Run; pass: Pass }) {
 function Ghosts({ state, pass }: { state: State; pass: Pass }) {
   return (
     <>
-      {state.others.ghosts(pass.pass).map(({ other, run, index }) => (
-        <path key={other.id} class={`way ghost g${index}`} data-ghost={other.id} d={stretch(run, 0, run.length)} />
+      {state.others.ghosts(pass.pass).map(({ other, run, index, isOld }) => (
+        <path key={other.id} class={`way ghost g${index}${isOld ? " aged" : ""}`} data-ghost={other.id} d={stretch(run, 0, run.length)} />
       ))}
     </>
   );

@@ -2,8 +2,10 @@
 import { type Signal, computed, signal } from "@preact/signals";
 import type { Document } from "../../store/document";
 import { worker } from "../../store/session";
+import { parse, plain } from "../../toml/parse";
 import { type Pass, type Plan, planOf } from "./answer";
 import { Others } from "./others";
+import { CONTACTS, type Table, table } from "./question";
 import { timeAt, wayAt } from "./track";
 
 export type PassName = Pass["pass"];
@@ -48,6 +50,12 @@ export class State {
   readonly pass = computed<Pass | null>(() => {
     const all = this.plan.value?.passes ?? [];
     return all.find((p) => p.pass === this.wished.value && p.run) ?? all.find((p) => p.run) ?? all[0] ?? null;
+  });
+  /** Contact of the lead-in with the wall, as the text of the answer has it. */
+  readonly contact = computed<string>(() => {
+    const text = this.doc.answered.value?.text;
+    const finish = text === undefined ? {} : table(table((plain(parse(text)) as Table).operation).finish);
+    return typeof finish.contact === "string" ? finish.contact : CONTACTS[0];
   });
   /** Place of the cutter as a share of the way of its pass. */
   readonly share = signal(0.5);

@@ -17,7 +17,7 @@ export function Ways({ state, plan, pass }: { state: State; plan: Plan; pass: Pa
   const { others } = state;
   const known = others.known.value;
   const text = state.doc.answered.value?.text;
-  const isOwn = (id: string) => (pass.pass === "rough" ? isSame(id, plan, pass) : pass === known.get(id)?.pass);
+  const isOwn = (id: string) => isSame(id, state, plan, pass);
   return (
     <section class="panel ways" aria-label={t(`hole.ways.${pass.pass}`)} tabIndex={-1} data-panel="ways">
       <header>
@@ -64,11 +64,11 @@ export function Ways({ state, plan, pass }: { state: State; plan: Plan; pass: Pa
                       <td class="r" translate={false}>{fixed(run.time, 2)}</td>
                       <td class="r" translate={false}>{run.peaks.engagement === null ? "\u2013" : fixed((run.peaks.engagement * 180) / Math.PI, 1)}</td>
                       <td class="r" translate={false}>{short(run.peaks.acceleration / 1000, 4)}</td>
-                      <td class="r" translate={false}>{short(run.peaks.jerk / 1000, 4)}</td>
+                      <td class="r" translate={false}>{run.peaks.jerk === null ? "\u2013" : short(run.peaks.jerk / 1000, 4)}</td>
                       <td translate={false}>{joint?.contact ?? "\u2013"}</td>
                       <td class="r">{step(joint?.steps.acceleration)}</td>
                       <td class="r">{step(joint?.steps.jerk)}</td>
-                      <td class="r" translate={false}>{run.stops}</td>
+                      <td class="r" translate={false}>{run.stops ?? "\u2013"}</td>
                     </>
                   ) : (
                     <td colSpan={9} class="q">{other?.why ? <Said text={other.why} /> : t(other ? "hole.notPossible" : "hole.asked")}</td>
@@ -80,7 +80,7 @@ export function Ways({ state, plan, pass }: { state: State; plan: Plan; pass: Pa
         </table>
       </div>
       <p class="q pad small-print">
-        {t("hole.waysNote")} {[...known.values()].some((o) => o.text !== text) && state.doc.answered.value && t("hole.waysOld", { time: timeOfDay(state.doc.answered.value.at) })}
+        {t("hole.waysNote")} {idsOf(pass.pass).some((id) => known.get(id) && known.get(id)?.text !== text) && state.doc.answered.value && t("hole.waysOld", { time: timeOfDay(state.doc.answered.value.at) })}
       </p>
     </section>
   );

@@ -138,10 +138,18 @@ function Facts({ run, old }: { run: Run; old: boolean }) {
   const deg = peaks.engagement === null ? null : (peaks.engagement * 180) / Math.PI;
   const facts: [string, string, string | null][] = [
     ["time", `${fixed(run.time, 3)} s`, t("hole.fact.timeNote", { mm: fixed(run.length, 1) })],
-    ["engagement", deg === null ? "\u2013" : `${fixed(deg, 2)}°`, deg === null ? t("hole.fact.noLoad") : t("hole.fact.engagementNote")],
+    [
+      "engagement",
+      deg === null ? "\u2013" : `${fixed(deg, 2)}°`,
+      deg !== null ? t("hole.fact.engagementNote", { n: run.engagement_places }) : run.unmeasured ? run.unmeasured.message : t("hole.fact.noLoad"),
+    ],
     ["acceleration", `${short(peaks.acceleration / 1000, 4)} m/s²`, t("hole.fact.alongNote", { along: `${short(peaks.along / 1000, 4)} m/s²` })],
-    ["jerk", `${short(peaks.jerk / 1000, 4)} m/s³`, t("hole.fact.axisNote", { axis: `${short(peaks.axis_jerk / 1000, 4)} m/s³` })],
-    ["stops", String(run.stops), run.smoothed > 0 ? t("hole.fact.smoothed", { n: run.smoothed, mm: short(run.farthest, 3) }) : t("hole.fact.joints", { n: run.joint_count })],
+    peaks.jerk === null || peaks.axis_jerk === null
+      ? ["jerk", "\u2013", t("hole.fact.noJerk")]
+      : ["jerk", `${short(peaks.jerk / 1000, 4)} m/s³`, t("hole.fact.axisNote", { axis: `${short(peaks.axis_jerk / 1000, 4)} m/s³` })],
+    run.stops === null || run.smoothed === null
+      ? ["stops", "\u2013", t("hole.fact.ownPlanner", { n: run.joint_count, mm: short(run.farthest, 3) })]
+      : ["stops", String(run.stops), run.smoothed > 0 ? t("hole.fact.smoothed", { n: run.smoothed, mm: short(run.farthest, 3) }) : t("hole.fact.joints", { n: run.joint_count })],
   ];
   return (
     <dl class={`facts${old ? " older" : ""}`}>

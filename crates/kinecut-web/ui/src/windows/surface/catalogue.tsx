@@ -6,7 +6,7 @@ import * as api from "../../base/api";
 import { t } from "../../words";
 import { arrows } from "../drill/radios";
 import type { Surface } from "./answer";
-import { isFinding } from "./newest";
+import { Newest, isFinding } from "./newest";
 import { Paper, VIEWS, quads } from "./space";
 import { catalogue, of, surfaceFiles, take, told } from "./state";
 
@@ -21,8 +21,8 @@ async function draw(): Promise<void> {
   begun = true;
   try {
     for (const { name } of catalogue.value) {
-      const one = await api.ask<Surface>("surface", { surface: name, sketch: true, length: 0 }, new AbortController().signal);
-      if (isFinding(one) || !one.sketch) continue;
+      const one = await new Newest().ask((signal) => api.ask<Surface>("surface", { surface: name, sketch: true }, signal));
+      if (one === null || isFinding(one) || !one.sketch) continue;
       const paper = new Paper(VIEWS.iso, one.sketch.mesh.flat(), SIZE, SIZE, 3);
       pictures.value = { ...pictures.value, [name]: quads(one.sketch.mesh, paper, 2) };
     }

@@ -4,7 +4,7 @@ import { type Finding, Refused } from "../../base/api";
 /** The verb's word for work that is no longer wanted. */
 const CANCELLED = "KC0009";
 
-/** Times that a question is asked again while the server is busy, and the time between [ms]. */
+/** Times that a question is asked again while the server is busy or has given it up, and the time between [ms]. */
 const MOST = 50;
 const PAUSE = 200;
 
@@ -25,14 +25,16 @@ export class Newest {
     for (let again = 0; ; again++) {
       try {
         const answer = await question(control.signal, ++this.generation);
-        return control.signal.aborted || (isFinding(answer) && answer.code === CANCELLED) ? null : answer;
+        if (control.signal.aborted) return null;
+        // The server gives up what is older about the same thing, also where another part of the page has asked since: that is asked again.
+        if (!(isFinding(answer) && answer.code === CANCELLED) || again === MOST) return answer;
       } catch (error) {
         if (control.signal.aborted) return null;
         // Drawings of a gallery may fill the server's queue; the newest question waits for its turn.
         if (!(error instanceof Refused && error.reason === "busy") || again === MOST) throw error;
-        await new Promise((done) => setTimeout(done, PAUSE));
-        if (control.signal.aborted) return null;
       }
+      await new Promise((done) => setTimeout(done, PAUSE));
+      if (control.signal.aborted) return null;
     }
   }
 

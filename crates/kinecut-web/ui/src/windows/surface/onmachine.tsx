@@ -93,7 +93,11 @@ export function OnMachine() {
           </p>
         )}
         {machine.value === null && <p class="q">{t("surface.askMachine")}</p>}
-        {own && <Answered of={own} />}
+        {own && (
+          <div data-aged={madeStale.value || undefined}>
+            <Answered of={own} />
+          </div>
+        )}
         {told && !own && s && <p class="q">{t("surface.notAsked")}</p>}
       </div>
       {told && <Table />}
@@ -145,7 +149,7 @@ function Table() {
   const told = made.value?.made;
   if (!told || !answer.value) return null;
   return (
-    <div class="wide" tabIndex={0} role="region" aria-label={t("surface.onMachineAll")}>
+    <div class="wide" tabIndex={0} role="region" aria-label={t("surface.onMachineAll")} data-aged={madeStale.value || undefined}>
       <table>
         <thead>
           <tr>

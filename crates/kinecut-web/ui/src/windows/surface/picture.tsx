@@ -49,7 +49,7 @@ function Held({ surface, sketch, width }: { surface: Surface; sketch: Sketch; wi
   const grip = useRef<{ point: boolean; x: number; y: number; yaw: number; pitch: number; moved: boolean } | null>(null);
   const { yaw, pitch } = view.value;
   // The mesh is of the surface alone: a place that moves leaves it as it is.
-  const meshIs = JSON.stringify([sketch.mesh[0][0], sketch.mesh[9][9], sketch.mesh[20][7]]);
+  const meshIs = JSON.stringify(sketch.mesh);
   const paper = useMemo(() => new Paper({ yaw, pitch }, sketch.mesh.flat(), width, height, 34), [meshIs, yaw, pitch, width, height]);
   const faces = useMemo(() => quads(sketch.mesh, paper, 2), [paper]);
   const one = sketch.splits.find((s) => s.machine_code === split.value?.machine_code && s.tool_code === split.value?.tool_code);

@@ -4,7 +4,7 @@ import { Said } from "../../app/verbatim";
 import { t } from "../../words";
 import { type SetUp, type Split, type Surface, elements, letter, part, pretty } from "./answer";
 import { Paper, VIEWS, line, quads } from "./space";
-import { answer, chosen, made, split } from "./state";
+import { answer, chosen, made, madeStale, split } from "./state";
 
 const SIZE: [number, number] = [66, 50];
 
@@ -28,7 +28,8 @@ function Small({ surface, of }: { surface: Surface; of: Split }) {
 
 /** A sign and a word: what a machine says. */
 function Can({ of }: { of: Split }) {
-  const answered = made.value?.made.splits.find((s) => s.machine_code === of.machine_code && s.tool_code === of.tool_code);
+  // What a machine says about other numbers is none of these.
+  const answered = madeStale.value ? undefined : made.value?.made.splits.find((s) => s.machine_code === of.machine_code && s.tool_code === of.tool_code);
   if (!answered) return null;
   return <span class={`tag ${answered.possible ? "safe" : "bad"}`}>{t(answered.possible ? "surface.can" : "surface.cannot")}</span>;
 }

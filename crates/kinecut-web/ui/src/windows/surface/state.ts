@@ -71,6 +71,7 @@ async function ask(): Promise<void> {
     document.documentElement.dataset.surfaceMs = String(performance.now() - begun);
   } catch (error) {
     // A file that is gone: the catalogue is there all the same.
+    late.value = false;
     told(error);
   } finally {
     clearTimeout(timer);

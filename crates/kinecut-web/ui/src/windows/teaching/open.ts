@@ -1,5 +1,6 @@
 // The figures of the papers: pages of their own, loaded when they are opened.
 import { effect, signal } from "@preact/signals";
+import * as api from "../../base/api";
 import { activeId } from "../../store/session";
 import { t } from "../../words";
 
@@ -33,8 +34,15 @@ interface Parts {
 }
 
 interface Pages {
-  mount: (into: HTMLElement, language: string | null, parts: () => Promise<Parts>) => () => void;
+  mount: (into: HTMLElement, language: string | null, parts: () => Promise<Parts>, ask: Ask) => () => void;
 }
+
+type Ask = (verb: string, flags: Record<string, unknown>, text: string, name: string) => Promise<unknown>;
+
+let asked = 0;
+
+/** A question of a figure; figures give up none themselves. */
+const ask: Ask = (verb, flags, text, name) => api.verb(verb, { ...flags, generation: ++asked, new: name, text }, new AbortController().signal);
 
 const asset = (name: string) => new URL(`assets/${name}`, document.baseURI).href;
 
@@ -63,5 +71,5 @@ export async function mountFigures(into: HTMLElement, language: string | null): 
   return pages.mount(into, language, async () => {
     const [script, sheet] = await Promise.all([text("teaching.js"), text("teaching-alone.css")]);
     return { script, style: sheet };
-  });
+  }, ask);
 }

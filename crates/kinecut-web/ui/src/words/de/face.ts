@@ -91,7 +91,7 @@ export const face: Record<keyof typeof en, string> = {
   "face.beaten": "eine andere ist in Grat und Zeit besser",
   "face.unreached": "lässt Material stehen",
   "face.goThere": "Dorthin",
-  "face.method": "Verfahren des Artikels: Nelder und Mead",
+  "face.method": "Verfahren des Aufsatzes: Nelder und Mead",
   "face.showPaper": "im Diagramm",
   "face.statistics": "Von {n} zufälligen Starts: bester {best} mm, Median {median} mm, schlechtester {worst} mm; {share} % enden höchstens 1 % über dem Minimum, nach je {evaluations} Auswertungen.",
   "face.fromDrawn": "Von der gezeichneten Lage endet es bei {mm} mm, nach {n} {n#Auswertung|Auswertungen}.",

@@ -23,6 +23,7 @@ export const grazing = {
   "grazing.onCurve": "grazes",
   "grazing.enters": "enters",
   "grazing.leaves": "leaves",
+  "grazing.slides": "slides along itself",
   "grazing.fold": "fold",
   "grazing.hiddenDashed": "hidden: dashed",
   "grazing.motion": "Motion at this moment",

@@ -21,7 +21,7 @@ export const surface = {
   "surface.machineSide": "machine",
   "surface.toolSide": "tool",
   "surface.chipForming": "Axis {axis} runs while the surface is made",
-  "surface.chipSetting": "Axis {axis} is set and stands still",
+  "surface.chipSetting": "Axis {axis} is set, then rests",
   "surface.matrices": "Matrices of the motions",
   "surface.sketch": "Surface, tool and motions",
   "surface.sketchHow": "drag the point; drag elsewhere to turn",

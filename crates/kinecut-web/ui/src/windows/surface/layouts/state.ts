@@ -62,7 +62,8 @@ export const filters = signal<Filters>(NONE);
 export const weights = signal<Record<string, number> | null>(null);
 export const show = signal(24);
 export const found = signal<{ of: string; found: Found } | null>(null);
-export const pictures = signal<string[]>([]);
+/** Drawings of the layouts of an answer, in their order. */
+export const pictures = signal<{ of: string; all: string[] }>({ of: "", all: [] });
 export const wrong = signal<api.Finding | null>(null);
 export const waits = signal(false);
 /** Whether the tab has been shown. */
@@ -124,7 +125,7 @@ async function ask(): Promise<void> {
     });
     if (isFinding(told)) return;
     const sheet = await sheets.ask((signal, generation) => api.drawing("layouts", { ...flags.peek(), generation }, signal));
-    if (sheet !== null && asked.peek() === key) pictures.value = drawings(sheet);
+    if (sheet !== null && asked.peek() === key) pictures.value = { of: key, all: drawings(sheet) };
     document.documentElement.dataset.layouts = String(Number(document.documentElement.dataset.layouts ?? 0) + 1);
   } catch (error) {
     waits.value = false;

@@ -161,7 +161,7 @@ function Gallery() {
         </p>
       )}
       {told && told.layouts.length === 0 && <p class="pad">{t("layouts.empty")}</p>}
-      <div class="gallery">{told?.layouts.map((l, i) => <Card key={`${l.code}${l.spindle}`} of={l} picture={pictures.value[i]} rank={i + 1} />)}</div>
+      <div class="gallery">{told?.layouts.map((l, i) => <Card key={`${l.code}${l.spindle}`} of={l} picture={pictures.value.of === found.value?.of ? pictures.value.all[i] : undefined} rank={i + 1} />)}</div>
       {told && told.left > told.layouts.length && show.value < MOST && (
         <div class="pad">
           <button onClick={() => (show.value = Math.min(MOST, show.value + MORE))} data-more>

@@ -149,10 +149,12 @@ export interface Found {
   solutions: Solution[];
 }
 
-/** Positions of the axes for a pose. */
+const inverses = new Newest();
+
+/** Positions of the axes for a pose; null where a newer pose has been asked about since. */
 export async function inverse(at: string): Promise<Found | api.Finding | null> {
   try {
-    return await new Newest().ask((signal) => api.ask<Found>("ik", { machine: source.peek()?.machine, at: [at], length: length.peek(), edits: edits() }, signal));
+    return await inverses.ask((signal, generation) => api.ask<Found>("ik", { machine: source.peek()?.machine, at: [at], length: length.peek(), generation, edits: edits() }, signal));
   } catch (error) {
     told(error);
     return null;

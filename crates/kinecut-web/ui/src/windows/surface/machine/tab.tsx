@@ -154,34 +154,34 @@ function Told() {
 /** From tip and direction to the axes. */
 function Inverse() {
   const typed = useSignal("X0 Y0 Z0 I0 J-0.5 K0.866");
-  const found = useSignal<Found | null>(null);
-  const told = useSignal<string | null>(null);
+  const answered = useSignal<{ of: string; found: Found | null; told: string | null } | null>(null);
+  const question = JSON.stringify([source.value, length.value, typed.value]);
   const ask = async () => {
     const answer = await inverse(typed.value);
-    if (answer === null) return;
-    told.value = isFinding(answer) ? answer.message : null;
-    found.value = isFinding(answer) ? null : answer;
+    if (answer !== null) answered.value = { of: question, found: isFinding(answer) ? null : answer, told: isFinding(answer) ? answer.message : null };
   };
+  // Positions of another machine or of another pose are none of this one.
+  const { found, told } = answered.value?.of === question ? answered.value : { found: null, told: null };
   return (
     <section class="panel" aria-label={t("axes.inverse")} tabIndex={-1} data-panel="inverse">
       <header>
         <h2>{t("axes.inverse")}</h2>
       </header>
       <div class="pad">
-        <label class={`field${told.value ? " wrong" : ""}`}>
+        <label class={`field${told ? " wrong" : ""}`}>
           <span>{t("axes.pose")}</span>
-          <input value={typed.value} spellcheck={false} aria-invalid={told.value ? true : undefined} onInput={(e) => (typed.value = e.currentTarget.value)} onKeyDown={(e) => e.key === "Enter" && void ask()} data-pose />
+          <input value={typed.value} spellcheck={false} aria-invalid={told ? true : undefined} onInput={(e) => (typed.value = e.currentTarget.value)} onKeyDown={(e) => e.key === "Enter" && void ask()} data-pose />
         </label>
         <button onClick={() => void ask()} data-inverse>
           {t("axes.find")}
         </button>
-        {told.value && (
+        {told && (
           <p class="told" role="alert">
-            <Said text={told.value} />
+            <Said text={told} />
           </p>
         )}
-        {found.value?.solutions.length === 0 && <p>{t("axes.none")}</p>}
-        {found.value?.solutions.map((s, i) => (
+        {found?.solutions.length === 0 && <p>{t("axes.none")}</p>}
+        {found?.solutions.map((s, i) => (
           <button key={i} class="solution" onClick={() => (joints.value = { ...s.joints })} data-solution={i}>
             <Name>{Object.entries(s.joints).map(([a, v]) => `${a}${fixed(v, 3)}`).join(" ")}</Name>
             {s.within_travel === false && <span class="tag np">{t("axes.beyond")}</span>}
