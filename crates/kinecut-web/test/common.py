@@ -1,4 +1,4 @@
-"""What the scripts of this folder have in common: the program that serves a folder, pages that are watched, and a script as a list of steps.
+"""Parts that the scripts of this folder share: the program that serves a folder, pages that are watched, and a script as a list of steps.
 Needs playwright and axe-playwright-python, and Debian's Chromium (CHROMIUM: its path). With KINECUT_SHOTS set, pictures go into that folder;
 with KINECUT_WEEKLY set, the bounds of time count, on a machine that does nothing else; with KINECUT_DIST set, the page's files come from that
 folder (../dist after a build of the pages) in place of the program."""
@@ -161,7 +161,7 @@ def cells(page: Page, table: str, column: int) -> dict[str, str]:
 
 
 def shell(program: str, *words: str, text: str | None = None, folder: Path | str = EXAMPLES):
-    """What the program prints at the shell with --json: about a text, or about files of a folder."""
+    """The answer of the program at the shell with --json: about a text, or about files of a folder."""
     run = subprocess.run([program, *words, "--json"], input=text, capture_output=True, text=True, cwd=folder)
     return json.loads(run.stdout)
 
@@ -208,7 +208,7 @@ def clean(page: Page, what: str) -> None:
 
 @dataclass
 class Stage:
-    """What the steps of a script have: the browser, a served folder, and a page of it that goes from step to step."""
+    """The things that the steps of a script have: the browser, a served folder, and a page of it that goes from step to step."""
 
     browser: Browser
     program: str

@@ -262,7 +262,7 @@ def machines(page: Page, verb: Verb) -> None:
     page.locator('[data-split="6153|"]').click()
     assert "X follows Z, -0.365028 mm/mm" in page.locator("[data-made] .laws").inner_text(), page.locator("[data-made]").inner_text()
     shot(page, "surface-lathe")
-    # What it says is of these numbers alone: beside others nothing is said until it has answered again.
+    # Its tags are of these numbers alone: beside others nothing is said until it has answered again.
     tags = page.locator(".lattice .card .tag")
     assert tags.count() == len(told["splits"])
     with kept_back(page, "**/api/verb/surface", "lathe_xzc"):

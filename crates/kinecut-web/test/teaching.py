@@ -53,7 +53,7 @@ def copied(page: Page, name: str) -> str:
 
 
 def copies(page: Page, verb: Verb, text: str) -> None:
-    """What is copied gives the figure that is seen: turns, point of tangency, strategy, contact."""
+    """Copied input gives the figure that is seen: turns, point of tangency, strategy, contact."""
     for R, n in [(79, 20), (100, 3), (47.3, 7)]:
         put(page, "1.3", R=R, n=n)
         assert verb("hole", "-", text=changed(text, copied(page, "1.3")))["passes"][0]["whole_turns"] == n, (R, n)
@@ -74,7 +74,7 @@ def copies(page: Page, verb: Verb, text: str) -> None:
         put(page, "1.7", contact=contact)
         finish = verb("hole", "-", text=changed(text, copied(page, "1.7")))["passes"][1]
         assert abs(number(page, "1.7", "L") - finish["length"]) < 2e-3, (contact, finish["length"])
-        # What is printed is about the involute; of the others nothing is said.
+        # The printed figures are about the involute; of the others nothing is said.
         wrong = figure(page, "1.7").locator('[data-printed-number="theta0"]').all_inner_texts()
         assert wrong == (["9.04482"] if contact == 0 else []), (contact, wrong)
         assert ("(here 9.04482 rad)" in figure(page, "1.7").locator(".differs").inner_text()) == (contact == 0)
@@ -222,7 +222,7 @@ def burr(page: Page, verb: Verb) -> None:
         bad, good = (figure(page, "4.1").locator(f"svg .{one}").evaluate_all(high) for one in ("badBar", "bar"))
         assert abs(100 * bad / (bad + good) - number(page, "4.1", "share")) < 0.15, (psi0, bad, good, told(page, "4.1", "share"))
     reset(page, "4.1")
-    # Where the part is too wide for the cutter, that is said beside the numbers of the rest.
+    # A part that is too wide for the cutter is named beside the numbers of the rest.
     for name in ("4.1", "4.3", "4.5"):
         wide = figure(page, name).locator('[data-sentence="f45.wide"]')
         put(page, name, gamma=0, c=0)

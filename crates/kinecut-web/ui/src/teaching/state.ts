@@ -1,4 +1,4 @@
-// What is shown of a figure: the paper's case or one's own, as printed or corrected; of a figure that asks, the last inputs that have answers.
+// The part of a figure that is shown: the paper's case or one's own, as printed or corrected; of a figure that asks, the last inputs that have answers.
 import { type Signal, signal } from "@preact/signals";
 import { type Known, type Question, answerTo, ask, heldOf, hold, isAlone } from "./asked";
 import { type Figure, type Values, bounded } from "./model";

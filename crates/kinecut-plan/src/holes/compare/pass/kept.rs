@@ -18,7 +18,7 @@ pub(super) struct Place {
     pub(super) jerk: Option<f64>,
 }
 
-/// What the samples of a control say.
+/// Contents of the samples, by the kind of the control.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Model {
     /// It limits jerk, so that acceleration does not step.
