@@ -96,7 +96,7 @@ struct Place<'p> {
     axis: &'p str,
     /// Its index in the list that holds it.
     at: usize,
-    /// Whether it belongs to the loops of an outline or to a polyline, whose points may have a bulge: [x, y, bulge].
+    /// Whether it belongs to the loops or lines of an outline or to a polyline, whose points may have a bulge: [x, y, bulge].
     of_loops: bool,
 }
 
@@ -116,7 +116,8 @@ fn in_table<'t>(
         let Some(own) = form.key(name).or_else(renamed) else { continue };
         let inch = inch && !(own_unit && (name == "outline" || form.key("loops").is_some()));
         let axis = if name.len() == 1 { name } else { place.axis };
-        let of_loops = place.of_loops || name == "loops" || name == "polyline";
+        let is_line = name == "polyline" || name == "lines" && form.key("loops").is_some();
+        let of_loops = place.of_loops || name == "loops" || is_line;
         in_value(value, own, Place { inch, axis, at: 0, of_loops }, each);
     }
 }

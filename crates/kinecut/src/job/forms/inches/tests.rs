@@ -78,6 +78,9 @@ fn a_part_says_its_own_units() {
     let line = "units = \"in\"\n[[setup]]\n[[setup.operation]]\ntype = \"contour\"\n\
         polyline = [[0, 1], [2, 0, -1], [2, 3, 0.5]]";
     assert_eq!(read::<JobFile>(line), [0.0, l, 2.0 * l, 0.0, -1.0, 2.0 * l, 3.0 * l, 0.5]);
+    let lines = "units = \"in\"\n[[setup]]\n[[setup.operation]]\ntype = \"contour\"\n\
+        outline = { lines = [[[0, 1], [2, 0, -1], [2, 3]]] }";
+    assert_eq!(read::<JobFile>(lines), [0.0, l, 2.0 * l, 0.0, -1.0, 2.0 * l, 3.0 * l]);
     assert_eq!(read::<JobFile>(job), [-90.0, 90.0, 0.0, 500.0, 0.005, 25.4, 1.0, 2.0, 3.0]);
     let machine = r#"
         units = "in"
