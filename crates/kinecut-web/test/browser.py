@@ -357,6 +357,7 @@ def pseudo(browser: Browser, served: Served) -> None:
         page.locator("dialog[open]").wait_for()
         found += page.evaluate(UNMARKED, MARK)
         page.keyboard.press("Escape")
+        page.locator("dialog[open]").wait_for(state="detached")
     shot(page, "pseudo")
     assert not found, sorted(set(found))
     # The text of the catalogue is there at all, and longer.
