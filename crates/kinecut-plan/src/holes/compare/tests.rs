@@ -276,13 +276,16 @@ fn claims_on_time_and_position_are_those_of_the_runs() {
     }
 }
 
-/// Engagement by brute force: the front of the cutter against all former places of its centre [rad].
-fn brute(chain: &Chain, s: f64, cutter: f64) -> f64 {
-    const STEP: f64 = 0.02;
-    const FRONT: u32 = 1440;
+/// Distance of the places that brute force looks at [mm].
+const APART: f64 = 0.02;
+
+/// Engagement by brute force: the front of the cutter against all former places of its centre, `places` those of the whole chain
+/// [rad].
+fn brute(chain: &Chain, places: &[glam::DVec2], s: f64, cutter: f64) -> f64 {
+    const FRONT: u32 = 720;
     let (here, ahead) = (chain.point(s), (chain.point(s) - chain.point(s - 1e-3)).to_angle());
-    let former = (0..=((s - 1e-6) / STEP) as u32).map(|k| chain.point(STEP * f64::from(k)));
-    let near: Vec<_> = former.filter(|p| p.distance(here) < 2.0 * cutter).collect();
+    let former = &places[..=((s - 1e-6) / APART) as usize];
+    let near: Vec<_> = former.iter().copied().filter(|p| p.distance(here) < 2.0 * cutter).collect();
     let free = (0..FRONT).filter(|k| {
         let angle = ahead + ((f64::from(*k) + 0.5) / f64::from(FRONT) - 0.5) * std::f64::consts::PI;
         let edge = here + cutter * glam::DVec2::from_angle(angle);
@@ -304,13 +307,16 @@ fn the_engagement_of_a_pass_is_that_of_its_own_place_where_the_load_changes_fast
         // The first place of the path is one that is measured.
         assert!(run.samples.engagement[0].is_some() && run.samples.s[0] == 0.0);
         let chain = Chain::new(curves);
+        let count = (chain.length() / APART) as u32;
+        let places: Vec<_> = (0..=count).map(|k| chain.point(APART * f64::from(k))).collect();
         let [mut checked, mut idle] = [0, 0];
         for i in (0..run.samples.s.len()).step_by(9) {
             let s = run.samples.s[i];
             if s < 2.0 || s > chain.length() - 1.0 {
                 continue;
             }
-            let (told, wanted) = (run.samples.engagement[i].unwrap(), brute(&chain, s, terms.cutter));
+            let (told, wanted) =
+                (run.samples.engagement[i].unwrap(), brute(&chain, &places, s, terms.cutter));
             assert!(
                 (told - wanted).abs() < 0.05,
                 "{} at {s}: {told}, by brute force {wanted}",
