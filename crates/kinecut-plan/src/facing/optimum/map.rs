@@ -93,8 +93,7 @@ pub fn objective_map_watched(
         let shift = domain.placement(angle, 0.0).offset;
         Ok((range.map(|c| c + shift), values.collect()))
     };
-    let columns_of: Result<Vec<([f64; 2], Vec<Option<f64>>)>> =
-        (0..columns).into_par_iter().map(column).collect();
-    let (offsets, values): (Vec<[f64; 2]>, Vec<Vec<Option<f64>>>) = columns_of?.into_iter().unzip();
+    let made: Result<Vec<_>> = (0..columns).into_par_iter().map(column).collect();
+    let (offsets, values): (Vec<[f64; 2]>, Vec<Vec<Option<f64>>>) = made?.into_iter().unzip();
     Ok(ObjectiveMap { columns, rows, values: values.into_iter().flatten().collect(), offsets })
 }
