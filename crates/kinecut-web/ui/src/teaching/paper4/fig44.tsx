@@ -71,7 +71,7 @@ function draw(c: Drawing) {
           <Way key={i} box={{ left: 8 + (i % columns) * (each + 10), top: second + Math.floor(i / columns) * (low + 40), width: each, height: low }} edges={edges} revolution={revolution} turn={v.gamma} c={v.c} />
         ))}
         {!way && <Label at={[8, second + 20]} text={word(isAlone() ? "figure.notHeld" : "figure.waits")} />}
-        {way?.length === 0 && <Label at={[8, second + 20]} text={word("f45.wide")} />}
+        {way?.length === 0 && <Label at={[8, second + 20]} text={word("f44.wide")} />}
         <Handle
           at={[hx, hy]}
           name={word("q4.gamma")}
@@ -147,7 +147,7 @@ function lengthOf({ start, end, centre, sweep }: Edge): number {
 /** A placement in small, its line below. */
 function Tile({ box, edges, placed, turn, c, name }: { box: Box; edges: Edge[]; placed: Placed | null; turn: number; c: number; name: string }) {
   const plane = new Plane([-62, -62], [62, 62], box);
-  const told = placed ? word("f44.tile", { name, bad: num(placed.bad, 1), n: String(badOf(placed).length) }) : `${name}: ${word("f45.wide")}`;
+  const told = placed ? word("f44.tile", { name, bad: num(placed.bad, 1), n: String(badOf(placed).length) }) : `${name}: ${word("f44.wide")}`;
   return (
     <g data-tile={turn}>
       <circle cx={plane.x(0)} cy={plane.y(c)} r={CUTTER * plane.scale} class="ghost" />

@@ -374,7 +374,7 @@ export const asked: Record<keyof typeof en, string> = {
   "s.above": "ΔL",
   "q4.badStretches": "Kantenstücke mit Primärgrat",
   "q4.above": "über der kleinsten",
-  "f45.wide": "breiter als der Fräser",
+  "f44.wide": "breiter als der Fräser",
   "f44.title": "Lagen des Werkstücks nacheinander, mit Austrittswinkeln",
   "f44.best": "Zum nachgewiesenen Kleinsten",
   "f44.turns": "über den Drehwinkel γ",

@@ -373,7 +373,7 @@ export const asked = {
   "s.above": "ΔL",
   "q4.badStretches": "stretches of edges with primary burr",
   "q4.above": "above the least",
-  "f45.wide": "too wide for the cutter",
+  "f44.wide": "too wide for the cutter",
   "f44.title": "Positions of the part, with exit angles at each step",
   "f44.best": "To the proven least",
   "f44.turns": "over the turn of the part γ",
