@@ -9,6 +9,7 @@
 //! point. mm, rad, s; feeds in mm per revolution.
 
 mod advice;
+mod ceiling;
 mod cross_bore;
 mod domain;
 mod lengths;
@@ -28,6 +29,7 @@ mod way;
 mod zone;
 
 pub use advice::{Advice, GIVEN, OUR_DEFAULT, advice};
+pub use ceiling::Ceiling;
 pub use cross_bore::CrossBore;
 pub use lengths::{Coordinates, Lengths};
 pub use lips::{LipBalance, lip_balance};

@@ -3,6 +3,7 @@
 use std::f64::consts::TAU;
 
 use super::advice::{Advice, GIVEN, INDEXABLE_PRE_HOLE, OUR_DEFAULT, advice};
+use super::ceiling::joined;
 use super::lengths::Frames;
 use super::{
     BoundarySurface, Coordinates, Cover, DrillSpec, DrillWay, End, Feeds, Lengths, LipBalance, Mouth,
@@ -77,6 +78,9 @@ const MESH_LEVEL: f64 = 1e-4;
 /// # Errors
 /// `KC0701` for an invalid drill point, `KC0901` and `KC0902` for a case that contradicts itself.
 pub fn plan_drill(spec: &DrillSpec) -> Result<DrillPlan> {
+    if let Some(ceiling) = &spec.ceiling {
+        ceiling.check()?;
+    }
     spec.method.check(&spec.point, spec.diameter, spec.pre_hole.as_ref().map(|h| h.diameter))?;
     let edge = spec.cutting_edge()?;
     let mut body = PassedBody::of(spec, edge)?;
@@ -148,17 +152,15 @@ impl PassedBody {
             Some(_) => transient(&edge, &spec.entry, Cover::Whole).map_err(|e| e.under("entry"))?.first,
             None => entry.first,
         };
-        let exit = match spec.end.exit() {
-            Some(exit) => Some(transient(&edge, exit, Cover::Whole).map_err(|e| e.under("exit"))?),
-            None => None,
-        };
+        let exits = spec.comes_out(&edge, 1.0).map_err(|e| e.under("exit"))?;
+        let exit = joined(&exits);
         let mut passages = Vec::with_capacity(2);
         let banded = spec.point.is_stepped();
         if banded {
             bands(spec, &edge, &mut passages)?;
         } else {
             passages.push(Passage { transient: entry, side: Side::Entry, share: 1.0 });
-            passages.extend(exit.map(|t| Passage { transient: t, side: Side::Exit, share: 1.0 }));
+            passages.extend(exits);
         }
         Ok(PassedBody { edge, passages, entry, above, exit, banded })
     }
@@ -166,6 +168,13 @@ impl PassedBody {
 
 /// Refuses what would have to be put into a body whose passages are given.
 fn in_body(spec: &DrillSpec) -> Result<()> {
+    if spec.ceiling.is_some() {
+        let what = "a hole from the other side is followed in plain faces only";
+        let finding = Finding::error(Code::DRILL_CASE, what).key("ceiling");
+        return Err(finding
+            .help("plan without cross bores, a body's mesh, and a hole beside the axis or blind")
+            .into());
+    }
     let key = match &spec.pre_hole {
         _ if spec.passages.is_none() => return Ok(()),
         _ if !spec.bores.is_empty() => "cross_bore",
@@ -222,6 +231,21 @@ impl DrillSpec {
         }
     }
 
+    /// The exits of an edge that is a share of the whole one: into the floor of a hole from the other side, and out of the exit;
+    /// none of a blind hole.
+    fn comes_out(&self, edge: &EdgeProfile, share: f64) -> Result<Vec<Passage>> {
+        let Some(exit) = self.end.exit() else { return Ok(Vec::new()) };
+        let mut exits = match &self.ceiling {
+            Some(ceiling) => ceiling.exits(edge, exit)?,
+            None => {
+                let transient = transient(edge, exit, Cover::Whole)?;
+                vec![Passage { transient, side: Side::Exit, share: 1.0 }]
+            }
+        };
+        exits.iter_mut().for_each(|e| e.share *= share);
+        Ok(exits)
+    }
+
     /// The part of the tool's edge that cuts: without what runs in a through hole about the same axis, and up to the
     /// diameter that is reached. Passages found in a body must be those of this edge.
     ///
@@ -270,13 +294,7 @@ fn bands(spec: &DrillSpec, edge: &EdgeProfile, passages: &mut Vec<Passage>) -> R
         let Some(band) = band.clipped(edge.inner_radius(), edge.outer_radius()) else { continue };
         let share = area(&band) / whole;
         passages.push(Passage { transient: spec.goes_in(&band)?, side: Side::Entry, share });
-        if let Some(exit) = spec.end.exit() {
-            passages.push(Passage {
-                transient: transient(&band, exit, Cover::Whole)?,
-                side: Side::Exit,
-                share,
-            });
-        }
+        passages.extend(spec.comes_out(&band, share)?);
     }
     Ok(())
 }

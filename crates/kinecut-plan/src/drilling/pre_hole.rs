@@ -123,33 +123,46 @@ impl PreHole {
     pub(super) fn bottom_transient(&self, edge: &EdgeProfile) -> Option<Transient> {
         let bottom = self.bottom.as_ref()?;
         let distance = if self.is_concentric() { 0.0 } else { self.disc().centre.length() };
-        let mut search = Search::new();
-        for one in edge.segments() {
-            for other in bottom.edge.segments() {
-                let pair = Pair { one, other, distance };
-                pair.candidates(|r, z| search.note(bottom.height + z, bottom.height + z, r));
-            }
-        }
-        search.found.first.is_finite().then_some(search.found)
+        meeting(edge, [bottom.height, 1.0], &bottom.edge, distance)
     }
 }
 
-/// A segment of the drill's edge and one of the bottom, their axes a distance apart.
+/// The transient of an edge at a surface that another edge has made, their axes a distance apart [mm]: its height where that edge
+/// has the height 0, and 1 if the two look the same way, -1 if they look at one another. `None` where they do not overlap.
+pub(super) fn meeting(
+    edge: &EdgeProfile,
+    [height, sense]: [f64; 2],
+    made: &EdgeProfile,
+    distance: f64,
+) -> Option<Transient> {
+    let mut search = Search::new();
+    for one in edge.segments() {
+        for other in made.segments() {
+            let pair = Pair { one, other, distance, sense };
+            pair.candidates(|r, z| search.note(height + z, height + z, r));
+        }
+    }
+    search.found.first.is_finite().then_some(search.found)
+}
+
+/// A segment of the drill's edge and one of the edge that made the surface, their axes a distance apart.
 struct Pair<'a> {
     one: &'a EdgeSegment,
     other: &'a EdgeSegment,
     distance: f64,
+    /// 1 where the other looks the same way, -1 where it looks at the drill.
+    sense: f64,
 }
 
 impl Pair<'_> {
-    /// Calls `note` with the radius about the drill and the height of the bottom less that of the edge.
+    /// Calls `note` with the radius about the drill and the height of the surface less that of the edge.
     fn candidates(&self, mut note: impl FnMut(f64, f64)) {
         let d = self.distance;
         let [a, b] = self.one.range();
         let [p, q] = self.other.range();
         let mut at = |r: f64, s: f64| {
             if r >= a && r <= b && s >= p && s <= q {
-                note(r, self.other.height(s) - self.one.height(r));
+                note(r, self.sense * self.other.height(s) - self.one.height(r));
             }
         };
         let circles = |s: &EdgeSegment| {
@@ -173,7 +186,8 @@ impl Pair<'_> {
         // Equal slopes on that line, of each branch of both.
         for side in [1.0, -1.0] {
             for other_side in [1.0, -1.0] {
-                let x = equal_slopes(branch(self.one, 0.0, side), branch(self.other, d, other_side));
+                let other = branch(self.other, d, other_side).seen(self.sense);
+                let x = equal_slopes(branch(self.one, 0.0, side), other);
                 if let Some(x) = x.filter(|x| x * side >= 0.0 && (x - d) * other_side >= 0.0) {
                     at(x.abs(), (x - d).abs());
                 }
@@ -186,6 +200,16 @@ impl Pair<'_> {
 enum Branch {
     Line(f64),
     Arc(f64, f64),
+}
+
+impl Branch {
+    /// Upside down for a sense of -1: a slope is the other one, and a circle's radius counts from the other side.
+    fn seen(self, sense: f64) -> Branch {
+        match self {
+            Branch::Line(slope) => Branch::Line(sense * slope),
+            Branch::Arc(centre, radius) => Branch::Arc(centre, sense * radius),
+        }
+    }
 }
 
 fn branch(segment: &EdgeSegment, axis: f64, side: f64) -> Branch {

@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{BoundarySurface, CrossBore, DrillMethod, Mouth, Passage, PreHole};
+use super::{BoundarySurface, Ceiling, CrossBore, DrillMethod, Mouth, Passage, PreHole};
 use crate::tool::DrillPoint;
 
 /// A hole to drill; Z in the frame of the entry (W_h), mm, rad, s.
@@ -25,6 +25,8 @@ pub struct DrillSpec {
     pub pre_hole: Option<PreHole>,
     /// A recess about the axis in the face that it enters; only where that is level.
     pub mouth: Option<Mouth>,
+    /// The floor of a hole from the other side, about the same axis, into which it comes out.
+    pub ceiling: Option<Ceiling>,
     /// Bores that cross the way.
     pub bores: Vec<CrossBore>,
     /// Angle of the exit's u from the entry's; see [`DrillWay`](super::DrillWay).
@@ -98,6 +100,7 @@ impl DrillSpec {
             end: End::Through { exit, overrun: 2.0 },
             pre_hole: None,
             mouth: None,
+            ceiling: None,
             bores: Vec::new(),
             exit_turn: 0.0,
             passages: None,

@@ -54,7 +54,7 @@ pub use milling::{JobPlane, Milling};
 pub(crate) use milling::{feed_of, milling, milling_of, spindle, tool_of, whole_revolutions};
 pub(crate) use pen::Pen;
 pub use posted::PostedPlan;
-pub(crate) use round_hole::{MadeHole, RoundHole};
+pub(crate) use round_hole::{HoleFloor, MadeHole, RoundHole};
 pub(crate) use setting::{Around, Setting, StockOutline};
 pub use setting::{Clamping, Drilled};
 pub use table::{FeedsName, OrientationName, PlaneTable};

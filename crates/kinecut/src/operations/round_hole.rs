@@ -4,7 +4,7 @@ use glam::{DVec2, DVec3};
 
 use super::Setting;
 use super::wanted::{Wall, WantedWall};
-use crate::geom::Rigid;
+use crate::geom::{EdgeProfile, Rigid};
 
 /// A round hole along the Z of an operation's coordinates [mm].
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -19,6 +19,17 @@ pub(crate) struct RoundHole {
     pub(crate) bottom: f64,
     /// Whether it is open below.
     pub(crate) through: bool,
+    /// Form of its floor, where it has one that is known.
+    pub(crate) floor: Option<HoleFloor>,
+}
+
+/// The floor of a blind hole, as the tool has left it that made it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct HoleFloor {
+    /// Height of the tool's tip, where its edge has the height 0 [mm].
+    pub(crate) tip: f64,
+    /// The edge, from the axis to the radius of the hole.
+    pub(crate) edge: EdgeProfile,
 }
 
 /// A hole that an operation leaves.
@@ -43,6 +54,7 @@ impl RoundHole {
             top: wall.top,
             bottom: wall.floor.unwrap_or(wall.bottom),
             through: wall.floor.is_none(),
+            floor: None,
         })
     }
 
@@ -57,16 +69,17 @@ impl RoundHole {
             centre: top.truncate(),
             top: top.z,
             bottom: bottom.z,
+            floor: self.floor.map(|f| HoleFloor { tip: f.tip + (bottom.z - self.bottom), ..f }),
             ..*self
         })
     }
 }
 
 impl MadeHole {
-    /// Its ends and diameter in part coordinates, if it goes through.
-    pub(crate) fn ends_through(&self) -> Option<([DVec3; 2], f64)> {
-        let end = |z: f64| self.to_part.point(self.hole.centre.extend(z));
-        self.hole.through.then(|| ([end(self.hole.top), end(self.hole.bottom)], self.hole.diameter))
+    /// Its upper and its lower end in part coordinates; of a floor whose form is known, the place of the tip.
+    pub(crate) fn ends(&self) -> [DVec3; 2] {
+        let low = self.hole.floor.map_or(self.hole.bottom, |floor| floor.tip);
+        [self.hole.top, low].map(|z| self.to_part.point(self.hole.centre.extend(z)))
     }
 }
 
@@ -82,6 +95,7 @@ impl Setting<'_> {
                 top: d.base.z + d.height,
                 bottom: d.base.z,
                 through: d.base.z <= floor + ROUNDING,
+                floor: None,
             };
             hole.moved(&to_work)
         });

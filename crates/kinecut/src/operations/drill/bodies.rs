@@ -3,8 +3,9 @@
 use glam::{DVec2, DVec3};
 
 use super::DrillOperation;
+use super::there::{There, View};
 use crate::base::Result;
-use crate::drilling::{BoundarySurface, PartFace, PartMesh, Passage, PreHole, Side};
+use crate::drilling::{BoundarySurface, PartFace, PartMesh, Passage, Side};
 use crate::geom::{Aabb, EdgeProfile, Mesh, Rigid, Solid};
 use crate::operations::{Drilled, MadeHole, PlacedPlane, Setting};
 
@@ -34,8 +35,8 @@ pub(super) struct Met {
     pub(super) faces: Option<[PartFace; 2]>,
     /// Passages of the hole, if found in a mesh.
     pub(super) passages: Option<Vec<Passage>>,
-    /// A hole that the stock has there, seen from `across`.
-    pub(super) pre_hole: Option<PreHole>,
+    /// Holes that are there, seen from `across`.
+    pub(super) there: There,
     /// Direction of the surfaces' u from X of the work offset [rad].
     pub(super) across: f64,
 }
@@ -70,7 +71,9 @@ impl<'a> DrilledBody<'a> {
                     let (surfaces, milled) = self.milled(found, point, out, edge.outer_radius())?;
                     let faces = [entry.0, exit.0];
                     let faces = std::array::from_fn(|i| if milled[i] { LEVEL_PLANE } else { faces[i] });
-                    let pre_hole = self.pre_hole(edge.outer_radius(), at, surfaces);
+                    let to_work = self.to_part.inverse();
+                    let view = View { to_work: &to_work, at, faces: surfaces.map(|s| s.height(0.0)) };
+                    let there = view.holes(edge.outer_radius(), self.drilled, self.made)?;
                     let across = match (solid, entry.0) {
                         (Solid::Cylinder { .. }, PartFace::OuterCylinder { .. }) => {
                             let u = self.to_part.inverse().vector(out.truncate().perp().extend(0.0));
@@ -79,7 +82,7 @@ impl<'a> DrilledBody<'a> {
                         // Planes are square to the drill: any direction will do.
                         _ => 0.0,
                     };
-                    return Ok(Met { surfaces, faces: Some(faces), passages: None, pre_hole, across });
+                    return Ok(Met { surfaces, faces: Some(faces), passages: None, there, across });
                 }
                 mesh
             }
@@ -111,7 +114,7 @@ impl<'a> DrilledBody<'a> {
             })
         };
         let surfaces = [stands_for(Side::Entry), stands_for(Side::Exit)];
-        Ok(Met { surfaces, faces: None, passages: Some(passages), pre_hole: None, across: 0.0 })
+        Ok(Met { surfaces, faces: None, passages: Some(passages), there: There::default(), across: 0.0 })
     }
 
     /// Entry and exit, where a face has been milled over all of the disc the plane in their place; and which of them are.
@@ -140,39 +143,6 @@ impl<'a> DrilledBody<'a> {
         };
         let surfaces = [plane(top, Side::Entry, entry)?, plane(bottom, Side::Exit, exit)?];
         Ok((surfaces, [top.is_some(), bottom.is_some()]))
-    }
-
-    /// The hole that the drill opens out, of the raw stock or made before, if its axis is the drill's direction and it lies within
-    /// the drill; of several the widest. Of holes that were made those that go through: the bottom of others has the form of a tool.
-    fn pre_hole(&self, radius: f64, at: DVec3, surfaces: [BoundarySurface; 2]) -> Option<PreHole> {
-        let to_work = self.to_part.inverse();
-        let within = |ends: [DVec3; 2], diameter: f64| {
-            let [a, b] = ends.map(|p| to_work.point(p) - at);
-            let across = a.truncate();
-            let parallel = (b - a).truncate().length() < 1e-9 * (b - a).length();
-            let inside = across.length() + diameter / 2.0 <= radius && diameter / 2.0 < radius;
-            (parallel && inside).then_some((a, b, across))
-        };
-        let raw = self.drilled.iter().filter_map(|hole| {
-            let (a, b, across) = within([hole.base, hole.base + DVec3::Z * hole.height], hole.diameter)?;
-            let (low, high) = if a.z < b.z { (a.z, b.z) } else { (b.z, a.z) };
-            let [entry, exit] = surfaces.map(|s| s.height(0.0));
-            // It counts where it is open to the drill's side.
-            if high < entry || low > entry {
-                return None;
-            }
-            let place = across.to_array();
-            if low <= exit {
-                return Some(PreHole::through(hole.diameter).moved(place));
-            }
-            PreHole::flat(hole.diameter, low).ok().map(|h| h.moved(place))
-        });
-        let made = self.made.iter().filter_map(|hole| {
-            let (ends, diameter) = hole.ends_through()?;
-            let (.., across) = within(ends, diameter)?;
-            Some(PreHole::through(diameter).moved(across.to_array()))
-        });
-        raw.chain(made).max_by(|a, b| a.diameter.total_cmp(&b.diameter))
     }
 }
 

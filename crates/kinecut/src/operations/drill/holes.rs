@@ -4,6 +4,7 @@ use rayon::prelude::*;
 
 use super::bodies::{DrilledBody, Met};
 use super::surfaces::{across, bore, exit_face, face, pre_hole};
+use super::there::{There, nothing_left};
 use super::{DrillOperation, DrillTable, ExitTable, FaceTable};
 use crate::base::{Code, Error, Finding, Result, Severity, manual};
 use crate::drilling::{
@@ -146,8 +147,8 @@ fn plan_hole(
             let met = body.meet(&edge, glam::DVec3::new(at[0], at[1], t.top))?;
             let [entry, exit] = met.surfaces;
             let faces = met.faces.map_or([None, None], |f| f.map(Some));
-            let Met { passages, pre_hole, across, .. } = met;
-            Found { entry, exit: Some(exit), faces, passages, pre_hole, across, exit_turn: 0.0 }
+            let Met { passages, there, across, .. } = met;
+            Found { entry, exit: Some(exit), faces, passages, there, across, exit_turn: 0.0 }
         }
         (None, None) => {
             let finding = Finding::error(Code::DRILL_CASE, "the hole has no surfaces");
@@ -172,16 +173,29 @@ fn plan_hole(
         }
         _ => None,
     };
-    let there = hole_there(surfaces.across)?.or(surfaces.pre_hole);
+    let There { opened, floor, ceiling } = surfaces.there;
+    let stated = hole_there(surfaces.across)?;
+    let is_plain = t.cross_bores.is_empty() && stated.as_ref().is_none_or(PreHole::leaves_annulus);
+    let there = stated.or(opened);
+    let level = matches!(surfaces.entry, BoundarySurface::Plane { slope: 0.0, .. });
+    let floor = floor.filter(|_| level && t.cross_bores.is_empty());
     let spec = DrillSpec {
         entry: surfaces.entry,
         bores: t.cross_bores.iter().map(|b| bore(b, at, t.top, surfaces.across)).collect(),
         exit_turn: surfaces.exit_turn,
         passages: surfaces.passages,
-        mouth,
+        mouth: floor.or(mouth),
+        ceiling: ceiling.filter(|_| is_plain),
         ..spec(drill, end, there)
     };
-    let plan = plan_drill(&spec)?;
+    let plan = plan_drill(&spec).map_err(|e| match &floor {
+        // Its tip comes no deeper than the floor of a hole that is there.
+        Some(floor) if e.0.key.as_deref() == Some("depth") => {
+            let diameter = 2.0 * floor.edge.outer_radius();
+            nothing_left(diameter, Some(floor.height + t.top)).key("depth").into()
+        }
+        _ => e,
+    })?;
     let (spec, plan) = match surfaces.exit.filter(|_| t.entry.is_none()) {
         Some(exit) => coming_out(&spec, &plan, exit)?.unwrap_or((spec, plan)),
         None => (spec, plan),
@@ -203,8 +217,9 @@ fn coming_out(
     const ROUNDING: f64 = 1e-9;
     let is_blind = matches!(spec.end, End::FullDiameter(_) | End::Tip(_));
     let tip = plan.travel.end;
-    let is_above = match exit {
-        BoundarySurface::Plane { height, slope } => tip > height + 0.5 * spec.diameter * slope.abs(),
+    let is_above = match (exit, &spec.ceiling) {
+        (_, Some(ceiling)) if ceiling.covers(&plan.edge) => tip > ceiling.height,
+        (BoundarySurface::Plane { height, slope }, _) => tip > height + 0.5 * spec.diameter * slope.abs(),
         _ => false,
     };
     if !is_blind || is_above {
@@ -234,6 +249,7 @@ fn spec(drill: &DrillOperation, end: End, pre_hole: Option<PreHole>) -> DrillSpe
         end,
         pre_hole,
         mouth: None,
+        ceiling: None,
         bores: Vec::new(),
         exit_turn: 0.0,
         passages: None,
@@ -274,7 +290,7 @@ fn given(drill: &DrillOperation, entry_table: &FaceTable, at: [f64; 2]) -> Resul
         exit: exit.as_ref().map(|e| surface(e, Side::Exit, bottom)).transpose()?,
         faces: [Some(entry), exit],
         passages: None,
-        pre_hole: None,
+        there: There::default(),
         across: across(entry_table),
         exit_turn,
     })
@@ -286,7 +302,7 @@ struct Found {
     exit: Option<BoundarySurface>,
     faces: [Option<PartFace>; 2],
     passages: Option<Vec<Passage>>,
-    pre_hole: Option<PreHole>,
+    there: There,
     /// Direction of the entry's u from X of the work offset [rad].
     across: f64,
     /// Angle of the exit's u from it [rad].
@@ -304,7 +320,8 @@ impl PlannedHole {
     /// Result of the paper's own formulas; `None` if it has none, or if the surfaces were found in a body.
     pub fn paper(&self) -> Option<PaperResult> {
         let [Some(entry), Some(exit)] = self.faces? else { return None };
-        if self.spec.pre_hole.is_some() || !self.spec.bores.is_empty() {
+        let is_plain = self.spec.pre_hole.is_none() && self.spec.ceiling.is_none();
+        if !is_plain || !self.spec.bores.is_empty() {
             return None;
         }
         let End::Through { overrun, .. } = self.spec.end else { return None };

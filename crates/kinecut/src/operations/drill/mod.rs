@@ -11,6 +11,7 @@ mod section;
 mod show;
 mod surfaces;
 mod table;
+mod there;
 
 pub use check::DrillOperation;
 pub use holes::PlannedHole;

@@ -9,11 +9,14 @@ use super::prove::claim;
 use super::section::sections;
 use super::{DrillOperation, HoleJson, PlannedHole, hole_json};
 use crate::base::{Finding, Result};
-use crate::drilling::{BoundarySurface, End};
+use crate::drilling::{BoundarySurface, DrillMethod, End, Mouth};
+use crate::geom::{EdgeProfile, EdgeSegment};
 use crate::nc::Control;
 use crate::operations::measured::{Loose, Proof};
 use crate::operations::wanted::{Wall, WantedWall};
-use crate::operations::{Found, Judged, MadeMouth, Pen, PostedPlan, Probes, RoundHole, Shown, Tally, kind};
+use crate::operations::{
+    Found, HoleFloor, Judged, MadeMouth, Pen, PostedPlan, Probes, RoundHole, Shown, Tally, kind,
+};
 use crate::page::Section;
 use crate::tool::DrillPoint;
 
@@ -109,9 +112,10 @@ impl kind::Plan for PlannedDrilling {
 impl PlannedHole {
     /// The wall, where it is whole all round; `None` for recesses, and where it nowhere is.
     fn wall(&self) -> Option<WantedWall> {
-        use crate::drilling::DrillMethod;
         /// Least height of a wall that can be measured [mm].
         const LEAST: f64 = 2e-3;
+        /// Radii nearer than this are equal [mm].
+        const SAME: f64 = 1e-6;
         if matches!(
             self.spec.method,
             DrillMethod::Centring | DrillMethod::Countersinking | DrillMethod::Counterboring
@@ -123,8 +127,10 @@ impl PlannedHole {
         let corner = self.plan.edge.segments().last()?.height(radius);
         let above = self.zero + corner;
         // In a recess at its mouth the wall begins where that has its radius.
-        let mouth =
-            self.spec.mouth.as_ref().and_then(|m| Some(m.height + m.edge.height(radius)? + self.zero));
+        // In a hole as wide as itself it goes on.
+        let wider = |m: &&Mouth| m.edge.outer_radius() > radius + SAME;
+        let recess = self.spec.mouth.as_ref().filter(wider);
+        let mouth = recess.and_then(|m| Some(m.height + m.edge.height(radius)? + self.zero));
         let top = mouth.unwrap_or_else(|| match self.spec.entry {
             BoundarySurface::Plane { height, slope: 0.0 } if self.spec.mouth.is_some() => height + self.zero,
             _ => self.plan.entry.last + above,
@@ -151,9 +157,17 @@ impl PlannedHole {
 impl PlannedHole {
     /// The hole that it leaves: one that goes through has its diameter down to where the drill turns back.
     fn as_hole(&self) -> Option<RoundHole> {
+        if self.spec.method == DrillMethod::Counterboring {
+            return self.seat();
+        }
         let hole = RoundHole::of_wall(&self.wall()?)?;
         let lowest = self.plan.travel.end + self.zero + self.plan.edge.extent()[1];
-        Some(RoundHole { bottom: lowest, through: self.plan.exit.is_some(), ..hole })
+        let through = self.plan.exit.is_some();
+        // The drill alone has made the floor, where all of its edge has gone in.
+        let (edge, tip) = (self.plan.edge, self.plan.travel.end);
+        let whole = !through && edge.inner_radius() == 0.0 && self.plan.entry.last >= tip;
+        let floor = whole.then(|| HoleFloor { tip: tip + self.zero, edge });
+        Some(RoundHole { bottom: lowest, through, floor, ..hole })
     }
 }
 
@@ -162,12 +176,38 @@ impl PlannedHole {
     fn as_mouth(&self) -> Option<MadeMouth> {
         let level = matches!(self.spec.entry, BoundarySurface::Plane { slope: 0.0, .. });
         let whole = level && matches!(self.spec.end, End::Reached(_)) && self.spec.mouth.is_none();
-        let edge = self.plan.edge;
-        (whole && edge.inner_radius() == 0.0).then(|| {
-            let tip = self.plan.travel.end + self.zero;
-            MadeMouth { tip: glam::DVec3::new(self.at[0], self.at[1], tip), edge }
+        let edge = closed(&self.plan.edge).filter(|_| whole)?;
+        let tip = self.plan.travel.end + self.zero;
+        Some(MadeMouth { tip: glam::DVec3::new(self.at[0], self.at[1], tip), edge })
+    }
+
+    /// The recess that a counterbore leaves about a hole, in a level face.
+    fn seat(&self) -> Option<RoundHole> {
+        let BoundarySurface::Plane { height, slope: 0.0 } = self.spec.entry else { return None };
+        let edge = closed(&self.plan.edge).filter(|edge| edge.extent() == [0.0; 2])?;
+        let bottom = self.plan.travel.end + self.zero;
+        Some(RoundHole {
+            centre: self.at.into(),
+            diameter: 2.0 * edge.outer_radius(),
+            top: height + self.zero,
+            bottom,
+            through: self.plan.exit.is_some(),
+            floor: Some(HoleFloor { tip: bottom, edge }),
         })
     }
+}
+
+/// An edge with the part that ran in a hole, or did not cut, as a level piece: nothing is left of the material there.
+fn closed(edge: &EdgeProfile) -> Option<EdgeProfile> {
+    let inner = edge.inner_radius();
+    if inner == 0.0 {
+        return Some(*edge);
+    }
+    let height = edge.height(inner)?;
+    let level = EdgeSegment::Line { r: [0.0, inner], z: [height; 2] };
+    let mut segments = vec![level];
+    segments.extend_from_slice(edge.segments());
+    EdgeProfile::new(&segments).ok()
 }
 
 /// The findings of holes that were left out come with the plan.

@@ -170,3 +170,91 @@ fn a_drill_opens_out_a_hole_that_was_drilled_from_either_side() {
         assert_ne!(found, solid, "{turned}");
     }
 }
+
+/// A drill of a diameter goes 12 mm deep from above, then one of 8 mm at the same place, from above or from below.
+fn after_blind(diameter: f64, more: &str, turned: bool) -> kinecut::base::Result<Outcome> {
+    let first = DRILL.replace("tool = 2", "tool = 3");
+    let tool = format!(
+        "[[tool]]\nnumber = 3\ntype = \"drill\"\ndiameter = {diameter}\nflute_length = 60\n[[setup]]"
+    );
+    let (setup, at) = match turned {
+        true => (
+            "[[setup]]\noffset = \"G55\"\nsafe_height = 40\nzero = [0, 0, -20]\norient = { x = [1, 0, 0], z = [0, 0, -1] }\n",
+            "[[10, -5]]",
+        ),
+        false => ("", "[[10, 5]]"),
+    };
+    let text =
+        job(BOX, &format!("{first}points = [[10, 5]]\ndepth = 12\n{setup}{DRILL}points = {at}\n{more}"));
+    run("job.toml", &text.replacen("[[setup]]", &tool, 1), &MemoryLoader::default(), &Silent)
+}
+
+/// The zones of the second drill: stage and Z of its end; and whether anything was found.
+fn zones_after(diameter: f64, more: &str, turned: bool) -> (Vec<(String, f64)>, Vec<String>) {
+    let outcome = after_blind(diameter, more, turned).unwrap_or_else(|e| panic!("{e}"));
+    let plan: serde_json::Value = serde_json::from_str(&kinecut::job::plan_json(&outcome)).expect("JSON");
+    let last = plan["setups"].as_array().and_then(|all| all.last()).expect("a setup");
+    let drillings = last["drillings"].as_array().expect("drillings");
+    let zones = drillings.last().expect("two")["holes"][0]["zones"].as_array().expect("zones").clone();
+    let zone = |z: &serde_json::Value| {
+        (z["stage"].as_str().unwrap_or("").to_owned(), z["to"].as_f64().unwrap_or(f64::NAN))
+    };
+    let found = outcome.verdict.found.iter().map(|f| f.code.to_string()).collect();
+    (zones.iter().map(zone).collect(), found)
+}
+
+#[test]
+fn a_drill_knows_the_blind_hole_that_was_drilled_before_it() {
+    let cot = |angle: f64| 1.0 / angle.to_radians().tan();
+    let point = |diameter: f64| 0.5 * diameter * cot(59.0);
+    // Narrower, from above: the annulus goes in at the face, the middle at the floor, steady below.
+    let (zones, found) = zones_after(5.0, "", false);
+    let stages: Vec<&str> = zones.iter().map(|z| z.0.as_str()).collect();
+    assert_eq!(stages, ["entry", "partial", "entry", "steady", "exit"], "{zones:?}");
+    assert!((zones[1].1 - (-12.0 - point(5.0))).abs() < 1e-6, "{zones:?}");
+    assert!(!found.contains(&"KC0905".to_owned()), "{found:?}");
+    // As wide, deeper: nothing of the point meets anything above the floor, which its own form fits all over at once.
+    let (zones, found) = zones_after(8.0, "", false);
+    let stages: Vec<&str> = zones.iter().map(|z| z.0.as_str()).collect();
+    assert_eq!(stages, ["entry", "steady", "exit"], "{zones:?}");
+    assert!((zones[0].1 - (-12.0 - point(8.0))).abs() < 1e-6, "{zones:?}");
+    assert!(!found.contains(&"KC0905".to_owned()), "{found:?}");
+    // From below: tip against tip, the corner last.
+    for diameter in [8.0, 10.0] {
+        let (zones, found) = zones_after(diameter, "", true);
+        let stages: Vec<&str> = zones.iter().map(|z| z.0.as_str()).collect();
+        assert_eq!(stages, ["entry", "steady", "exit"], "{zones:?}");
+        // From below Z runs from 0 to 20: the tip of the first hole lies at 20 less its depth less its point.
+        assert!((zones[1].1 - -(20.0 - 12.0 - point(diameter))).abs() < 1e-6, "{diameter} {zones:?}");
+        assert!(!found.contains(&"KC0905".to_owned()), "{diameter} {found:?}");
+        // All of it is out where both corners meet, and the usual 2 mm below.
+        let out = -(20.0 - 12.0 - point(diameter)) - 2.0 * point(8.0) - 2.0;
+        assert!((zones[2].1 - out).abs() < 1e-6, "{diameter} {zones:?} {out}");
+    }
+    // A narrower one from below: the middle comes out first.
+    let (zones, found) = zones_after(5.0, "", true);
+    let stages: Vec<&str> = zones.iter().map(|z| z.0.as_str()).collect();
+    assert_eq!(stages, ["entry", "steady", "exit", "partial", "exit"], "{zones:?}");
+    assert!(!found.contains(&"KC0905".to_owned()), "{found:?}");
+    // A depth that ends in the solid between stays blind.
+    let (zones, found) = zones_after(8.0, "depth = 3\n", true);
+    assert_eq!(zones.last().map(|z| z.0.as_str()), Some("steady"), "{zones:?}");
+    assert!(!found.contains(&"KC0905".to_owned()), "{found:?}");
+    // One that comes out is planned as through.
+    let (zones, found) = zones_after(8.0, "depth = 10\n", true);
+    assert_eq!(zones.last().map(|z| z.0.as_str()), Some("exit"), "{zones:?}");
+    assert!(!found.contains(&"KC0905".to_owned()), "{found:?}");
+}
+
+#[test]
+fn a_hole_in_which_nothing_is_left_to_drill_is_refused() {
+    for (diameter, more) in [(8.0, "depth = 12\n"), (8.0, "depth = 5\n"), (10.0, "depth = 9\n")] {
+        let Err(e) = after_blind(diameter, more, false) else { panic!("{diameter} {more}") };
+        assert!(e.0.message.contains("nothing is left to drill"), "{}", e.0.message);
+        assert!(e.0.message.contains("goes down to Z"), "{}", e.0.message);
+    }
+    let second = format!("{DRILL}points = [[10, 5]]\n");
+    let text = job(BOX, &format!("{second}{second}"));
+    let Err(e) = run("job.toml", &text, &MemoryLoader::default(), &Silent) else { panic!("drilled twice") };
+    assert!(e.0.message.contains("nothing is left to drill: the hole of 8 mm that is there goes through"));
+}

@@ -199,6 +199,7 @@ fn are_alike(a: &DrilledHole, b: &DrilledHole) -> bool {
         && a.spec.pre_hole == b.spec.pre_hole
         && a.spec.bores == b.spec.bores
         && a.spec.mouth == b.spec.mouth
+        && a.spec.ceiling == b.spec.ceiling
         && a.paper == b.paper
 }
 

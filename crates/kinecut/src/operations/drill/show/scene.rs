@@ -69,17 +69,48 @@ impl<'a> Scene<'a> {
 
     /// The face that the drill enters, with the recess at the hole's mouth.
     fn face(&self, cos: f64, from: f64, to: f64) -> Vec<[f64; 2]> {
-        let mut points = Scene::run(&self.entry, cos, from, to);
-        let Some(mouth) = &self.hole.spec.mouth else { return points };
-        let rim = mouth.edge.outer_radius();
-        points.retain(|p| p[0].abs() >= rim);
-        let half = half(&mouth.edge);
-        let both = half.iter().flat_map(|p| [[-p[0], p[1]], *p]).map(|p| [p[0], mouth.height + p[1]]);
-        points.extend(both.filter(|p| p[0] >= from && p[0] <= to));
-        // Where the run ends within the recess.
-        let ends = [from, to].into_iter().filter(|u| u.abs() < rim);
-        points.extend(ends.filter_map(|u| Some([u, mouth.height + mouth.edge.height(u.abs())?])));
-        points.sort_by(|a, b| a[0].total_cmp(&b[0]));
+        let face = Scene::run(&self.entry, cos, from, to);
+        match &self.hole.spec.mouth {
+            Some(mouth) => {
+                self.recessed(face, &mouth.edge, [mouth.height, 1.0], |u| self.entry.height(cos * u))
+            }
+            None => face,
+        }
+    }
+
+    /// The face that the drill leaves, with the hole from the other side into which it comes out.
+    fn foot(&self, exit: &BoundarySurface, cos: f64, from: f64, to: f64) -> Vec<[f64; 2]> {
+        let face = Scene::run(exit, cos, from, to);
+        match &self.hole.spec.ceiling {
+            Some(c) => self.recessed(face, &c.edge, [c.height, -1.0], |u| exit.height(cos * u)),
+            None => face,
+        }
+    }
+
+    /// The run of a face with a recess about the axis that an edge has made: its height where the edge has the height 0, and 1 or -1
+    /// as it is open upwards or downwards.
+    fn recessed(
+        &self,
+        run: Vec<[f64; 2]>,
+        edge: &EdgeProfile,
+        [height, sense]: [f64; 2],
+        face: impl Fn(f64) -> f64,
+    ) -> Vec<[f64; 2]> {
+        let (Some(from), Some(to)) = (run.first().map(|p| p[0]), run.last().map(|p| p[0])) else {
+            return run;
+        };
+        let rim = edge.outer_radius();
+        let floor = |u: f64| Some([u, height + sense * edge.height(u.abs())?]);
+        let shown = |u: f64| u >= from && u <= to;
+        let side = half(edge);
+        let both = side.iter().rev().map(|p| [-p[0], p[1]]).chain(side.iter().copied());
+        let mut points: Vec<[f64; 2]> = run.iter().copied().filter(|p| p[0] < -rim).collect();
+        points.extend([-rim].into_iter().filter(|u| shown(*u)).map(|u| [u, face(u)]));
+        points.extend([from].into_iter().filter(|u| u.abs() < rim).filter_map(floor));
+        points.extend(both.filter(|p| shown(p[0])).map(|p| [p[0], height + sense * p[1]]));
+        points.extend([to].into_iter().filter(|u| u.abs() < rim).filter_map(floor));
+        points.extend([rim].into_iter().filter(|u| shown(*u)).map(|u| [u, face(u)]));
+        points.extend(run.into_iter().filter(|p| p[0] > rim));
         points.dedup();
         points
     }
@@ -93,7 +124,7 @@ impl<'a> Scene<'a> {
         let mut d = Drawing::new(title, [[-shown, low], [shown, high]]);
         let floor = low - r;
         let foot = |from: f64, to: f64| match &self.exit {
-            Some((exit, _)) => Scene::run(exit, cx, from, to),
+            Some((exit, _)) => self.foot(exit, cx, from, to),
             None => vec![[from, floor], [to, floor]],
         };
         for [from, to] in [[-far, -r], [r, far]] {
@@ -108,7 +139,11 @@ impl<'a> Scene<'a> {
         d.line(Look::Hidden, self.face(ce, -r, r));
         let end = self.hole.plan.travel.end;
         let corner = |sign: f64| match &self.exit {
-            Some((exit, _)) => exit.height(cx * sign * r),
+            // At the rim of a hole from the other side that is as wide, its floor counts.
+            Some((exit, _)) => {
+                let at_wall = self.foot(exit, cx, -r, r).into_iter().filter(|p| p[0] == sign * r);
+                at_wall.map(|p| p[1]).max_by(f64::total_cmp).unwrap_or_else(|| exit.height(cx * sign * r))
+            }
             None => end + self.extent()[1],
         };
         for sign in [-1.0, 1.0] {
@@ -117,7 +152,7 @@ impl<'a> Scene<'a> {
             d.line(Look::Edge, vec![[sign * r, top], [sign * r, corner(sign)]]);
         }
         match &self.exit {
-            Some((exit, _)) => d.line(Look::Hidden, Scene::run(exit, cx, -r, r)),
+            Some((exit, _)) => d.line(Look::Hidden, self.foot(exit, cx, -r, r)),
             None => {
                 // The bottom of a blind hole, and the material under it: on both sides of a hole that is there, of a core,
                 // or all across.

@@ -162,7 +162,10 @@ impl Scene<'_> {
         let own = self.hole.spec.length;
         d.level([0.0, t.first], vec![format!("Z_kvyh1 {}", fixed(t.first + own, 3))]);
         d.level([0.0, end], vec![format!("Z_kvyh2 {}", fixed(end + own, 3))]);
-        let [first, last] = self.contacts(&surface, &t);
+        let [first, last] = match self.hole.spec.ceiling {
+            Some(_) => self.on_edge(&t),
+            None => self.contacts(&surface, &t),
+        };
         self.contact(&mut d, &first, ["out first:", "first break-through"], t.first, Side::Exit);
         self.contact(&mut d, &last, ["last to go out:", "last point"], t.last, Side::Exit);
         d.notes.push("Coordinates in the frame of the exit, W_k.".to_owned());

@@ -7,7 +7,7 @@
 
 use std::f64::consts::PI;
 
-use crate::drilling::{BoundarySurface, Mouth};
+use crate::drilling::{BoundarySurface, Ceiling, Mouth};
 use crate::geom::EdgeProfile;
 
 /// Rings in which a segment of the edge is summed.
@@ -92,6 +92,27 @@ pub(super) fn passed_recess(edge: &EdgeProfile, recess: &Mouth, face: &BoundaryS
         sum += over_rings([a, b], |r| {
             let top = recess.edge.height(r).map_or(face.height(0.0), |h| recess.height + h);
             f64::from(u8::from(top >= z + segment.height(r)))
+        });
+        area += b * b - a * a;
+    }
+    sum / area
+}
+
+/// The same of a face into which a hole from the other side opens: that hole's floor, and the face beside it.
+pub(super) fn passed_ceiling(edge: &EdgeProfile, ceiling: &Ceiling, face: &BoundarySurface, z: f64) -> f64 {
+    let (mut sum, mut area) = (0.0, 0.0);
+    // On a hair that the edge is wider, the floor has the height that it has at its rim.
+    let wide = ceiling.covers(edge);
+    for segment in edge.segments() {
+        let [a, b] = segment.range();
+        sum += over_rings([a, b], |r| {
+            let above = z + segment.height(r);
+            let rim = ceiling.edge.outer_radius();
+            let over = ceiling.edge.height(if wide { r.min(rim) } else { r });
+            over.map_or_else(
+                || of_circle(face, r, above),
+                |h| f64::from(u8::from(ceiling.height - h >= above)),
+            )
         });
         area += b * b - a * a;
     }

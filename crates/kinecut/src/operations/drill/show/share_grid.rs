@@ -1,7 +1,7 @@
 //! The share of a point in material where no closed form holds: an eccentric or blind hole that is there, or a body of
 //! which only the passages are known.
 
-use super::share::{passed, passed_recess};
+use super::share::{passed, passed_ceiling, passed_recess};
 use crate::drilling::{BoundarySurface, DrillPlan, DrillSpec, Side};
 use crate::page::simplify;
 
@@ -44,7 +44,12 @@ impl<'a> Share<'a> {
                     Some(mouth) => passed_recess(&plan.edge, mouth, &spec.entry, z),
                     None => one(&spec.entry),
                 };
-                let mut share = entered - spec.end.exit().map_or(0.0, one);
+                let left = match (&spec.ceiling, spec.end.exit()) {
+                    (Some(ceiling), Some(exit)) => passed_ceiling(&plan.edge, ceiling, exit, z),
+                    (None, Some(exit)) => one(exit),
+                    (_, None) => 0.0,
+                };
+                let mut share = entered - left;
                 for bore in &spec.bores {
                     let [roof, floor] = walls(bore.radius, bore.offset, bore.height);
                     share += one(&floor) - one(&roof);

@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use super::DrilledHole;
 use super::contact::contacts;
 use super::point::degrees;
-use crate::drilling::{DrillSpec, GIVEN, PRINTED_LENGTHS, PaperResult, Side, Zone, ZoneStage};
+use crate::drilling::{DrillSpec, GIVEN, Mouth, PRINTED_LENGTHS, PaperResult, Side, Zone, ZoneStage};
 use crate::page::{Cell, Column, Fact, Row, Table, duration, fixed};
 
 /// Lengths that differ by less are the same to the digits shown [mm].
@@ -269,10 +269,24 @@ pub(super) fn on_the_way(spec: &DrillSpec) -> Vec<String> {
     });
     let mouth = spec.mouth.iter().map(|m| {
         let rim = trimmed(2.0 * m.edge.outer_radius());
-        format!(
-            "A recess of \u{2300}{rim} mm is at its mouth, to Z {}.",
-            fixed(m.height + m.edge.extent()[0], 3)
-        )
+        let depth = fixed(m.height + m.edge.extent()[0], 3);
+        if is_floor(spec, m) {
+            return format!("A hole of \u{2300}{rim} mm is there, to Z {depth}: it goes on from that floor.");
+        }
+        format!("A recess of \u{2300}{rim} mm is at its mouth, to Z {depth}.")
     });
-    mouth.chain(bores).chain(hole).collect()
+    let ceiling = spec.ceiling.iter().filter(|_| spec.end.exit().is_some()).map(|c| {
+        let rim = trimmed(2.0 * c.edge.outer_radius());
+        let height = fixed(c.height - c.edge.extent()[0], 3);
+        format!("A hole of \u{2300}{rim} mm from the other side ends at Z {height}: it comes out into that.")
+    });
+    mouth.chain(bores).chain(hole).chain(ceiling).collect()
+}
+
+/// Whether a recess is the floor of a hole: its rim lies below the face.
+pub(super) fn is_floor(spec: &DrillSpec, mouth: &Mouth) -> bool {
+    /// Difference of heights that is rounding [mm].
+    const ROUNDING: f64 = 1e-6;
+    let rim = mouth.edge.height(mouth.edge.outer_radius()).map_or(mouth.height, |h| mouth.height + h);
+    rim < spec.entry.height(0.0) - ROUNDING
 }
