@@ -6,7 +6,8 @@ use super::super::json_text;
 use super::super::outcome::Outcome;
 use super::super::setup_outcome::SetupOutcome;
 use super::course::{Chips, rates};
-use super::load::{Deflection, Loads};
+use super::load::{Deflection, Loads, force_of};
+use super::tapping::tapped;
 use crate::stock::cut::{EngagedStretch, MoveEngagement};
 use crate::tool::ToolNumber;
 use crate::trace::{Segment, SegmentPace};
@@ -39,8 +40,8 @@ pub(crate) struct Block {
     /// Greatest thickness of a chip [mm]; nothing where spindle or feed is not known, and of taps.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) chip: Option<f64>,
-    /// Greatest power at the edges (kW) after Kienzle with sharp edges; nothing where the force of the material, spindle or feed is
-    /// not known.
+    /// Greatest power at the edges (kW) after Kienzle with sharp edges, of a tap within 50 %; nothing where the force of the material,
+    /// spindle or feed is not known, and of taps that form.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) power: Option<f64>,
     /// Greatest torque (N m), as the power.
@@ -65,7 +66,9 @@ impl Block {
         let greatest = |of: fn(&EngagedStretch) -> f64| moved.stretches.iter().map(of).fold(0.0, f64::max);
         let chips = Chips::of(done, segment, &outcome.job.tools);
         let loads = Loads::of(outcome, done, segment);
-        let load = loads.as_ref().map(|loads| loads.greatest(moved));
+        let force = force_of(outcome.job.material.as_deref());
+        let tap = || tapped(&outcome.job.tools, force?, done, segment);
+        let load = loads.as_ref().map(|loads| loads.greatest(moved)).or_else(tap);
         let length = segment.curve.length();
         Block {
             line,

@@ -4,6 +4,7 @@ mod blocks;
 mod course;
 mod give;
 mod load;
+mod tapping;
 
 use super::check::Job;
 use super::closer::Story;
@@ -18,6 +19,7 @@ pub(crate) use blocks::{Block, blocks};
 pub(crate) use course::{Chips, Course, course};
 pub(crate) use give::deflection_beside;
 pub(crate) use load::{Deflection, Loads, force_of};
+pub(crate) use tapping::tapped;
 
 /// Moves below which engagement is measured unasked.
 const FEW: u64 = 20_000;

@@ -3,9 +3,10 @@
 use super::Simulated;
 use super::work::Work;
 use crate::base::{Code, Finding};
-use crate::cutting::{CuttingLoad, FORCE_SPREAD};
-use crate::job::engagement::{Loads, force_of};
+use crate::cutting::{CuttingLoad, FORCE_SPREAD, TAPPING_SPREAD};
+use crate::job::engagement::{Loads, force_of, tapped};
 use crate::page::fixed;
+use crate::tool::Cutter;
 
 /// Share of the motor's power that arrives at the tool.
 const EFFICIENCY: f64 = 0.8;
@@ -32,9 +33,11 @@ fn one(simulated: &Simulated<'_>, work: &Work<'_>) -> Vec<Finding> {
     let loads: Vec<(u32, CuttingLoad)> = work
         .feeds()
         .filter_map(|d| {
-            let loads = Loads::with(&job.tools, force, done, d.segment)?;
-            let moved = engagement.moves[work.setup].get(d.index)?;
-            Some((d.segment.item, loads.greatest(moved)))
+            let of_tap = || tapped(&job.tools, force, done, d.segment);
+            let measured =
+                |loads: Loads<'_>| Some(loads.greatest(engagement.moves[work.setup].get(d.index)?));
+            let loads = Loads::with(&job.tools, force, done, d.segment);
+            Some((d.segment.item, loads.and_then(measured).or_else(of_tap)?))
         })
         .collect();
     let speed = |item: u32| done.program.state(item as usize).spindle.rate();
@@ -49,6 +52,8 @@ fn one(simulated: &Simulated<'_>, work: &Work<'_>) -> Vec<Finding> {
         ("torque", "N m", 1.0, "torque", worst(|load| load.torque, &|_| control.spindle_torque)),
         ("torque", "N m", 1.0, "curve", worst(|load| load.torque, &curve)),
     ];
+    let is_tap = matches!(work.tool.cutter, Cutter::Tap(_));
+    let spread = if is_tap { TAPPING_SPREAD } else { FORCE_SPREAD };
     let mut found = Vec::new();
     for (what, unit, factor, key, worst) in limits {
         let Some((item, needed, limit)) = worst else { continue };
@@ -60,15 +65,19 @@ fn one(simulated: &Simulated<'_>, work: &Work<'_>) -> Vec<Finding> {
         let message = format!(
             "a cut of {} needs {word} {what} of the spindle, within {:.0} %, at {turns:.0} rev/min",
             work.tool.number,
-            100.0 * FORCE_SPREAD
+            100.0 * spread
         );
         let finding = Finding::warning(Code::CUTTING_LOAD, message)
             .value(rounded(needed * factor), unit)
             .bound(rounded(limit * factor), &format!("{unit}, `spindle_{key}` of the machine"))
-            .help(format!(
-                "take a smaller depth, engagement or feed: {:.2} of the depth leaves a fifth in hand",
-                (NEAR * limit / needed * 100.0).floor() / 100.0
-            ));
+            .help(match (is_tap, key) {
+                (true, "power") => "take a lower speed, or mill the thread".to_owned(),
+                (true, _) => "mill the thread, or take a wider core hole".to_owned(),
+                (false, _) => format!(
+                    "take a smaller depth, engagement or feed: {:.2} of the depth leaves a fifth in hand",
+                    (NEAR * limit / needed * 100.0).floor() / 100.0
+                ),
+            });
         found.push(simulated.at(work.setup, item, finding));
     }
     found

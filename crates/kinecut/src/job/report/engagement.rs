@@ -1,12 +1,12 @@
 //! Section of a report on the engagement of the tools: the greatest of each tool, and its course over the time of the program.
 
 use super::EngagedRun;
-use crate::cutting::{FORCE_SPREAD, Material};
+use crate::cutting::{FORCE_SPREAD, Material, TAPPING_SPREAD};
 use crate::job::engagement::{Block, Chips, Course, Deflection, blocks, course};
 use crate::job::{Engagement, Outcome, SetupOutcome};
 use crate::page::{Cell, Chart, Follows, Row, Section, Table, fixed};
 use crate::stock::cut::MoveEngagement;
-use crate::tool::{Tool, ToolNumber};
+use crate::tool::{Cutter, Tool, ToolNumber};
 use crate::trace::{Segment, SegmentPace};
 
 /// The section; `begins`: for each line of all programs the time at which it begins [s]; none where engagement was not measured.
@@ -203,7 +203,11 @@ fn table(outcome: &Outcome, blocks: &[(u32, &Block)]) -> Table {
         ];
         if has_load {
             cells.push(words(known(|b| b.power).map(|power| least(power, 2))));
-            cells.push(words(known(|b| b.torque).map(|torque| least(torque, 1))));
+            let spread = match tool.map(|t| &t.cutter) {
+                Some(Cutter::Tap(_)) => format!(" (\u{b1}{:.0} %)", 100.0 * TAPPING_SPREAD),
+                _ => String::new(),
+            };
+            cells.push(words(known(|b| b.torque).map(|torque| least(torque, 1) + &spread)));
             // The greatest of those blocks that have one: others cut wider.
             let most = known(|b| b.deflection.known()).map(|mm| least(1000.0 * mm, 0));
             let wider = own().any(|(_, b)| b.deflection == Deflection::Wider);

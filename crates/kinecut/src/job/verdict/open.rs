@@ -9,7 +9,7 @@ use super::super::simulate::Simulation;
 use super::{Heading, UncheckedList};
 use crate::job::TakenData;
 use crate::job::engagement::force_of;
-use crate::tool::ToolNumber;
+use crate::tool::{Cutter, Tool, ToolNumber};
 use crate::trace::StandKind;
 
 /// Items of the programs that were not checked.
@@ -67,6 +67,10 @@ fn load(job: &Job, simulation: &Simulation, list: &mut UncheckedList) {
         let what =
             "what the cuts need of the spindle: engagement was not measured (simulate.engagement = true)";
         list.add(Heading::Tools, what);
+    }
+    let forms = |tool: &Tool| matches!(&tool.cutter, Cutter::Tap(tap) if tap.forming);
+    if job.tools.iter().any(forms) {
+        list.add(Heading::Tools, "the torque of taps that form their thread: its formula is not known");
     }
 }
 
