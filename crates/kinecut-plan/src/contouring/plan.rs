@@ -331,12 +331,12 @@ impl Planner<'_> {
             };
             let (on, off) = (lead.on(p, along, left), lead.off(q, on_from_there, left));
             let is_open = self.is_open(&on, wall) && self.is_open(&off, wall);
-            (is_open && free(on[0].start)).then_some(Beginning { at, lead })
+            (is_open && free(on[0].start)).then_some(Beginning { at, lead, wall })
         };
         if spec.side == ContourSide::On {
             // What is beside the line stays.
             let at = self.beginnings(track).first().copied().unwrap_or(0.0);
-            return Ok(Beginning { at, lead: Lead::NONE });
+            return Ok(Beginning { at, lead: Lead::NONE, wall });
         }
         let places: Vec<f64> = self.beginnings(track).into_iter().filter(|place| may(*place)).collect();
         // First everywhere down to the usual least; in a hole hardly wider than the cutter there is room for less alone.

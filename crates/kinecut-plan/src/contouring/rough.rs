@@ -12,6 +12,8 @@ use super::travel::Stretch;
 use crate::base::Result;
 use crate::holes::{ToolpathPace, ToolpathRole};
 
+/// Way that stays between a tab and a place at which a loop is left, in radii of the cutter.
+const TAB_ROOM: f64 = 4.0;
 /// Distance that is rounding [mm].
 const ROUNDING: f64 = 1e-6;
 
@@ -20,6 +22,8 @@ const ROUNDING: f64 = 1e-6;
 pub(super) struct Beginning {
     pub(super) at: f64,
     pub(super) lead: Lead,
+    /// Distance of the loop from the wall [mm].
+    pub(super) wall: f64,
 }
 
 impl Planner<'_> {
@@ -131,10 +135,8 @@ impl Planner<'_> {
                 }
             }
         }
-        // Off the path at its start, for which there is room, a little beyond it.
         if let Some(floor) = heights.last().filter(|_| spec.ramp.is_some()) {
-            let end = start.at + self.overlap();
-            let end = end + ((s - end) / track.length()).ceil() * track.length();
+            let end = self.leaving(track, &start, &tabs, s);
             let rest = Stretch { along: [s, end], heights: [*floor, *floor], feed };
             self.travel.follow(role, track, &tabs, rest)?;
             s = end;
@@ -143,6 +145,34 @@ impl Planner<'_> {
         let off = start.lead.off(p, along, left);
         self.travel.route.edges(ToolpathRole::LeadOut, feed, &off)?;
         Ok(p)
+    }
+
+    /// The place at which a loop is left whose last lap ends at `s`, a little beyond it: there, or at its beginning, for which there
+    /// is room.
+    fn leaving(&self, track: &Track, start: &Beginning, tabs: &[PlacedTab], s: f64) -> f64 {
+        let here = s + self.overlap();
+        if self.is_left_at(track, start, tabs, here) {
+            return here;
+        }
+        let end = start.at + self.overlap();
+        end + ((s - end) / track.length()).ceil() * track.length()
+    }
+
+    /// Whether a loop may be left at a place other than its beginning: no place is asked for, no tab is near, and there is room.
+    fn is_left_at(&self, track: &Track, start: &Beginning, tabs: &[PlacedTab], at: f64) -> bool {
+        let (spec, whole) = (self.spec, track.length());
+        // A cutter that is wider above its tip needs a way that was looked for.
+        if spec.start.is_some() || spec.room.is_some() {
+            return false;
+        }
+        let height = (spec.tab_top() - spec.bottom()).max(0.0);
+        let slopes = spec.slopes(height, false).into_iter().fold(0.0, f64::max);
+        let near = |tab: &PlacedTab| {
+            let ahead = (0.5 * (tab.along[0] + tab.along[1]) - at).rem_euclid(whole);
+            ahead.min(whole - ahead) < 0.5 * tab.lifted() + slopes + TAB_ROOM * spec.radius()
+        };
+        let (p, along) = track.at(at);
+        !tabs.iter().any(near) && self.is_open(&start.lead.off(p, along, spec.keeps_right()), start.wall)
     }
 }
 

@@ -154,6 +154,43 @@ fn golden_levels() {
 }
 
 #[test]
+fn a_ramped_contour_runs_its_ramps_and_one_lap_a_level() {
+    let angle = 3f64.to_radians();
+    for (outline, side) in [
+        (rectangle(60.0, 40.0), ContourSide::Outside),
+        (rectangle(61.0, 43.0), ContourSide::Inside),
+        (
+            Outline::new(vec![vec![OutlineEdge::arc(DVec2::ZERO, 33.0, 0.0, TAU)]], vec![]).unwrap(),
+            ContourSide::Inside,
+        ),
+    ] {
+        let free = ContourSpec { side, ..spec(outline) };
+        let plan = plan_contour(&free).unwrap();
+        sound(&free, &plan);
+        let roles = [ToolpathRole::Entry, ToolpathRole::Circle];
+        let run = |plan: &ContourPlan| -> f64 {
+            let level = |m: &&PlannedMove| {
+                let way = (m.curve.end() - m.curve.start()).truncate().length();
+                roles.contains(&m.role) && is_feed(m) && way > 1e-9
+            };
+            plan.moves.iter().filter(level).map(|m| m.curve.length()).sum()
+        };
+        // Down from a little over the material, a lap on each of three levels, and half a radius on.
+        let ramps = 10.0 / angle.sin();
+        let laps = 3.0 * plan.loops[0].length();
+        let found = run(&plan);
+        assert!(found > ramps + laps && found < ramps + laps + 12.0, "{found} {ramps} {laps}");
+        // Where a place is asked for, it is left there.
+        let asked = ContourSpec { start: Some(plan.loops[0].edges[0].at(0.5)), ..free };
+        let kept = plan_contour(&asked).unwrap();
+        sound(&asked, &kept);
+        let begins = kept.loops[0].edges[0].start;
+        let last = kept.moves.iter().rposition(|m| roles.contains(&m.role)).unwrap();
+        assert!(kept.moves[last].curve.end().truncate().distance(begins) < 3.0 && run(&kept) > found);
+    }
+}
+
+#[test]
 fn random_outlines_are_cut_whole_and_not_gouged() {
     let mut random = Random(5);
     let mut planned = 0;
