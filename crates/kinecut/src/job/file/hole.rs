@@ -5,6 +5,7 @@ use std::fmt;
 use schemars::JsonSchema;
 use serde::{Deserialize, Deserializer, Serialize, de};
 
+use crate::base::unit::Deg;
 use crate::operations::CalledTool;
 use crate::operations::drill::DrillTable;
 use crate::operations::places::PatternTable;
@@ -52,12 +53,52 @@ pub struct HoleTable {
     /// The reamer, tap or thread mill, where it is not to be chosen.
     #[serde(default)]
     pub tool: Option<CalledTool>,
+    /// A conical recess at the mouth, for a countersunk screw.
+    #[serde(default)]
+    pub countersink: Option<CountersinkTable>,
+    /// A flat recess at the mouth, for the head of a screw.
+    #[serde(default)]
+    pub counterbore: Option<CounterboreTable>,
     /// Height of the moves between holes, in coordinates of the work offset; default: the setup's safe height.
     #[serde(default)]
     pub clearance: Option<f64>,
     /// Coolant; default flood.
     #[serde(default)]
     pub coolant: Coolant,
+}
+
+/// A conical recess at the mouth of a hole.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct CountersinkTable {
+    /// Diameter at the mouth.
+    #[schemars(example = 12.6)]
+    pub diameter: f64,
+    /// Full angle of the cone; degrees in a file, default 90.
+    #[serde(default = "right_angle", with = "Deg")]
+    pub angle: f64,
+    /// The countersink or spot drill, where it is not to be chosen: its number, or its name.
+    #[serde(default)]
+    pub tool: Option<CalledTool>,
+}
+
+/// A flat recess at the mouth of a hole.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct CounterboreTable {
+    /// Diameter.
+    #[schemars(example = 11)]
+    pub diameter: f64,
+    /// Depth of its floor below `top`.
+    #[schemars(example = 6.8)]
+    pub depth: f64,
+    /// The counterbore, where it is not to be chosen: its number, or its name.
+    #[serde(default)]
+    pub tool: Option<CalledTool>,
+}
+
+fn right_angle() -> f64 {
+    std::f64::consts::FRAC_PI_2
 }
 
 /// A hole in a setup: its place among the entries of `operation` in the text, and its table.

@@ -9,6 +9,8 @@ use crate::tool::{DrillPoint, Hand, Tap};
 
 /// Point angle up to which a drill is one for spots, degrees: no drill for the solid is so sharp.
 const SPOT_ANGLE: f64 = 100.0;
+/// Angles nearer than this are equal [rad].
+const SAME_ANGLE: f64 = 1e-6;
 /// Share of a spot drill's diameter that is used.
 const SPOT_SHARE: f64 = 0.95;
 /// Largest diameter of a thread mill, in diameters of a coarse and of a fine thread: above, the flanks are overcut by much.
@@ -21,9 +23,14 @@ pub(super) struct ToolList<'a> {
     pub(super) place: String,
 }
 
+/// Whether a tool works along its axis.
+fn is_drill_kind(tool: &ToolTable) -> bool {
+    tool.kind == ToolType::Drill
+}
+
 /// Whether a tool drills into the solid.
 fn is_drill(tool: &ToolTable) -> bool {
-    tool.kind == ToolType::Drill && tool.centre_cutting != Some(false)
+    is_drill_kind(tool) && tool.centre_cutting != Some(false)
 }
 
 fn is_spot_drill(tool: &ToolTable) -> bool {
@@ -101,6 +108,49 @@ impl<'a> ToolList<'a> {
             near.then(length(a).total_cmp(&length(b)))
         });
         best.ok_or_else(|| self.no_drill(size, pilot, [least + SAME, most - SAME]))
+    }
+
+    /// The smallest countersink for a mouth of a diameter [mm] and a cone of an angle [rad], whose nose runs in a hole; else a spot
+    /// drill of that angle.
+    pub(super) fn countersink(&self, diameter: f64, angle: f64, hole: f64) -> Result<&'a ToolTable> {
+        let same = |a: f64| (a - angle).abs() < SAME_ANGLE;
+        let is_countersink = |t: &ToolTable| {
+            is_drill(t)
+                && matches!(t.point, Some(DrillPoint::Cone { angle, nose }) if same(angle) && nose <= hole + SAME)
+        };
+        let smallest = |accept: &dyn Fn(&ToolTable) -> bool| {
+            let wide = self.of(|t| accept(t) && t.diameter >= diameter - SAME);
+            wide.min_by(|a, b| a.diameter.total_cmp(&b.diameter))
+        };
+        let spots = |t: &ToolTable| {
+            is_spot_drill(t)
+                && t.point_angle.is_some_and(same)
+                && ToolList::spot_within(t, diameter) >= diameter - SAME
+        };
+        let tool = smallest(&is_countersink).or_else(|| smallest(&spots));
+        tool.ok_or_else(|| {
+            let degrees = trimmed(angle.to_degrees(), 3);
+            let what = format!("no countersink of {degrees} degrees for {}", short(diameter));
+            let help = format!(
+                "add a drill with point = {{ cone = {{ cone_angle = {degrees}, nose_diameter = 2 }} }}, its nose no wider than {}",
+                short(hole)
+            );
+            keyed(self.missing(&what, &help), "countersink")
+        })
+    }
+
+    /// The counterbore of a diameter [mm].
+    pub(super) fn counterbore(&self, diameter: f64) -> Result<&'a ToolTable> {
+        let fits = |t: &ToolTable| {
+            is_drill_kind(t)
+                && matches!(t.point, Some(DrillPoint::Flat))
+                && (t.diameter - diameter).abs() <= SAME
+        };
+        self.of(fits).next().ok_or_else(|| {
+            let what = format!("no counterbore {}", short(diameter));
+            let help = "add a drill with point = \"flat\", or mill the recess with type = \"bore\"";
+            keyed(self.missing(&what, help), "counterbore")
+        })
     }
 
     /// The error where no drill fits, with the nearest that are there.
@@ -194,6 +244,12 @@ impl<'a> ToolList<'a> {
         let what = format!("{what} in {}", self.place);
         Finding::error(Code::JOB_REFERENCE, what).help(help).key("size").into()
     }
+}
+
+/// The error with another key of the hole.
+fn keyed(mut error: Error, key: &str) -> Error {
+    error.0.key = Some(key.to_owned());
+    error
 }
 
 /// A length as a message shows it [mm].

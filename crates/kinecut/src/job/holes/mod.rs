@@ -2,6 +2,7 @@
 
 mod choose;
 mod material;
+mod recess;
 mod size;
 mod steps;
 
@@ -107,23 +108,26 @@ fn made(
 ) -> Result<(Vec<Step>, Vec<Finding>)> {
     let size = Size::of(&hole.size, file.units.unwrap_or_default().units().mm())?;
     // Tools by name are taken first: the rest knows them by their numbers.
-    let mut numbers = [None; 3];
-    for (number, (key, called)) in numbers.iter_mut().zip([
+    let no_tool = None;
+    let countersink = hole.countersink.as_ref().map_or(&no_tool, |c| &c.tool);
+    let counterbore = hole.counterbore.as_ref().map_or(&no_tool, |c| &c.tool);
+    let keys = [
         ("spot_drill", &hole.spot_drill),
         ("drill", &hole.drill),
         ("tool", &hole.tool),
-    ]) {
+        ("countersink.tool", countersink),
+        ("counterbore.tool", counterbore),
+    ];
+    let mut numbers = [None; 5];
+    for (number, (key, called)) in numbers.iter_mut().zip(keys) {
         let Some(called) = called else { continue };
         let found = shop.call(file, places, called).map_err(|e| renamed(e, key))?;
         *number = Some(found.ok_or_else(|| undefined(called, key))?);
     }
     let find = |number: Option<u32>| number.and_then(|n| file.tools.iter().find(|tool| tool.number == n));
-    let named = Named { spot: find(numbers[0]), drill: find(numbers[1]), tool: find(numbers[2]) };
-    for (key, called, found) in [
-        ("spot_drill", &hole.spot_drill, named.spot),
-        ("drill", &hole.drill, named.drill),
-        ("tool", &hole.tool, named.tool),
-    ] {
+    let [spot, drill, tool, countersink, counterbore] = numbers.map(find);
+    let named = Named { spot, drill, tool, recess: countersink.or(counterbore) };
+    for ((key, called), found) in keys.into_iter().zip([spot, drill, tool, countersink, counterbore]) {
         if let (Some(called), None) = (called, found) {
             return Err(undefined(called, key).into());
         }

@@ -32,6 +32,7 @@ const BELOW_MILL: f64 = 0.75;
 pub(super) enum Stage {
     Spot,
     Drill,
+    Recess,
     Finish,
 }
 
@@ -50,6 +51,8 @@ pub(super) struct Named<'a> {
     pub(super) spot: Option<&'a ToolTable>,
     pub(super) drill: Option<&'a ToolTable>,
     pub(super) tool: Option<&'a ToolTable>,
+    /// Of its countersink or counterbore.
+    pub(super) recess: Option<&'a ToolTable>,
 }
 
 /// A hole, its height, and the tools from which it is made.
@@ -89,11 +92,12 @@ impl<'a> Maker<'a> {
             Some(drill) => drill,
             None => self.tools.drill(self.core(finisher.as_ref()), &self.size, hole.pilot, drilled)?,
         };
-        let mut steps = Vec::with_capacity(3);
+        let mut steps = Vec::with_capacity(4);
         if hole.spot {
             steps.push(self.spot()?);
         }
         steps.push(self.drill(drill, drilled));
+        steps.extend(self.recess(drill.diameter)?);
         if let Some(finisher) = finisher {
             steps.push(self.finish(&finisher, drill, drilled));
         }
@@ -138,7 +142,7 @@ impl<'a> Maker<'a> {
                 "leave it out, or leave out `spot`",
             );
         }
-        Ok(())
+        self.check_recess()
     }
 
     /// The reamer, tap or thread mill.
@@ -278,8 +282,8 @@ impl<'a> Maker<'a> {
                     tool: CalledTool::Number(tool.number),
                     points: hole.points.clone(),
                     pattern: hole.pattern.clone(),
-                    top: self.top,
-                    depth: hole.depth,
+                    top: self.mouth(),
+                    depth: self.thread_depth(),
                     clearance: hole.clearance,
                     coolant: hole.coolant,
                     ..TapTable::default()
@@ -292,8 +296,8 @@ impl<'a> Maker<'a> {
                     points: hole.points.clone(),
                     pattern: hole.pattern.clone(),
                     size: Some(hole.size.to_string()),
-                    top: self.top,
-                    depth: hole.depth,
+                    top: self.mouth(),
+                    depth: self.thread_depth(),
                     clearance: hole.clearance,
                     coolant: hole.coolant,
                     ..ThreadMillTable::default()
@@ -305,7 +309,7 @@ impl<'a> Maker<'a> {
     }
 
     /// Drilling with a tool, all else of it as usual.
-    fn drilling(&self, tool: &ToolTable) -> DrillTable {
+    pub(super) fn drilling(&self, tool: &ToolTable) -> DrillTable {
         let hole = self.hole;
         DrillTable {
             tool: CalledTool::Number(tool.number),

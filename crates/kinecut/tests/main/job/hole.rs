@@ -331,3 +331,107 @@ fn a_spot_is_drilling_by_centring() {
     let error = refused("[[setup.operation]]\ntype = \"spot\"\n");
     assert!(error.message.contains("`tool` is missing"), "{error}");
 }
+
+/// Tools for recesses: a countersink, a counterbore.
+const RECESSES: &str = "[[tool]]\nnumber = 11\nname = \"countersink 90\"\ntype = \"drill\"\ndiameter = 16.5\nflute_length = 12\n\
+    stickout = 40\ngauge_length = 160\npoint = { cone = { cone_angle = 90, nose_diameter = 3.2 } }\n\
+    preset = [{ material = \"C45\", cutting_speed = 20, feed_per_rev = 0.1 }]\n\
+    [[tool]]\nnumber = 12\nname = \"counterbore 11\"\ntype = \"drill\"\ndiameter = 11\nflute_length = 20\nstickout = 40\n\
+    gauge_length = 160\npoint = \"flat\"\npreset = [{ material = \"C45\", cutting_speed = 18, feed_per_rev = 0.1 }]\n";
+
+#[test]
+fn recesses_for_screws_are_made_before_the_hole_is_brought_to_size() {
+    let holes = r#"
+[[setup.operation]]
+type = "hole"
+size = 6.6
+points = [[-20, 20]]
+countersink = { diameter = 12.6 }
+[[setup.operation]]
+type = "hole"
+size = 6.6
+points = [[0, 20]]
+counterbore = { diameter = 11, depth = 6.8 }
+[[setup.operation]]
+type = "hole"
+size = "8H7"
+points = [[20, 20]]
+countersink = { diameter = 9 }
+[[setup.operation]]
+type = "hole"
+size = "8H7"
+points = [[-20, -20]]
+depth = 15
+counterbore = { diameter = 11, depth = 3 }
+[[setup.operation]]
+type = "hole"
+size = "M8"
+points = [[0, -20]]
+counterbore = { diameter = 11, depth = 4 }
+"#;
+    for control in ["fanuc", "sinumerik-840d", "heidenhain", "linuxcnc"] {
+        let outcome = done(control, RECESSES, holes);
+        let names = names(&outcome);
+        let recesses: Vec<&String> = names.iter().filter(|n| n.starts_with("counter")).collect();
+        assert_eq!(
+            recesses,
+            [
+                "countersinking 12.6 at X-20 Y20",
+                "counterboring 11 at X0 Y20",
+                "counterboring 11 at X-20 Y-20",
+                "counterboring 11 at X0 Y-20",
+                "countersinking 9 at X20 Y20",
+            ]
+        );
+        assert!(outcome.verdict.is_safe(), "{control}: {:?}", outcome.verdict.found);
+        assert!(findings(&outcome).is_empty(), "{control}: {:?}", findings(&outcome));
+    }
+    let outcome = done("fanuc", RECESSES, holes);
+    let plan: serde_json::Value = serde_json::from_str(&kinecut::job::plan_json(&outcome)).unwrap();
+    let lists = plan["setups"][0]["drillings"].as_array().unwrap();
+    let end = |of: usize| {
+        lists[of]["holes"][0]["zones"].as_array().unwrap().last().unwrap()["to"].as_f64().unwrap()
+    };
+    let number = |name: &str| {
+        outcome.job.setups[0].operations[1..].iter().position(|o| o.name() == name).expect("the recess")
+    };
+    // A cone of 90 degrees is as deep as it is wide on one side: without its nose of 3.2 mm.
+    let tip = end(number("countersinking 12.6 at X-20 Y20"));
+    assert!((tip + 0.5 * (12.6 - 3.2)).abs() < 1e-9, "{tip}");
+    let floor = end(number("counterboring 11 at X0 Y20"));
+    assert!((floor + 6.8).abs() < 1e-9, "{floor}");
+    // The thread begins at the floor of its recess.
+    let threads = plan["setups"][0]["threads"][0].clone();
+    assert!((threads["reference"].as_f64().unwrap() - (-4.0 + 2.0 * 1.25)).abs() < 2.0, "{threads}");
+}
+
+#[test]
+fn recesses_that_cannot_be_made_are_refused() {
+    let hole = |keys: &str| {
+        let operations =
+            format!("[[setup.operation]]\ntype = \"hole\"\nsize = 6.6\npoints = [[0, 0]]\n{keys}");
+        let text = job("fanuc", RECESSES, &operations);
+        let Err(e) = run("job.toml", &text, &MemoryLoader::default(), &Silent) else { panic!("{keys}") };
+        (e.0.message.clone(), e.0.key.clone().unwrap_or_default())
+    };
+    for (keys, words, key) in [
+        ("countersink = { diameter = 6 }", "not wider than the hole", "countersink.diameter"),
+        ("countersink = { diameter = 17 }", "no countersink of 90 degrees for 17", "countersink"),
+        ("countersink = { diameter = 12, angle = 82 }", "no countersink of 82 degrees", "countersink"),
+        ("countersink = { diameter = 12, angle = 180 }", "between 0 and 180", "countersink.angle"),
+        ("countersink = { diameter = 12, tool = \"drill 12\" }", "another angle", "countersink.tool"),
+        ("counterbore = { diameter = 10, depth = 5 }", "no counterbore 10", "counterbore"),
+        ("counterbore = { diameter = 11, depth = -5 }", "depth", "counterbore.depth"),
+        ("counterbore = { diameter = 11, depth = 5, tool = 6 }", "does not fit", "counterbore.tool"),
+        (
+            "counterbore = { diameter = 11, depth = 5 }\ncountersink = { diameter = 12 }",
+            "exclude",
+            "counterbore",
+        ),
+        ("depth = 5\ncounterbore = { diameter = 11, depth = 6 }", "depth", "counterbore.depth"),
+    ] {
+        let (message, at) = hole(keys);
+        assert!(message.contains(words), "{keys}: {message}");
+        assert!(at.ends_with(key), "{keys}: {at}");
+    }
+}
