@@ -175,7 +175,9 @@ impl PlannedHole {
     /// The recess that it leaves at the mouth of a hole that follows, cut to a diameter in a level face.
     fn as_mouth(&self) -> Option<MadeMouth> {
         let level = matches!(self.spec.entry, BoundarySurface::Plane { slope: 0.0, .. });
-        let whole = level && matches!(self.spec.end, End::Reached(_)) && self.spec.mouth.is_none();
+        // Of a recess that was there nothing is left where all of the edge has gone in.
+        let whole =
+            level && matches!(self.spec.end, End::Reached(_)) && self.plan.entry.last >= self.plan.travel.end;
         let edge = closed(&self.plan.edge).filter(|_| whole)?;
         let tip = self.plan.travel.end + self.zero;
         Some(MadeMouth { tip: glam::DVec3::new(self.at[0], self.at[1], tip), edge })

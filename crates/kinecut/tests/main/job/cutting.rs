@@ -357,6 +357,59 @@ fn a_cut_that_needs_more_than_the_spindle_has_is_a_warning() {
 }
 
 #[test]
+fn taps_that_cut_have_a_torque_within_a_half_and_those_that_form_have_none() {
+    let tap = |forming: bool| {
+        format!(
+            "[[tool]]\nnumber = 5\ntype = \"tap\"\ndiameter = 8\npitch = 1.25\nlead = 2.5\nteeth = 3\nforming = {forming}\n\
+             flute_length = 20\nshank_diameter = 6\nstickout = 60\n"
+        )
+    };
+    let of = |forming: bool, torque: f64| {
+        let machine = format!(
+            "[machine]\ncode = \"2103\"\ndynamics = {{ spindle_power = 20, spindle_torque = {torque} }}\n{}",
+            tap(forming)
+        );
+        let core = if forming { 7.4 } else { 6.8 };
+        let drill = drill("speed = 900\nfeed_per_rev = { steady = 0.16 }");
+        let tapped =
+            "[[setup.operation]]\ntype = \"tap\"\ntool = 5\npoints = [[0, 0]]\ndepth = 12\nspeed = 480\n";
+        let text = job(C45, &machine, &format!("{drill}{tapped}"));
+        let text = text.replacen(
+            "diameter = 8\nflute_length = 60",
+            &format!("diameter = {core}\nflute_length = 60"),
+            1,
+        );
+        run("job.toml", &text, &MemoryLoader::default(), &Silent).unwrap_or_else(|e| panic!("{e}"))
+    };
+    let loads = |outcome: &Outcome| -> Vec<f64> {
+        let json: Value = serde_json::from_str(&engagement_json(outcome).unwrap()).unwrap();
+        let blocks = json["setups"][0]["blocks"].as_array().unwrap().clone();
+        blocks.iter().filter(|b| b["tool"] == 5).filter_map(|b| b["torque"].as_f64()).collect()
+    };
+    // kc P^2 D / 8000 at the chip P / (2 z lead), written out.
+    let wanted = 2110.0 * (1.25_f64 / (2.0 * 3.0 * 2.5)).powf(-0.17) * 1.25 * 1.25 * 8.0 / 8000.0;
+    let outcome = of(false, 100.0);
+    let found = loads(&outcome);
+    assert!(!found.is_empty() && found.iter().all(|t| (t - wanted).abs() < 1e-9), "{found:?} {wanted}");
+    let page = format!("{:?}", kinecut::job::report::of_job(&outcome).sections);
+    assert!(page.contains("5.0 (\u{b1}50 %)"), "{page}");
+    let warned = |outcome: &Outcome| -> Vec<Finding> {
+        outcome.verdict.found.iter().filter(|f| f.code == Code::CUTTING_LOAD).cloned().collect()
+    };
+    assert!(warned(&outcome).is_empty(), "{:?}", warned(&outcome));
+    let found = warned(&of(false, 0.9 * wanted));
+    // The drill before it needs more than that too.
+    let own = found.iter().find(|f| f.message.contains("T5")).expect("a warning about the tap");
+    assert!(own.message.contains("more than the torque of the spindle, within 50 %"), "{own}");
+    // Of one that forms nothing is known, and that is said.
+    let forming = of(true, 100.0);
+    assert!(loads(&forming).is_empty());
+    let said = format!("{:?}", forming.verdict.not_checked);
+    assert!(said.contains("taps that form their thread"), "{said}");
+    assert!(!format!("{:?}", outcome.verdict.not_checked).contains("taps that form"));
+}
+
+#[test]
 fn a_wall_from_which_the_cutter_is_pressed_away_is_a_warning() {
     let wall = |rest: &str, finish: &str| {
         format!(

@@ -377,10 +377,10 @@ counterbore = { diameter = 11, depth = 4 }
             recesses,
             [
                 "countersinking 12.6 at X-20 Y20",
+                "countersinking 9 at X20 Y20",
                 "counterboring 11 at X0 Y20",
                 "counterboring 11 at X-20 Y-20",
                 "counterboring 11 at X0 Y-20",
-                "countersinking 9 at X20 Y20",
             ]
         );
         assert!(outcome.verdict.is_safe(), "{control}: {:?}", outcome.verdict.found);

@@ -24,6 +24,7 @@ mod picture;
 mod playback;
 mod pocket;
 mod pocket_entry;
+mod pocket_random;
 mod prove_motion;
 mod prove_rules;
 mod rest;

@@ -13,7 +13,7 @@ use kinecut::trace::SegmentPace;
 
 const CONTROLS: [&str; 5] = ["sinumerik-840d", "heidenhain", "linuxcnc", "fanuc", "grbl"];
 
-fn job(control: &str, operations: &str) -> String {
+pub(super) fn job(control: &str, operations: &str) -> String {
     let tool = |number: u32, diameter: f64, more: &str| {
         format!(
             "[[tool]]\nnumber = {number}\ntype = \"end-mill\"\ndiameter = {diameter}\nteeth = 4\nflute_length = 26\n\
@@ -34,7 +34,7 @@ fn job(control: &str, operations: &str) -> String {
 /// Speeds and feeds by which the moves of a text are known: passes and laps, down, links [mm/min].
 const FEEDS: &str = "speed = 6000\nfeed = 1200\nplunge_feed = 500\nlink_feed = 2000\n";
 
-fn pocket(tool: u32, keys: &str) -> String {
+pub(super) fn pocket(tool: u32, keys: &str) -> String {
     format!("[[setup.operation]]\ntype = \"pocket\"\ntool = {tool}\n{FEEDS}{keys}\n")
 }
 
@@ -49,7 +49,7 @@ fn refused(operations: &str) -> Finding {
 
 /// All that cutters have swept at a floor, by points of their ways.
 #[derive(Default)]
-struct Swept {
+pub(super) struct Swept {
     cells: HashMap<[i64; 2], Vec<(DVec2, f64)>>,
 }
 
@@ -65,7 +65,7 @@ impl Swept {
         self.cells.entry(Swept::cell(p)).or_default().push((p, radius));
     }
 
-    fn holds(&self, p: DVec2) -> bool {
+    pub(super) fn holds(&self, p: DVec2) -> bool {
         let [x, y] = Swept::cell(p);
         (x - 1..=x + 1).flat_map(|x| (y - 1..=y + 1).map(move |y| [x, y])).any(|cell| {
             // Thinner than two micrometres is no chip.
@@ -76,19 +76,19 @@ impl Swept {
 
 /// Findings about the text of a tool at a floor.
 #[derive(Debug, Default)]
-struct Judged {
+pub(super) struct Judged {
     /// Largest engagement at the feed of passes, at that of the way down, and at that of links [deg].
-    pass: f64,
-    down: f64,
-    link: f64,
+    pub(super) pass: f64,
+    pub(super) down: f64,
+    pub(super) link: f64,
     /// Least distance of the cutter's edge from the wall, negative in it [mm].
-    room: f64,
+    pub(super) room: f64,
     /// Length at the feed of passes [mm].
     length: f64,
 }
 
 /// Follows the text at a floor; what other tools have swept before counts as swept.
-fn judge(outcome: &Outcome, outline: &Outline, floor: f64, tool: u32) -> (Judged, Swept) {
+pub(super) fn judge(outcome: &Outcome, outline: &Outline, floor: f64, tool: u32) -> (Judged, Swept) {
     let near = NearestEdge::new(outline.edges());
     let mut swept = Swept::default();
     let mut found = Judged { room: f64::INFINITY, ..Judged::default() };
