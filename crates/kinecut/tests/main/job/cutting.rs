@@ -370,9 +370,10 @@ fn taps_that_cut_have_a_torque_within_a_half_and_those_that_form_have_none() {
             tap(forming)
         );
         let core = if forming { 7.4 } else { 6.8 };
-        let drill = drill("speed = 900\nfeed_per_rev = { steady = 0.16 }");
+        let drill =
+            drill("speed = 900\nfeed_per_rev = { steady = 0.16 }").replace("depth = 10", "depth = 16");
         let tapped =
-            "[[setup.operation]]\ntype = \"tap\"\ntool = 5\npoints = [[0, 0]]\ndepth = 12\nspeed = 480\n";
+            "[[setup.operation]]\ntype = \"tap\"\ntool = 5\npoints = [[0, 20]]\ndepth = 10\nspeed = 480\n";
         let text = job(C45, &machine, &format!("{drill}{tapped}"));
         let text = text.replacen(
             "diameter = 8\nflute_length = 60",
