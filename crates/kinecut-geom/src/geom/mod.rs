@@ -69,8 +69,8 @@ pub use mesh_stl::{read_stl, write_stl};
 pub use offset::{Offset, OffsetLoop, offset, offset_direct};
 pub use outline::{EdgeDistance, NearestEdge, loop_crossing, meetings};
 pub use outline::{
-    LengthUnit, LoopEntry, LoopTable, Outline, OutlineEdge, OutlineFile, OutlineLoop, OutlineOptions,
-    OutlinePoint, OutlineRead, OutlineReads, PointEntry, SectionAxis, Turn, read_outline,
+    LengthUnit, LoopEntry, LoopTable, MeshEdge, MeshOutline, Outline, OutlineEdge, OutlineFile, OutlineLoop,
+    OutlineOptions, OutlinePoint, OutlineRead, OutlineReads, PointEntry, SectionAxis, Turn, read_outline,
 };
 pub use plane_curve::PlaneCurve;
 pub use profile::{Profile, ProfileElement};

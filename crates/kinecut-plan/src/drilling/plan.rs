@@ -143,7 +143,10 @@ impl PassedBody {
                 mouth.lower(&mut passages, &edge, inner, face).map_err(|e| e.under("entry"))?;
             }
             let beside = || Finding::error(Code::DRILL_MISSES, "the drill meets nothing");
-            let entry = whole(&passages, Side::Entry).ok_or_else(beside)?;
+            // The bottom of a hole below the end is not met.
+            let end = spec.blind_end(&edge).unwrap_or(f64::NEG_INFINITY);
+            let met: Vec<Passage> = passages.iter().filter(|p| p.transient.first > end).copied().collect();
+            let entry = whole(&met, Side::Entry).ok_or_else(beside)?;
             let exit = if spec.end.exit().is_some() { whole(&passages, Side::Exit) } else { None };
             return Ok(PassedBody { edge, passages, entry, above, exit, banded: false });
         }
@@ -215,6 +218,15 @@ fn whole(passages: &[Passage], side: Side) -> Option<Transient> {
 }
 
 impl DrillSpec {
+    /// Z at which the travel ends in a blind hole by its depth or its tip [mm].
+    fn blind_end(&self, edge: &EdgeProfile) -> Option<f64> {
+        match self.end {
+            End::FullDiameter(depth) => Some(-depth - edge.extent()[1]),
+            End::Tip(z) => Some(z),
+            End::Reached(_) | End::Through { .. } => None,
+        }
+    }
+
     /// The recess in the face that it enters, and the height of that, where it is level [mm].
     fn level_mouth(&self) -> Option<(&Mouth, f64)> {
         match self.entry {
@@ -313,10 +325,8 @@ fn plan_along(spec: &DrillSpec, body: PassedBody) -> Result<DrillPlan> {
             not_negative("overrun", overrun)?;
             exit.last - overrun
         }
-        (End::FullDiameter(depth), _) => -depth - edge.extent()[1],
-        (End::Reached(_), _) => entry.last,
-        (End::Tip(z), _) => z,
-        (End::Through { .. }, None) => entry.last,
+        (End::FullDiameter(_) | End::Tip(_), _) => spec.blind_end(&edge).unwrap_or(entry.last),
+        (End::Reached(_), _) | (End::Through { .. }, None) => entry.last,
     };
     if let Some(exit) = exit
         && !(exit.first <= entry.first && exit.last <= entry.last)

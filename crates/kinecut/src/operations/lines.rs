@@ -55,7 +55,7 @@ impl OutlineKeys<'_> {
         }
         let outline = polyline(points, side == ContourSide::On).map_err(|e| e.under("polyline"))?;
         let weights = vec![1.0; outline.edges().len()];
-        Ok(OutlineRead { outline, weights, notes: Vec::new() })
+        Ok(OutlineRead { outline, weights, notes: Vec::new(), edge: None })
     }
 }
 

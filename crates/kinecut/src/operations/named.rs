@@ -22,6 +22,8 @@ pub(crate) struct NamedOutline<'a> {
     pub(crate) stock_to_leave: f64,
     /// The plane in which it works, if it names one.
     pub(crate) plane: Option<&'a PlaneTable>,
+    /// Whether side and top follow from the edge of a mesh, as far as they are not given.
+    pub(crate) from_edge: [bool; 2],
     /// Whether it cuts the wall along the outline, and compares it.
     pub(crate) has_wall: bool,
 }

@@ -10,8 +10,8 @@ use super::slot_outline::OutlineSlot;
 use crate::base::bounded::{MAX_LENGTH, bounded, length, positive};
 use crate::base::{Code, Error, FileKind, Finding, Loader, Result};
 use crate::geom::{
-    LengthUnit, Outline, OutlineEdge, OutlineFile, OutlineOptions, OutlineRead, OutlineReads, PointEntry,
-    read_outline,
+    LengthUnit, MeshOutline, Outline, OutlineEdge, OutlineFile, OutlineOptions, OutlineRead, OutlineReads,
+    PointEntry, read_outline,
 };
 
 /// The edges of a face.
@@ -64,17 +64,19 @@ pub(crate) struct OutlineKeys<'a> {
     /// An open line by its points.
     pub(crate) polyline: Option<&'a [PointEntry]>,
     pub(crate) drawing: Option<Drawn<'a>>,
-    /// Whether the section of a mesh is asked for.
-    pub(crate) has_section: bool,
+    /// The keys by which a part of a mesh is asked for, as far as they are given.
+    pub(crate) mesh_keys: [Option<&'static str>; 2],
 }
 
-/// The section of a mesh at a height of its own [mm].
+/// The part of a mesh that an outline is, in its own coordinates [mm].
 #[derive(Clone, Copy, Debug)]
-pub(crate) enum MeshSection {
-    /// The material just below it.
+pub(crate) enum MeshPart {
+    /// The material just below a height.
     Material(f64),
     /// The holes in that material.
     Holes(f64),
+    /// The loop of the edge at a point.
+    Edge([f64; 3]),
 }
 
 /// A drawing, with the keys that say how it is read and where it lies.
@@ -84,7 +86,7 @@ pub(crate) struct Drawn<'a> {
     pub(crate) unit: Option<LengthUnit>,
     pub(crate) layers: Option<&'a [String]>,
     pub(crate) snap: Option<f64>,
-    pub(crate) section: Option<MeshSection>,
+    pub(crate) part: Option<MeshPart>,
     pub(crate) at: [f64; 2],
     /// Degrees.
     pub(crate) angle: f64,
@@ -99,13 +101,14 @@ macro_rules! outline_keys {
             polygon: $table.polygon.as_deref(),
             slot: $table.slot,
             polyline: None,
-            has_section: $table.section.is_some(),
+            mesh_keys: [$table.section.map(|_| "section"), $table.edge_at.map(|_| "edge_at")],
             drawing: $table.outline.as_ref().map(|outline| $crate::operations::outlines::Drawn {
                 outline,
                 unit: $table.unit,
                 layers: $table.layers.as_deref(),
                 snap: $table.snap,
-                section: $table.section.map($crate::operations::outlines::MeshSection::Material),
+                part: ($table.edge_at.map($crate::operations::outlines::MeshPart::Edge))
+                    .or($table.section.map($crate::operations::outlines::MeshPart::Material)),
                 at: $table.at,
                 angle: $table.angle,
             }),
@@ -122,10 +125,10 @@ impl OutlineKeys<'_> {
 
     /// With the section of a mesh as a pocket has it: what the material encloses.
     pub(crate) fn of_pocket(mut self) -> Self {
-        if let Some(Drawn { section: Some(section @ MeshSection::Material(_)), .. }) = &mut self.drawing
-            && let MeshSection::Material(z) = *section
+        if let Some(Drawn { part: Some(part @ MeshPart::Material(_)), .. }) = &mut self.drawing
+            && let MeshPart::Material(z) = *part
         {
-            *section = MeshSection::Holes(z);
+            *part = MeshPart::Holes(z);
         }
         self
     }
@@ -154,8 +157,16 @@ impl OutlineKeys<'_> {
             let help = "give one of rectangle, circle, polygon, slot, outline: for example rectangle = { size = [40, 30], corner = 6 }";
             return Err(finding.help(help).key("outline").into());
         };
-        if self.has_section && self.drawing.is_none() {
-            return Err(no_section());
+        match self.mesh_keys {
+            [Some(_), Some(_)] => {
+                let what = "`section` and `edge_at` exclude each other";
+                return Err(Finding::error(Code::JOB_SHAPE, what)
+                    .help("give one of them")
+                    .key("edge_at")
+                    .into());
+            }
+            [Some(key), _] | [_, Some(key)] if self.drawing.is_none() => return Err(no_mesh(key)),
+            _ => {}
         }
         let under = |e: Error| e.under(key);
         let outline = match (self.rectangle, self.circle, self.polygon, self.slot, self.drawing) {
@@ -167,7 +178,7 @@ impl OutlineKeys<'_> {
             _ => return Err(Finding::error(Code::JOB_SHAPE, "the operation needs an outline").into()),
         };
         let weights = vec![1.0; outline.edges().len()];
-        Ok(OutlineRead { outline, weights, notes: Vec::new() })
+        Ok(OutlineRead { outline, weights, notes: Vec::new(), edge: None })
     }
 
     /// The lines of a drawing, in coordinates of the work offset.
@@ -205,15 +216,26 @@ impl Drawn<'_> {
         self.read_as(OutlineReads::Loops, loader)
     }
 
-    /// The height of the section, where the outline is a mesh.
-    fn height(&self) -> Result<Option<f64>> {
-        let Some(MeshSection::Material(z) | MeshSection::Holes(z)) = self.section else { return Ok(None) };
+    /// The part of it that is read, where it is a mesh.
+    fn of_mesh(&self) -> Result<MeshOutline> {
+        let Some(part) = self.part else { return Ok(MeshOutline::Top) };
         let is_mesh =
             matches!(self.outline, OutlineEntry::Name(name) if FileKind::of_outline(name) == FileKind::Mesh);
+        let key = if matches!(part, MeshPart::Edge(_)) { "edge_at" } else { "section" };
         if !is_mesh {
-            return Err(no_section());
+            return Err(no_mesh(key));
         }
-        length("section", z, -MAX_LENGTH, MAX_LENGTH).map(Some)
+        match part {
+            MeshPart::Material(z) | MeshPart::Holes(z) => {
+                length(key, z, -MAX_LENGTH, MAX_LENGTH).map(MeshOutline::Section)
+            }
+            MeshPart::Edge(at) => {
+                for (i, v) in at.into_iter().enumerate() {
+                    length(&format!("{key}[{i}]"), v, -MAX_LENGTH, MAX_LENGTH)?;
+                }
+                Ok(MeshOutline::Edge(at.into()))
+            }
+        }
     }
 
     /// As [`Drawn::read`], or its lines.
@@ -224,18 +246,23 @@ impl Drawn<'_> {
             layers: self.layers.unwrap_or_default().to_vec(),
             snap: length("snap", self.snap.unwrap_or(OutlineOptions::default().snap), 0.0, 10.0)?,
             curve_tolerance: CURVE_TOLERANCE,
-            section: self.height()?,
+            mesh: self.of_mesh()?,
             reads,
             ..OutlineOptions::default()
         };
         let mut read = match self.outline {
             OutlineEntry::Name(name) => {
                 let bytes = loader.read_as(name, FileKind::of_outline(name)).map_err(under)?;
-                read_outline(name, &bytes, &options).map_err(under)?
+                // An error about the point itself is one of its key.
+                let at = |e: Error| match (self.part, e.code()) {
+                    (Some(MeshPart::Edge(_)), Code::OUTLINE_FILE) => e.under("edge_at"),
+                    _ => e.under("outline"),
+                };
+                read_outline(name, &bytes, &options).map_err(at)?
             }
             OutlineEntry::Loops(loops) => loops.outline(&options).map_err(under)?,
         };
-        if let Some(MeshSection::Holes(z)) = self.section {
+        if let Some(MeshPart::Holes(z)) = self.part {
             read = enclosed(read, z)?;
         }
         for (i, v) in self.at.into_iter().enumerate() {
@@ -267,12 +294,16 @@ fn enclosed(read: OutlineRead, z: f64) -> Result<OutlineRead> {
         return Err(finding.value_mm(z).help(help).key("section").into());
     }
     let outline = Outline::new(inner, Vec::new())?;
-    Ok(OutlineRead { weights: vec![1.0; outline.edges().len()], outline, notes: read.notes })
+    Ok(OutlineRead { weights: vec![1.0; outline.edges().len()], outline, notes: read.notes, edge: None })
 }
 
-fn no_section() -> Error {
-    let finding = Finding::error(Code::JOB_SHAPE, "only a mesh has a section at a height");
-    finding.help("write outline = \"part.stl\", or leave `section` out").key("section").into()
+fn no_mesh(key: &str) -> Error {
+    let what = match key {
+        "section" => "only a mesh has a section at a height",
+        _ => "only a mesh has edges at a point",
+    };
+    let help = format!("write outline = \"part.stl\", or leave `{key}` out");
+    Finding::error(Code::JOB_SHAPE, what).help(help).key(key).into()
 }
 
 impl OutlineRectangle {

@@ -101,6 +101,6 @@ impl Drawing {
             u32::try_from(labels.binary_search(label).ok()?).ok()
         };
         let outline = outline.relabelled(|l| label_of(l).unwrap_or(OutlineEdge::NO_LABEL), labels.clone());
-        Ok(OutlineRead { outline, weights, notes: self.notes })
+        Ok(OutlineRead { outline, weights, notes: self.notes, edge: None })
     }
 }

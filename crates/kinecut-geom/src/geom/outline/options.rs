@@ -1,9 +1,10 @@
 //! Options of the readers of outlines, and their result.
 
+use glam::DVec3;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{LengthUnit, Outline};
+use super::{LengthUnit, MeshEdge, Outline};
 use crate::base::{Code, Finding, Result};
 
 /// An axis of a drawing about which a half section is turned; it passes the origin.
@@ -28,6 +29,18 @@ pub enum OutlineReads {
     Drawn,
 }
 
+/// The part of a mesh that is read as an outline, in the coordinates of the mesh [mm].
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum MeshOutline {
+    /// Its highest horizontal face.
+    #[default]
+    Top,
+    /// The material just below a height.
+    Section(f64),
+    /// The loop of the sharp level edge that passes a point, no farther than 1 mm from it.
+    Edge(DVec3),
+}
+
 /// Options for reading a file into an outline.
 #[derive(Clone, Debug, PartialEq)]
 pub struct OutlineOptions {
@@ -42,8 +55,8 @@ pub struct OutlineOptions {
     /// Distance from a circle at which vertices of a mesh count as lying on it, so that their chords become one arc [mm];
     /// 0: chords stay chords.
     pub arc_tolerance: f64,
-    /// Height at which a mesh is cut [mm]; `None`: its highest horizontal face.
-    pub section: Option<f64>,
+    /// The part of a mesh that is read.
+    pub mesh: MeshOutline,
     /// The drawing is half a section about this axis: what is drawn along the axis is left out, and what is open there
     /// closed along it. Not for meshes.
     pub half_section: Option<SectionAxis>,
@@ -60,7 +73,7 @@ impl Default for OutlineOptions {
             layers: Vec::new(),
             curve_tolerance: 0.005,
             arc_tolerance: 1e-3,
-            section: None,
+            mesh: MeshOutline::Top,
             half_section: None,
             reads: OutlineReads::Loops,
         }
@@ -94,4 +107,6 @@ pub struct OutlineRead {
     pub weights: Vec<f64>,
     /// Parts that were passed over, joined, left out or converted, one sentence each.
     pub notes: Vec<String>,
+    /// The edge of a mesh whose loop the outline is.
+    pub edge: Option<MeshEdge>,
 }

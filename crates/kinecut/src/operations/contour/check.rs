@@ -159,6 +159,7 @@ impl kind::Table for ContourTable {
             top,
             stock_to_leave,
             plane,
+            from_edge: [false; 2],
             has_wall: side != ContourSide::On,
         })
     }

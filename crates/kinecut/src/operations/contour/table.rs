@@ -57,6 +57,11 @@ pub struct ContourTable {
     /// Height at which a mesh (.stl) is cut, in its own coordinates: the outline is that of the material just below it; default: its highest horizontal face.
     #[serde(default)]
     pub section: Option<f64>,
+    /// Point at a sharp level edge of a mesh (.stl), in its own coordinates, in place of `section`: the outline is the loop of that
+    /// edge.
+    #[serde(default)]
+    #[schemars(example = vec![10.0, 0.0, 20.0])]
+    pub edge_at: Option<[f64; 3]>,
     /// Zero of the drawing, in coordinates of the work offset; default [0, 0].
     #[serde(default)]
     pub at: [f64; 2],

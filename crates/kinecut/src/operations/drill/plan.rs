@@ -9,7 +9,7 @@ use super::prove::claim;
 use super::section::sections;
 use super::{DrillOperation, HoleJson, PlannedHole, hole_json};
 use crate::base::{Finding, Result};
-use crate::drilling::{BoundarySurface, DrillMethod, End, Mouth};
+use crate::drilling::{BoundarySurface, DrillMethod, End, Mouth, Side};
 use crate::geom::{EdgeProfile, EdgeSegment};
 use crate::nc::Control;
 use crate::operations::measured::{Loose, Proof};
@@ -165,7 +165,7 @@ impl PlannedHole {
         let through = self.plan.exit.is_some();
         // The drill alone has made the floor, where all of its edge has gone in.
         let (edge, tip) = (self.plan.edge, self.plan.travel.end);
-        let whole = !through && edge.inner_radius() == 0.0 && self.plan.entry.last >= tip;
+        let whole = !through && edge.inner_radius() == 0.0 && self.is_all_in();
         let floor = whole.then(|| HoleFloor { tip: tip + self.zero, edge });
         Some(RoundHole { bottom: lowest, through, floor, ..hole })
     }
@@ -176,11 +176,16 @@ impl PlannedHole {
     fn as_mouth(&self) -> Option<MadeMouth> {
         let level = matches!(self.spec.entry, BoundarySurface::Plane { slope: 0.0, .. });
         // Of a recess that was there nothing is left where all of the edge has gone in.
-        let whole =
-            level && matches!(self.spec.end, End::Reached(_)) && self.plan.entry.last >= self.plan.travel.end;
+        let whole = level && matches!(self.spec.end, End::Reached(_)) && self.is_all_in();
         let edge = closed(&self.plan.edge).filter(|_| whole)?;
         let tip = self.plan.travel.end + self.zero;
         Some(MadeMouth { tip: glam::DVec3::new(self.at[0], self.at[1], tip), edge })
+    }
+
+    /// Whether all of the edge is in material at its end, so that it alone has made what is there.
+    fn is_all_in(&self) -> bool {
+        let mut entries = self.plan.passages.iter().filter(|p| p.side == Side::Entry);
+        entries.all(|p| p.transient.last >= self.plan.travel.end)
     }
 
     /// The recess that a counterbore leaves about a hole, in a level face.

@@ -4,9 +4,10 @@ use super::{EdgeKeys, WantedEdges};
 use crate::base::bounded::{MAX_LENGTH, length, positive};
 use crate::base::{Code, Error, Finding, Result};
 use crate::contouring::{ContourLoops, ContourSide, EdgeBreak};
-use crate::geom::{Outline, OutlineRead};
+use crate::geom::{MeshEdge, Outline, OutlineRead};
 use crate::holes::Sense;
 use crate::operations::named::NamedOutline;
+use crate::operations::outlines::{Drawn, MeshPart};
 use crate::operations::{Around, Milling, feed_of, milling_of, spindle, tool_of, whole_revolutions};
 use crate::page::trimmed;
 use crate::tool::{Hand, Tool};
@@ -99,8 +100,15 @@ pub(crate) fn named_outline<'a>(t: &EdgeKeys<'a>) -> Option<NamedOutline<'a>> {
         top: t.top.unwrap_or_default(),
         stock_to_leave: t.stock_to_leave.unwrap_or_default(),
         plane: t.plane,
+        from_edge: from_edge(t),
         has_wall: false,
     })
+}
+
+/// Whether its side and its top follow from the edge of a mesh.
+fn from_edge(t: &EdgeKeys<'_>) -> [bool; 2] {
+    let is_edge = matches!(t.own.drawing, Some(Drawn { part: Some(MeshPart::Edge(_)), .. }));
+    [is_edge && t.side.is_none(), is_edge && t.top.is_none()]
 }
 
 /// Checks a table; `cut` gives the break that its tool makes.
@@ -114,7 +122,8 @@ pub(crate) fn operation(
     let (place, read, edges, of_other) = match WantedEdges::of(t, around)? {
         Some((edges, face)) => {
             let notes = face.notes.clone();
-            let read = OutlineRead { outline: face.case.outline.clone(), weights: Vec::new(), notes };
+            let outline = face.case.outline.clone();
+            let read = OutlineRead { outline, weights: Vec::new(), notes, edge: None };
             (Place::of_face(t, face.table.top)?, read, Some(edges), false)
         }
         None => {
@@ -123,7 +132,8 @@ pub(crate) fn operation(
                 .keys
                 .read_beside(edge.side, around.loader)
                 .map_err(|e| if t.of.is_some() { at_of(e) } else { e })?;
-            (Place::of(&edge), read, None, edge.has_wall)
+            let place = Place::of(&edge).at_edge(&edge, read.edge.as_ref())?;
+            (place, read, None, edge.has_wall)
         }
     };
     length("top", place.top, -MAX_LENGTH, MAX_LENGTH)?;
@@ -174,6 +184,29 @@ impl Place {
         Place { side, loops, top: edge.top, stock_to_leave: edge.stock_to_leave }
     }
 
+    /// With the side and the height of the edge of a mesh, where they follow from it.
+    fn at_edge(mut self, of: &NamedOutline<'_>, edge: Option<&MeshEdge>) -> Result<Place> {
+        let Some(edge) = edge else { return Ok(self) };
+        let wrong = |what: &str, help: &str, key: &str| {
+            Err(Finding::error(Code::JOB_SHAPE, what).value(edge.height, "mm (Z)").help(help).key(key).into())
+        };
+        if !edge.is_upper {
+            let what = "the edge of the mesh cannot be broken from above: the material does not stand out upwards at it";
+            return wrong(what, "name an upper edge of a boss, a plate, a hole or a pocket", "edge_at");
+        }
+        let side = if edge.material_inside { ContourSide::Outside } else { ContourSide::Inside };
+        if of.from_edge[0] {
+            self.side = side;
+        } else if self.side != side {
+            let what = "the material lies on the other side of the edge of the mesh";
+            return wrong(what, "leave out `side`: it follows from the edge", "side");
+        }
+        if of.from_edge[1] {
+            self.top = edge.height;
+        }
+        Ok(self)
+    }
+
     /// Of a face at a height, whose material lies inside of its outline.
     fn of_face(t: &EdgeKeys<'_>, top: f64) -> Result<Place> {
         if t.side.is_some_and(|side| ContourSide::from(side) != ContourSide::Outside) {
@@ -199,7 +232,9 @@ fn edge<'a>(t: &EdgeKeys<'a>, around: &Around<'a>) -> Result<NamedOutline<'a>> {
         Some(of) if t.own.is_empty() => {
             let found = NamedOutline::find(of, around.before)?;
             agrees(t, &found)?;
-            NamedOutline { name, ..found }
+            // A height that is given here is taken.
+            let from_edge = [found.from_edge[0], found.from_edge[1] && t.top.is_none()];
+            NamedOutline { name, from_edge, ..found }
         }
         Some(_) => {
             let finding = Finding::error(Code::JOB_SHAPE, "`of` and an outline exclude each other");
@@ -213,6 +248,7 @@ fn edge<'a>(t: &EdgeKeys<'a>, around: &Around<'a>) -> Result<NamedOutline<'a>> {
             top: 0.0,
             stock_to_leave: 0.0,
             plane: t.plane,
+            from_edge: from_edge(t),
             has_wall: false,
         },
     };

@@ -12,6 +12,8 @@ use crate::facing::burrs::{BurrPart, BurrState};
 pub(crate) struct EdgeJson {
     operation: u32,
     side: ContourSide,
+    /// Z of the edge.
+    top: f64,
     width: f64,
     /// Depth of the tip below the edge.
     depth: f64,
@@ -112,6 +114,7 @@ impl EdgeJson {
         EdgeJson {
             operation,
             side: plan.spec.side,
+            top: plan.of.top,
             width: cut.width(),
             depth: cut.depth(),
             offset: cut.offset(),

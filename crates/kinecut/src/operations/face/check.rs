@@ -12,7 +12,7 @@ use crate::cutting::StartCut;
 use crate::facing::{BadSet, FaceCase, Thresholds};
 use crate::geom::{Outline, OutlineRead};
 use crate::operations::kind::{self, Attempt};
-use crate::operations::outlines::{Drawn, MeshSection, OutlineEntry};
+use crate::operations::outlines::{Drawn, MeshPart, OutlineEntry};
 use crate::operations::{
     Around, CalledTool, CuttingKeys, FeedKeys, Milling, Setting, StockOutline, milling_of, tool_of,
 };
@@ -148,7 +148,7 @@ fn operation(
     let levels = levels(t, depth)?;
     let spindle = spindle(t, radius)?;
     let (feed, feed_per_revolution) = feed(t, spindle, tool.teeth)?;
-    let OutlineRead { outline, weights, notes } = outline(t, stock, loader)?;
+    let OutlineRead { outline, weights, notes, .. } = outline(t, stock, loader)?;
     let last = levels.len().checked_sub(2).map_or(depth, |i| levels[i] - t.top);
     let (bad, rule) = bad_set(t, last)?;
     let weights = weights_of(t, &outline, &weights)?;
@@ -269,12 +269,12 @@ fn outline(t: &FacingTable, stock: &StockOutline<'_>, loader: &dyn Loader) -> Re
             let outline = top_outline(stock, t.top).map_err(|e| e.under("outline"))?;
             // It lies where the stock lies.
             let weights = vec![1.0; outline.edges().len()];
-            Ok(OutlineRead { outline, weights, notes: Vec::new() })
+            Ok(OutlineRead { outline, weights, notes: Vec::new(), edge: None })
         }
         outline => {
             let (unit, layers) = (t.unit, t.layers.as_deref());
-            let section = t.section.map(MeshSection::Material);
-            Drawn { outline, unit, layers, snap: t.snap, section, at: t.at, angle: t.angle }.read(loader)
+            let part = t.section.map(MeshPart::Material);
+            Drawn { outline, unit, layers, snap: t.snap, part, at: t.at, angle: t.angle }.read(loader)
         }
     }
 }

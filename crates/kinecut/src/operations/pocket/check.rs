@@ -191,6 +191,7 @@ impl kind::Table for PocketTable {
             top,
             stock_to_leave,
             plane,
+            from_edge: [false; 2],
             has_wall: true,
         })
     }

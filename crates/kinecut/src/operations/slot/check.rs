@@ -65,7 +65,7 @@ impl kind::Table for SlotTable {
         let line = self.slot().centre_line()?;
         let outline = line.outline(self.width)?;
         let weights = vec![1.0; outline.edges().len()];
-        let read = OutlineRead { outline, weights, notes: Vec::new() };
+        let read = OutlineRead { outline, weights, notes: Vec::new(), edge: None };
         let mut pocket = checked(&self.pocket(), "slot", around, || Ok(read))?;
         pocket.slot = Some(CentredSlot { line, width: self.width });
         Ok(SlotOperation { pocket: Arc::new(pocket) })
@@ -100,6 +100,7 @@ impl kind::Table for SlotTable {
             top: self.top,
             stock_to_leave: self.stock_to_leave,
             plane: self.plane(),
+            from_edge: [false; 2],
             has_wall: true,
         })
     }

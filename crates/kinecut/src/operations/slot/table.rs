@@ -139,6 +139,7 @@ impl SlotTable {
             layers: None,
             snap: None,
             section: None,
+            edge_at: None,
             at: [0.0; 2],
             angle: 0.0,
             lift: None,

@@ -378,3 +378,50 @@ fn edges_of_open_lines_say_their_side() {
     let e = run("job.toml", &job("fanuc", &other), &MemoryLoader::default(), &Silent).unwrap_err();
     assert!(e.0.message.contains("the other side"), "{e}");
 }
+
+#[test]
+fn the_edge_of_a_mesh_is_chamfered_like_its_outline_in_numbers() {
+    let loader = MemoryLoader::default().with("plate.stl", super::contour::plate_with_hole());
+    let of = |keys: &str| {
+        let operation = format!("{CHAMFER}width = 0.5\nstart = [0, -10]\n{keys}");
+        run("job.toml", &job("fanuc", &operation), &loader, &Silent)
+    };
+    let moves = |outcome: &Outcome| -> Vec<String> {
+        outcome.setups[0].posted.text.lines().filter(|l| !l.contains('(')).map(str::to_owned).collect()
+    };
+    for (edge, numbers) in [
+        ("[10, 3, 0]", "rectangle = { size = [20, 20] }\nside = \"inside\"\n"),
+        ("[9.5, 9.6, 0.2]", "rectangle = { size = [20, 20] }\nside = \"inside\"\n"),
+        ("[30, 3, 0]", "rectangle = { size = [60, 40] }\n"),
+    ] {
+        let found =
+            of(&format!("outline = \"plate.stl\"\nedge_at = {edge}\n")).unwrap_or_else(|e| panic!("{e}"));
+        let wanted = of(numbers).unwrap_or_else(|e| panic!("{e}"));
+        assert_eq!(moves(&found), moves(&wanted), "{edge}");
+        let json: serde_json::Value = serde_json::from_str(&kinecut::job::plan_json(&found)).unwrap();
+        assert_eq!(json["setups"][0]["chamfers"][0]["top"], 0.0, "{json}");
+        // Another refers to it, height and side too.
+        let both = format!(
+            "name = \"rim\"\noutline = \"plate.stl\"\nedge_at = {edge}\n{CHAMFER}width = 0.6\nstart = [0, -10]\nof = \"rim\"\n"
+        );
+        let second = of(&both).unwrap_or_else(|e| panic!("{e}"));
+        let alone = of(&numbers
+            .replace("side", "loops = \"all\"\nside")
+            .replace("rectangle", "tip_clearance = 0.5\nrectangle"));
+        assert!(alone.is_ok() && moves(&second).len() > moves(&found).len(), "{edge}");
+    }
+    for (keys, words, key) in [
+        ("edge_at = [0, 0, -5]", "no sharp level edge", "edge_at"),
+        ("edge_at = [10, 0, -12]", "cannot be broken from above", "edge_at"),
+        ("edge_at = [30, 0, -20]", "cannot be broken from above", "edge_at"),
+        ("edge_at = [10, 0, 0]\nside = \"outside\"", "on the other side", "side"),
+        ("edge_at = [10, 0, 0]\nsection = -5", "exclude each other", "edge_at"),
+        ("edge_at = [10, 0, 1e9]", "", "edge_at[2]"),
+    ] {
+        let Err(e) = of(&format!("outline = \"plate.stl\"\n{keys}\n")) else { panic!("{keys}") };
+        assert!(e.0.message.contains(words), "{keys}: {e}");
+        assert!(e.0.key.as_deref().is_some_and(|k| k.ends_with(key)), "{keys}: {:?}", e.0.key);
+    }
+    let Err(e) = of("rectangle = { size = [20, 20] }\nedge_at = [10, 0, 0]\n") else { panic!("no mesh") };
+    assert!(e.0.message.contains("only a mesh has edges at a point"), "{e}");
+}

@@ -426,7 +426,7 @@ fn loops_beside_one_another_take_all_of_the_stock() {
 }
 
 /// A plate of 60 by 40 by 20 with a square hole of 20 in its middle, as an STL in text; the hole ends 12 mm below the top.
-fn plate_with_hole() -> Vec<u8> {
+pub(super) fn plate_with_hole() -> Vec<u8> {
     let ring = |half: [f64; 2], z: f64| {
         [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]]
             .map(|s: [f64; 2]| [s[0] * half[0], s[1] * half[1], z])

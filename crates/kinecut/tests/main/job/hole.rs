@@ -406,6 +406,20 @@ counterbore = { diameter = 11, depth = 4 }
 }
 
 #[test]
+fn a_blind_hole_that_is_reamed_breaks_through_nothing() {
+    let hole = "[[setup.operation]]\ntype = \"hole\"\nsize = \"8H7\"\ndepth = 12\npoints = [[0, 0]]\n";
+    let outcome = done("fanuc", "", hole);
+    assert!(outcome.verdict.is_safe() && findings(&outcome).is_empty(), "{:?}", findings(&outcome));
+    let plan: serde_json::Value = serde_json::from_str(&kinecut::job::plan_json(&outcome)).unwrap();
+    let ream = plan["setups"][0]["drillings"].as_array().unwrap().last().unwrap()["holes"][0].clone();
+    // All of the ring is in below the face, and cuts to the depth: nothing of the drilled hole's floor is met.
+    let zones: Vec<&str> =
+        ream["zones"].as_array().unwrap().iter().filter_map(|z| z["stage"].as_str()).collect();
+    assert_eq!(zones.last(), Some(&"partial"), "{ream}");
+    assert!(ream["lengths"]["L_ust"].as_f64().is_some_and(|l| l > 10.0), "{ream}");
+}
+
+#[test]
 fn recesses_that_cannot_be_made_are_refused() {
     let hole = |keys: &str| {
         let operations =

@@ -140,7 +140,7 @@ pub(super) fn judge(outcome: &Outcome, outline: &Outline, floor: f64, tool: u32)
     (found, swept)
 }
 
-fn json(outcome: &Outcome, number: usize) -> serde_json::Value {
+pub(super) fn json(outcome: &Outcome, number: usize) -> serde_json::Value {
     let plan: serde_json::Value = serde_json::from_str(&plan_json(outcome)).unwrap();
     plan["setups"][0]["pockets"][number].clone()
 }

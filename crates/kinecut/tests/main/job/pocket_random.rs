@@ -7,7 +7,7 @@ use kinecut::base::{Code, MemoryLoader, Silent};
 use kinecut::geom::{NearestEdge, Outline, OutlineEdge};
 use kinecut::job::run;
 
-use super::pocket_entry::{Swept, job, judge, pocket};
+use super::pocket_entry::{Swept, job, json, judge, pocket};
 use crate::common::random::Random;
 
 const FLOOR: f64 = -4.0;
@@ -100,7 +100,13 @@ fn random_pockets_are_cleared_by_two_cutters_whatever_their_way_down() {
         made += 1;
         assert!(outcome.verdict.is_safe(), "{case}: {first} {:?}", outcome.verdict.found);
         let (large, _) = judge(&outcome, &outline, FLOOR, 1);
-        assert!(large.pass < 61.5 && large.link < 20.0, "{case}: {first} {large:?}");
+        let plan = json(&outcome, 0);
+        // Beside a hole of its own size a cutter begins wider, and that is said.
+        let stated = plan["largest_engagement"].as_f64().unwrap().max(match plan["plunges"].as_u64() {
+            Some(0) => 60.0,
+            _ => plan["entry_engagement"].as_f64().unwrap(),
+        });
+        assert!(large.pass < stated + 1.5 && large.link < 20.0, "{case}: {first} {large:?} {plan}");
         let (small, swept) = judge(&outcome, &outline, FLOOR, 3);
         assert!(small.pass < 51.5 && small.link < 20.0, "{case}: {first} {small:?}");
         assert!(large.room > -0.0015 && small.room > -0.0015, "{case}: {first} {large:?} {small:?}");

@@ -1,17 +1,19 @@
 //! Outlines of solids: the highest horizontal face, and the section by a horizontal plane.
 //!
-//! Of a box it is a rectangle, of a cylinder a circle. Of a mesh it is polygons; runs of their chords whose vertices lie
+//! Of a box it is a rectangle, of a cylinder a circle. Of a mesh also the loop of a sharp edge ([`MeshEdge`]). Of a mesh it is polygons; runs of their chords whose vertices lie
 //! on a circle are made arcs again ([`recover`]).
 
+mod edge;
 mod recover;
 mod top;
 
 use glam::{DVec2, DVec3};
 
-use super::{Outline, OutlineEdge, OutlineOptions, OutlineRead};
+use super::{MeshOutline, Outline, OutlineEdge, OutlineOptions, OutlineRead};
 use crate::base::{Code, Finding, Location, Result};
 use crate::geom::mesh_section::section_loops;
 use crate::geom::{Aabb, Mesh, Solid, read_stl};
+pub use edge::MeshEdge;
 use recover::recover;
 
 impl Outline {
@@ -57,6 +59,33 @@ impl Outline {
             }
         }
     }
+
+    /// The loop of the sharp level edge of a mesh that passes a point, no farther than 1 mm from it, and what is known of the edge;
+    /// `arc_tolerance` as for [`Outline::top_of`]. Sharp are edges at which facets meet at 20 degrees or more.
+    ///
+    /// # Errors
+    /// `KC0602` for a mesh that is not closed, `KC0802` where no such edge is near, where it is no loop of one height, and where
+    /// several go on from a place, else as [`Outline::new`].
+    ///
+    /// ```
+    /// # use kinecut_geom as kinecut;
+    /// use glam::dvec3;
+    /// use kinecut::geom::{Mesh, Outline};
+    /// // A block of 30 x 20 x 5: the bits of a corner's number say on which side it lies.
+    /// let corner = |i: u8| dvec3(f64::from(i & 1) * 30.0, f64::from(i >> 1 & 1) * 20.0, f64::from(i >> 2) * 5.0);
+    /// let sides = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
+    /// let triangles = sides.iter().flat_map(|&[a, b, c, d]| [[a, b, c], [a, c, d]]).collect();
+    /// let block = Mesh { vertices: (0..8).map(corner).collect(), triangles };
+    /// let (rim, edge) = Outline::edge_of(&block, dvec3(15.0, 0.1, 5.0), 1e-3)?;
+    /// assert!((rim.area() - 600.0).abs() < 1e-9 && edge.height == 5.0);
+    /// assert!(edge.material_inside && edge.is_upper);
+    /// # Ok::<(), kinecut::base::Error>(())
+    /// ```
+    pub fn edge_of(mesh: &Mesh, at: DVec3, arc_tolerance: f64) -> Result<(Outline, MeshEdge)> {
+        mesh.check_closed()?;
+        let (points, edge) = edge::edge_loop(mesh, at)?;
+        Ok((outline_of(vec![points], arc_tolerance)?.outline, edge))
+    }
 }
 
 /// The horizontal outline of a box or a cylinder.
@@ -87,6 +116,12 @@ fn mesh_section(mesh: &Mesh, z: f64, arc_tolerance: f64) -> Result<OutlineRead> 
     outline_of(loops, arc_tolerance)
 }
 
+fn mesh_edge(mesh: &Mesh, at: DVec3, arc_tolerance: f64) -> Result<OutlineRead> {
+    mesh.check_closed()?;
+    let (points, edge) = edge::edge_loop(mesh, at)?;
+    Ok(OutlineRead { edge: Some(edge), ..outline_of(vec![points], arc_tolerance)? })
+}
+
 fn nothing_at(z: f64, bounds: &Aabb) -> crate::base::Error {
     Finding::error(Code::OUTLINE_FILE, "there is no material just below this height")
         .value_mm(z)
@@ -111,7 +146,7 @@ fn outline_of(loops: Vec<Vec<DVec2>>, arc_tolerance: f64) -> Result<OutlineRead>
     } else {
         Vec::new()
     };
-    Ok(OutlineRead { outline, weights, notes })
+    Ok(OutlineRead { outline, weights, notes, edge: None })
 }
 
 /// Reads the outline of the part in an STL file.
@@ -125,9 +160,10 @@ pub(super) fn read_stl_face(name: &str, bytes: &[u8], options: &OutlineOptions) 
     if let Some(unit) = options.unit {
         mesh.vertices.iter_mut().for_each(|v: &mut DVec3| *v *= unit.mm());
     }
-    match options.section {
-        None => mesh_top(&mesh, options.arc_tolerance),
-        Some(z) => mesh_section(&mesh, z, options.arc_tolerance),
+    match options.mesh {
+        MeshOutline::Top => mesh_top(&mesh, options.arc_tolerance),
+        MeshOutline::Section(z) => mesh_section(&mesh, z, options.arc_tolerance),
+        MeshOutline::Edge(at) => mesh_edge(&mesh, at, options.arc_tolerance),
     }
     .map_err(placed)
 }

@@ -169,3 +169,77 @@ proptest! {
         prop_assert_eq!(outer, face.loops().len());
     }
 }
+
+#[test]
+fn the_loop_of_an_edge_is_found_by_a_point_near_it() {
+    let mesh = ring(&rectangle(40.0, 30.0), &circle(dvec2(5.0, 3.0), 12.0, 24), -10.0, 0.0);
+    // Vertices as a file of 32 bits rounds them.
+    let mut rounded = mesh.clone();
+    rounded.vertices.iter_mut().for_each(|v| *v = v.as_vec3().as_dvec3());
+    for mesh in [&mesh, &rounded] {
+        let of = |x: f64, y: f64, z: f64| Outline::edge_of(mesh, DVec3::new(x, y, z), 1e-3).unwrap();
+        let (rim, edge) = of(17.2, 3.1, 0.3);
+        let turn = rim.edges()[0].turn.unwrap();
+        assert!(rim.edges().len() == 1 && turn.centre.distance(dvec2(5.0, 3.0)) < 1e-5);
+        assert!((turn.radius - 12.0).abs() < 1e-5, "{}", turn.radius);
+        assert!(!edge.material_inside && edge.is_upper && edge.height == 0.0, "{edge:?}");
+        let (rim, edge) = of(40.4, 10.0, -0.4);
+        assert!((rim.area() - 4800.0).abs() < 1e-4 && edge.material_inside && edge.is_upper, "{edge:?}");
+        // The same edges from below cannot be broken from above.
+        for (x, material_inside) in [(17.0, false), (40.0, true)] {
+            let (_, edge) = of(x, 3.0, -10.0);
+            assert!(!edge.is_upper && edge.material_inside == material_inside && edge.height == -10.0);
+        }
+        let far = Outline::edge_of(mesh, DVec3::new(28.0, 3.0, 0.0), 1e-3).unwrap_err();
+        let found = &far.0;
+        assert!(found.message.contains("no sharp level edge"), "{found:?}");
+        assert!((found.value.as_ref().unwrap().value - 11.0).abs() < 0.2, "{found:?}");
+    }
+}
+
+#[test]
+fn an_edge_that_is_no_loop_or_branches_is_refused_at_its_place() {
+    // A wedge: its upper edge is level, and ends at both sides.
+    let at = |x: f64, y: f64, z: f64| DVec3::new(x, y, z);
+    let vertices = vec![
+        at(0.0, 0.0, 0.0),
+        at(30.0, 0.0, 0.0),
+        at(30.0, 20.0, 0.0),
+        at(0.0, 20.0, 0.0),
+        at(0.0, 10.0, 8.0),
+        at(30.0, 10.0, 8.0),
+    ];
+    let triangles =
+        vec![[0, 2, 1], [0, 3, 2], [0, 1, 5], [0, 5, 4], [3, 5, 2], [3, 4, 5], [0, 4, 3], [1, 2, 5]];
+    let wedge = Mesh { vertices, triangles };
+    let e = Outline::edge_of(&wedge, at(15.0, 10.0, 8.0), 1e-3).unwrap_err();
+    assert!(e.0.message.contains("ends here") && e.0.point.is_some(), "{e}");
+    // Two blocks that touch along an upright edge: at its top four level edges meet.
+    let block = |x: f64, y: f64| {
+        let corner = |i: u8| {
+            at(x + f64::from(i & 1) * 10.0, y + f64::from(i >> 1 & 1) * 10.0, f64::from(i >> 2) * 5.0)
+        };
+        let sides = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
+        let triangles = sides.iter().flat_map(|&[a, b, c, d]| [[a, b, c], [a, c, d]]).collect();
+        Mesh { vertices: (0..8).map(corner).collect(), triangles }
+    };
+    let (mut both, other) = (block(0.0, 0.0), block(10.0, 10.0));
+    let corner =
+        |mesh: &Mesh, z: f64| mesh.vertices.iter().position(|v| *v == at(10.0, 10.0, z)).unwrap() as u32;
+    let (shift, same) = (both.vertices.len() as u32, [corner(&both, 5.0), corner(&both, 0.0)]);
+    let [top, low] = [corner(&other, 5.0), corner(&other, 0.0)];
+    let id = |i: u32| {
+        if i == top {
+            same[0]
+        } else if i == low {
+            same[1]
+        } else {
+            i + shift
+        }
+    };
+    both.triangles.extend(other.triangles.iter().map(|t| t.map(id)));
+    both.vertices.extend(other.vertices.iter().copied());
+    let found = edge::edge_loop(&both, at(5.0, 0.0, 5.0)).unwrap_err();
+    assert!(found.0.message.contains("several level edges"), "{found}");
+    assert_eq!(found.0.point, Some([10.0, 10.0, 5.0]));
+}
