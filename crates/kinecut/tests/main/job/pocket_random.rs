@@ -83,8 +83,10 @@ fn random_pockets_are_cleared_by_two_cutters_whatever_their_way_down() {
             "entry = { way = \"helix\" }\n",
             "entry = { way = \"plunge\" }\n",
         ][case % 4];
-        let first =
-            format!("name = \"basin\"\noutline = {{ loops = [[{}]] }}\ndepth = 4\n{way}", written.join(", "));
+        let first = format!(
+            "name = \"basin\"\noutline = {{ loops = [[{}]] }}\ndepth = 4\nfinish = {{ allowance = 0.1, feed = 900 }}\n{way}",
+            written.join(", ")
+        );
         let second = "rest = \"basin\"\ndepth = 4\nengagement = 50\nfinish = { allowance = 0.1, feed = 900 }";
         let text = job("fanuc", &format!("{}{}", pocket(1, &first), pocket(3, second)));
         let outcome = match run("job.toml", &text, &MemoryLoader::default(), &Silent) {
