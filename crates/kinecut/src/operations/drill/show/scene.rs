@@ -14,6 +14,8 @@ pub(super) const DRAWN: f64 = 8.0;
 const SHOWN: f64 = 1.5;
 /// Pieces in which a surface is drawn on each side of the hole, and within it.
 const PIECES: u32 = 160;
+/// Distance that is rounding [mm].
+const ROUNDING: f64 = 1e-9;
 /// Height of the margins drawn above a point, in radii.
 pub(super) const MARGIN: f64 = 0.3;
 
@@ -101,7 +103,7 @@ impl<'a> Scene<'a> {
         };
         let rim = edge.outer_radius();
         let floor = |u: f64| Some([u, height + sense * edge.height(u.abs())?]);
-        let shown = |u: f64| u >= from && u <= to;
+        let shown = |u: f64| u >= from - ROUNDING && u <= to + ROUNDING;
         let side = half(edge);
         let both = side.iter().rev().map(|p| [-p[0], p[1]]).chain(side.iter().copied());
         let mut points: Vec<[f64; 2]> = run.iter().copied().filter(|p| p[0] < -rim).collect();
