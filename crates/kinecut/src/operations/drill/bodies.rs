@@ -5,7 +5,7 @@ use glam::{DVec2, DVec3};
 use super::DrillOperation;
 use super::there::{There, View};
 use crate::base::Result;
-use crate::drilling::{BoundarySurface, PartFace, PartMesh, Passage, Side};
+use crate::drilling::{BoundarySurface, Cover, PartFace, PartMesh, Passage, Side, Transient, transient};
 use crate::geom::{Aabb, EdgeProfile, Mesh, Rigid, Solid};
 use crate::operations::{Drilled, MadeHole, PlacedPlane, Setting};
 
@@ -14,10 +14,12 @@ pub(super) struct DrilledBody<'a> {
     /// Maps coordinates of the work offset to those of the part.
     to_part: Rigid,
     kind: Kind<'a>,
+    /// Whether it is the stock, not a body that the operation names.
+    is_stock: bool,
     drilled: &'a [Drilled],
     /// Holes that operations before leave.
     made: &'a [MadeHole],
-    /// Planes that have been milled before; on a stock that is a mesh they are not looked at.
+    /// Planes that have been milled before.
     faced: &'a [PlacedPlane],
 }
 
@@ -41,6 +43,12 @@ pub(super) struct Met {
     pub(super) across: f64,
 }
 
+/// Heights of a mesh in 32 bits: what differs by less is level [mm].
+const LEVEL: f64 = 1e-4;
+/// Difference of heights that is rounding [mm].
+const ROUNDING: f64 = 1e-9;
+/// Shares add up to all of the disc but for rounding.
+const ALL: f64 = 1.0 - 1e-6;
 /// Radius of the needle that finds the height on the axis, as a share of the drill's.
 const NEEDLE: f64 = 1e-4;
 /// Facets of the mesh of a cylinder [count]: 0.4 micrometres inside at 40 mm.
@@ -58,7 +66,7 @@ impl<'a> DrilledBody<'a> {
         };
         let faced = if drill.body.is_none() { setting.faced } else { &[] };
         let made = if drill.body.is_none() { setting.made } else { &[] };
-        Ok(DrilledBody { to_part, kind, drilled, made, faced })
+        Ok(DrilledBody { to_part, kind, is_stock: drill.body.is_none(), drilled, made, faced })
     }
 
     /// Surfaces that an edge meets at a place of the work offset; Z counts from `at.z`.
@@ -88,7 +96,7 @@ impl<'a> DrilledBody<'a> {
             }
             Kind::Mesh(mesh) => mesh,
         };
-        let passages = mesh.passages(edge, point, -out)?.passages;
+        let mut passages = mesh.passages(edge, point, -out)?.passages;
         // A flat edge passes what it meets between the greatest and the least height over the disc; a needle tells the
         // height on the axis.
         let (inner, outer) = (edge.inner_radius(), edge.outer_radius());
@@ -99,22 +107,82 @@ impl<'a> DrilledBody<'a> {
         let over_disc = heights(inner, outer)?;
         // The disc must do if nothing lies on the axis.
         let on_axis = heights(0.0, NEEDLE * outer).unwrap_or_default();
+        let mut milled_top = None;
+        if matches!(self.kind, Kind::Mesh(_)) && self.is_stock {
+            let [top, bottom] = self.levels(&over_disc, point, out, outer);
+            if let ([Some(top), Some(bottom)], true) = ([top, bottom], top > bottom) {
+                return self.between([top, bottom], edge, at);
+            }
+            // All that was there above a milled plane is gone; what lies under it is as it was.
+            let milled = self.milled_over(&over_disc, point, out, outer);
+            if let (Some(top), Some(first)) = (milled, passages.iter_mut().find(|p| p.side == Side::Entry)) {
+                milled_top = Some(top);
+                let plane = LEVEL_PLANE.surface(Side::Entry, top)?;
+                first.transient = transient(edge, &plane, Cover::Whole)?;
+            }
+        }
         let of = |list: &[Passage], side: Side| {
             let mut own = list.iter().filter(|p| p.side == side).map(|p| p.transient);
             if side == Side::Entry { own.next() } else { own.next_back() }
         };
         let stands_for = |side: Side| {
             of(&over_disc, side).map_or(BoundarySurface::Plane { height: 0.0, slope: 0.0 }, |t| {
-                /// Heights of a mesh in 32 bits: what differs by less is level [mm].
-                const LEVEL: f64 = 1e-4;
                 let rise = t.first - t.last;
                 let slope = if rise > LEVEL { rise / (2.0 * outer) } else { 0.0 };
                 let axis = of(&on_axis, side).unwrap_or(t);
                 BoundarySurface::Plane { height: 0.5 * (axis.first + axis.last), slope }
             })
         };
-        let surfaces = [stands_for(Side::Entry), stands_for(Side::Exit)];
+        let mut surfaces = [stands_for(Side::Entry), stands_for(Side::Exit)];
+        if let Some(top) = milled_top {
+            surfaces[0] = LEVEL_PLANE.surface(Side::Entry, top)?;
+        }
         Ok(Met { surfaces, faces: None, passages: Some(passages), there: There::default(), across: 0.0 })
+    }
+
+    /// Heights at which all of the disc goes into the stock and out of it, where they are level: milled, or as the mesh is.
+    fn levels(&self, over_disc: &[Passage], point: DVec3, out: DVec3, radius: f64) -> [Option<f64>; 2] {
+        let whole = |side: Side| {
+            let mut own = over_disc.iter().filter(|p| p.side == side);
+            match (own.next(), own.next()) {
+                (Some(p), None) if p.share > ALL => Some(p.transient),
+                _ => None,
+            }
+        };
+        let level = |t: Transient| (t.first - t.last <= LEVEL).then_some(0.5 * (t.first + t.last));
+        let top = whole(Side::Entry)
+            .and_then(|t| self.milled_above(t.last, point, out, radius).or_else(|| level(t)));
+        let bottom = whole(Side::Exit).and_then(|t| {
+            let milled = self.lowest(point, -out, radius).map(|d| -d).filter(|low| t.first <= low + ROUNDING);
+            milled.or_else(|| level(t))
+        });
+        [top, bottom]
+    }
+
+    /// The plane that was milled over all that the disc goes into first.
+    fn milled_over(&self, over_disc: &[Passage], point: DVec3, out: DVec3, radius: f64) -> Option<f64> {
+        let first = over_disc.iter().find(|p| p.side == Side::Entry).filter(|p| p.share > ALL)?;
+        self.milled_above(first.transient.last, point, out, radius)
+    }
+
+    /// The lowest plane that was milled over a disc, seen along a direction.
+    fn lowest(&self, point: DVec3, out: DVec3, radius: f64) -> Option<f64> {
+        self.faced.iter().filter_map(|p| p.over(point, out, radius)).min_by(f64::total_cmp)
+    }
+
+    /// That plane, where the stock's surface was nowhere lower than it: a dip below it would stay.
+    fn milled_above(&self, least: f64, point: DVec3, out: DVec3, radius: f64) -> Option<f64> {
+        self.lowest(point, out, radius).filter(|top| least >= top - ROUNDING)
+    }
+
+    /// The stock between two levels, with the holes that are there.
+    fn between(&self, levels: [f64; 2], edge: &EdgeProfile, at: DVec3) -> Result<Met> {
+        let [top, bottom] = levels;
+        let surfaces = [LEVEL_PLANE.surface(Side::Entry, top)?, LEVEL_PLANE.surface(Side::Exit, bottom)?];
+        let to_work = self.to_part.inverse();
+        let view = View { to_work: &to_work, at, faces: levels };
+        let there = view.holes(edge.outer_radius(), self.drilled, self.made)?;
+        Ok(Met { surfaces, faces: Some([LEVEL_PLANE; 2]), passages: None, there, across: 0.0 })
     }
 
     /// Entry and exit, where a face has been milled over all of the disc the plane in their place; and which of them are.
@@ -125,10 +193,7 @@ impl<'a> DrilledBody<'a> {
         out: DVec3,
         radius: f64,
     ) -> Result<([BoundarySurface; 2], [bool; 2])> {
-        /// Difference of heights that is rounding [mm].
-        const ROUNDING: f64 = 1e-9;
-        let lowest =
-            |out: DVec3| self.faced.iter().filter_map(|p| p.over(point, out, radius)).min_by(f64::total_cmp);
+        let lowest = |out: DVec3| self.lowest(point, out, radius);
         let [entry, exit] = found;
         // The plane counts where it has taken all that was there: a dip of the stock below it would stay.
         let top = lowest(out).filter(|top| least(&entry, radius).is_some_and(|low| low >= top - ROUNDING));
