@@ -449,3 +449,44 @@ fn recesses_that_cannot_be_made_are_refused() {
         assert!(at.ends_with(key), "{keys}: {at}");
     }
 }
+
+/// A block by its eight corners, lower ones first, counter-clockwise, as an STL file.
+fn block(corners: [[f64; 3]; 8]) -> Vec<u8> {
+    let sides = [[3, 2, 1, 0], [4, 5, 6, 7], [0, 1, 5, 4], [1, 2, 6, 5], [2, 3, 7, 6], [3, 0, 4, 7]];
+    let mut text = "solid raw\n".to_owned();
+    for [a, b, c, d] in sides {
+        for triangle in [[a, b, c], [a, c, d]] {
+            text += "facet normal 0 0 0\nouter loop\n";
+            for [x, y, z] in triangle.map(|i: usize| corners[i]) {
+                text += &format!("vertex {x} {y} {z}\n");
+            }
+            text += "endloop\nendfacet\n";
+        }
+    }
+    (text + "endsolid raw\n").into_bytes()
+}
+
+#[test]
+fn a_stock_that_is_a_mesh_is_drilled_from_the_milled_face_like_a_box() {
+    let of_box = done("fanuc", "", HOLES);
+    let text = job("fanuc", "", HOLES);
+    let mesh =
+        text.replace("{ box = { min = [-60, -40, -20], max = [60, 40, 1] } }", "{ mesh = \"raw.stl\" }");
+    assert_ne!(mesh, text);
+    let of_mesh = |heights: [f64; 4]| {
+        let at =
+            |z: f64, i: usize| [[-60.0, -40.0, z], [60.0, -40.0, z], [60.0, 40.0, z], [-60.0, 40.0, z]][i];
+        let corners = std::array::from_fn(|i| at(if i < 4 { -20.0 } else { heights[i - 4] }, i % 4));
+        let loader = MemoryLoader::default().with("raw.stl", block(corners));
+        run("job.toml", &mesh, &loader, &Silent).unwrap_or_else(|e| panic!("{e}"))
+    };
+    let moves = |outcome: &Outcome| -> Vec<String> {
+        outcome.setups[0].posted.text.lines().filter(|l| !l.contains('(')).map(str::to_owned).collect()
+    };
+    // Level: the same program. Leaning, as a casting may be, and milled level: the holes are those of the box too.
+    for heights in [[1.0; 4], [0.25, 1.0, 1.0, 0.25]] {
+        let outcome = of_mesh(heights);
+        assert!(outcome.verdict.is_safe() && findings(&outcome).is_empty(), "{:?}", findings(&outcome));
+        assert_eq!(moves(&outcome), moves(&of_box), "{heights:?}");
+    }
+}
