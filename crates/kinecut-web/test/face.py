@@ -324,6 +324,22 @@ def paper(page: Page, verb: Verb) -> None:
     assert value == f"{own['value']:.3f}" and int(count) == own["evaluations"], (words, own)
     assert int(page.locator(".graph .walk").get_attribute("data-steps")) > 5
     shot(page, "face-walk")
+    # From another placement, at once after it is put there: all turns that the text allows are open to it.
+    held = page.locator(".held")
+    held.focus()
+    for key in ("Shift+ArrowLeft", "Shift+ArrowDown"):
+        held.press(key)
+    with page.expect_request(lambda r: r.url.endswith("/api/verb/face") and (r.post_data_json or {}).get("walk")) as asked:
+        page.get_by_role("button", name="Walk from here").click()
+    page.wait_for_function("() => document.querySelector('[data-walk]')?.textContent.startsWith('From turn 10.0°, offset 1.00 mm')", timeout=LONG)
+    page.locator('[data-walk="ended"]').wait_for(timeout=LONG)
+    value, count = re.search(r"ended at ([\d.]+) mm after (\d+) evaluations", page.locator("[data-walk]").inner_text()).groups()
+    walk = verb.of(asked.value.post_data_json["text"], "--walk")["walk"]
+    # Without an offset the verb puts the cutter over the middle of the turned part.
+    over = verb.face("--walk", placement="{ angle = 10.0 }", passes='"one"')["walk"]["start"]
+    assert walk["start"]["turn"] == 10 and abs(walk["start"]["offset"] - over["offset"] - 1) < 1e-6, (walk["start"], over)
+    assert value == f"{walk['value']:.3f}" and int(count) == walk["evaluations"], (value, count, walk["value"], walk["evaluations"])
+    assert abs(walk["end"]["turn"] - 10) > 1, walk["end"]
     page.locator("[data-paper]").uncheck()
 
 

@@ -3,7 +3,7 @@ import { batch, computed, signal } from "@preact/signals";
 import * as api from "../../base/api";
 import { type FaceAnswer, type Optimum, type Placement, type Step, isOptimum } from "./answer";
 import { type Map, cellsOf } from "./map";
-import { atPlace, forLeast, given, placementOf, sector, valueOf } from "./question";
+import { atPlace, forLeast, given, placedAt, placementOf, sector, valueOf } from "./question";
 import { middle, round360 } from "./shape";
 
 /** A placement as the window has it: the part's turn [deg], and the cutter's centre line beside the middle of its width [mm]. */
@@ -133,6 +133,8 @@ export class Face {
   private lateTimer = 0;
   private wanted: Hand | null = null;
   private asksUnder = false;
+  /** Walks that were begun: the last one alone is shown. */
+  private walks = 0;
 
   constructor(
     /** The file of the question; null while it is not on disk. */
@@ -151,6 +153,7 @@ export class Face {
 
   /** Asks all of it again: a file that the text names may be another one. */
   again(): void {
+    this.walks++;
     batch(() => {
       this.placed.value = null;
       this.map.value = null;
@@ -315,27 +318,32 @@ export class Face {
     }
   }
 
-  /** Walks by the paper's method from the placement under the hand: the verb tells all steps at once, they are shown one by one. */
+  /**
+   * Walks by the paper's method from the placement under the hand: the verb tells all steps at once, they are shown one by one. The method
+   * keeps to the turns that its text allows, so that its question leaves out none.
+   */
   async walkFrom(): Promise<void> {
     const hand = this.hand.value;
     const answer = this.least.value?.answer;
     const text = this.text.value;
     if (!hand || !answer || this.least.value?.text !== text) return;
+    const own = ++this.walks;
+    const old = () => own !== this.walks || this.text.value !== text;
     this.walk.value = null;
     try {
-      const told = await this.lines.walk.ask(atPlace(text, hand.turn, middle(answer.outline, hand.turn) + hand.beside), { walk: true });
-      if (told === null || this.text.value !== text) return;
+      const told = await this.lines.walk.ask(placedAt(text, hand.turn, middle(answer.outline, hand.turn) + hand.beside), { walk: true });
+      if (told === null || old()) return;
       if (!isAnswer(told)) throw new Error(told.message);
-      const steps = told.walk?.steps ?? [];
-      if (steps.length === 0) return;
+      const { steps, start } = told.walk ?? { steps: [], start: null };
+      if (!start || steps.length === 0) return;
       const still = matchMedia("(prefers-reduced-motion: reduce)").matches;
       for (let n = still ? steps.length : 1; n <= steps.length; n++) {
         if (n > 1 && !still) await new Promise((done) => setTimeout(done, STRIDE));
-        if (this.text.value !== text || this.walk.peek()?.state === "stopped") return;
-        this.walk.value = { text, start: hand, steps: steps.slice(0, n), state: n < steps.length ? "walks" : "ended" };
+        if (old() || this.walk.peek()?.state === "stopped") return;
+        this.walk.value = { text, start: this.handOf(start), steps: steps.slice(0, n), state: n < steps.length ? "walks" : "ended" };
       }
     } catch (error) {
-      this.failed(error);
+      if (!old()) this.failed(error);
     }
   }
 
