@@ -1,10 +1,12 @@
 // One face: its text, the placement under the hand, and what the verb says of both. Every number that is shown as a result is the verb's.
-import { batch, computed, signal } from "@preact/signals";
+import { batch, computed, effect, signal } from "@preact/signals";
 import * as api from "../../base/api";
 import { type FaceAnswer, type Optimum, type Placement, type Step, isOptimum } from "./answer";
+import { History } from "./history";
 import { type Map, cellsOf } from "./map";
 import { atPlace, forLeast, given, placedAt, placementOf, sector, valueOf } from "./question";
 import { middle, round360 } from "./shape";
+import { type View, WHOLE } from "./view";
 
 /** A placement as the window has it: the part's turn [deg], and the cutter's centre line beside the middle of its width [mm]. */
 export interface Hand {
@@ -95,6 +97,9 @@ export class Face {
   readonly hand = signal<Hand | null>(null);
   /** Shift along the feed [mm]: of the picture alone, it changes no exit. */
   readonly along = signal(0);
+  /** What is seen of the picture. */
+  readonly view = signal<View>(WHOLE);
+  readonly history = new History();
   readonly placed = signal<Placed | null>(null);
   readonly late = signal(false);
   /** From the move of the hand to the exits on the screen [ms]. */
@@ -143,6 +148,21 @@ export class Face {
     /** A file in whose folder the question lies. */
     readonly beside: string,
   ) {}
+
+  private readonly noted = effect(() => {
+    const [text, hand] = [this.text.value, this.hand.value];
+    if (hand) this.history.note({ text, hand });
+  });
+
+  /** Takes back the last change of text or placement, or does it again. */
+  back(by: -1 | 1): void {
+    const moment = this.history.go(by);
+    if (!moment) return;
+    batch(() => {
+      this.edited(moment.text);
+      this.move(moment.hand);
+    });
+  }
 
   /** A text, at first or after a change. */
   edited(text: string): void {
@@ -239,6 +259,13 @@ export class Face {
   handOf(p: Placement): Hand {
     const { outline } = this;
     return { turn: p.turn, beside: outline.value ? p.offset - middle(outline.value, p.turn) : 0 };
+  }
+
+  /** Puts the part elsewhere at once: a change of its own. */
+  go(hand: Hand): void {
+    this.history.rest();
+    this.move(hand);
+    this.history.rest();
   }
 
   /** Puts the part elsewhere. */
@@ -387,6 +414,7 @@ export class Face {
   close(): void {
     clearTimeout(this.timer);
     clearTimeout(this.lateTimer);
+    this.noted();
     for (const line of Object.values(this.lines)) line.stop();
   }
 
