@@ -10,7 +10,7 @@ import tomllib
 
 from browser import begin as bore
 from browser import drawn, field, text_of, wait_drawn
-from common import EXAMPLES, LONG, MARK, OUTCOME, SIZES, UNMARKED, Script, Served, Stage, Watched, clean, judged, open_file, shot
+from common import EXAMPLES, LONG, MARK, OUTCOME, SIZES, UNMARKED, Script, Served, Stage, Watched, clean, judged, open_file, painted, shot
 from playwright.sync_api import Browser, Page
 
 BORE = "setup[0].operation[0]"
@@ -374,8 +374,91 @@ def marks(page: Page) -> None:
     chosen = page.locator(".findings > li[aria-current] .no").inner_text()
     assert chosen == last.locator("text").text_content().rstrip("+")
     assert "on" in last.get_attribute("class").split()
+    # From below the part hides the place above it, and its mark is faint; it is still there to be clicked. From the top it is seen.
+    canvas = page.locator(".stage canvas")
+    canvas.focus()
+    page.keyboard.press("3")
+    for _ in range(9):
+        page.keyboard.press("ArrowDown")
+    page.locator(".marks .mark.behind").first.wait_for()
+    assert float(last.evaluate("e => getComputedStyle(e).opacity")) < 0.6
+    page.locator(".rings .behind").wait_for(state="attached")
+    shot(page, "marks-behind")
+    last.click()
+    page.mouse.move(5, 5)
+    canvas.focus()
+    page.keyboard.press("2")
+    page.locator(".marks .mark:not(.behind)").first.wait_for()
+    assert float(last.evaluate("e => getComputedStyle(e).opacity")) == 1
+    page.locator(".rings .behind").wait_for(state="detached")
+    page.keyboard.press("1")
     shot(page, "marks")
     clean(page, "marks")
+
+
+# How colourful the most colourful pixel of a picture is.
+COLOURFUL = """async packed => {
+  const bytes = Uint8Array.from(atob(packed), c => c.charCodeAt(0));
+  const bitmap = await createImageBitmap(new Blob([bytes], { type: "image/png" }));
+  const context = new OffscreenCanvas(bitmap.width, bitmap.height).getContext("2d");
+  context.drawImage(bitmap, 0, 0);
+  const { data } = context.getImageData(0, 0, bitmap.width, bitmap.height);
+  let most = 0;
+  for (let i = 0; i < data.length; i += 4) most = Math.max(most, Math.max(data[i], data[i + 1], data[i + 2]) - Math.min(data[i], data[i + 1], data[i + 2]));
+  return most;
+}"""
+
+
+def colourful(page: Page, x: float, y: float, wide: float, high: float) -> int:
+    """Greatest difference of red, green and blue in a stretch of the picture."""
+    painted(page)
+    picture = page.screenshot(clip={"x": x, "y": y, "width": wide, "height": high})
+    return page.evaluate(COLOURFUL, base64.b64encode(picture).decode())
+
+
+def sections(page: Page) -> None:
+    """The face of a section hides what lies behind it, and is none of the part's own faces: it has a place, and nothing is picked on it."""
+    open_file(page, "holes.toml")
+    judged(page, "holes.toml")
+    canvas = page.locator(".stage canvas")
+    canvas.focus()
+    page.keyboard.press("3")
+    page.keyboard.press("x")
+    # In front of both holes.
+    page.locator(".section input").fill("0.1")
+    page.wait_for_function("() => document.querySelector('.section output').textContent === '3.00 mm'")
+    painted(page)
+    box, px = canvas.bounding_box(), scale(page)
+    # The first hole, seen from the front.
+    x, y = box["x"] + box["width"] / 2 - 10 * px, box["y"] + box["height"] / 2
+    hole = (x - 12, y - 4 * px, 24, 6 * px)
+    # Beside the path, which a click would take.
+    page.mouse.click(x + 3 * px, y)
+    page.wait_for_function("() => / Y 3\\.000 /.test(document.querySelector('.under').textContent)", timeout=LONG)
+    # The raw block as it is before the first hole, whose path goes through it behind the face.
+    page.locator(".pprog .l", has_text="G0 Z2").first.click()
+    page.locator(".stage.now").wait_for()
+    raw = colourful(page, *hole)
+    page.locator('[data-show="path"]').first.uncheck()
+    plain = colourful(page, *hole)
+    page.locator('[data-show="path"]').first.check()
+    shot(page, "section-closed")
+    assert plain < 40 and raw <= plain + 15, (raw, plain)
+    # Through the middle of the holes: nothing is picked on the face beside them, the wall of the hole is.
+    page.locator(".section input").fill("0.334")
+    page.wait_for_function("() => document.querySelector('.section output').textContent === '10.02 mm'")
+    page.locator("[data-measure]").click()
+    page.locator(".measured").wait_for()
+    painted(page)
+    box, px = canvas.bounding_box(), scale(page)
+    x, y = box["x"] + box["width"] / 2 - 10 * px, box["y"] + box["height"] / 2
+    page.mouse.click(x - 7 * px, y)
+    page.mouse.click(x + px, y - 3 * px)
+    page.locator(".measured .xyz").wait_for()
+    assert page.locator(".measured .xyz").count() == 1 and "wall of a round hole, ⌀8.0" in page.locator(".measured").inner_text(), page.locator(".measured").inner_text()
+    page.keyboard.press("m")
+    page.keyboard.press("x")
+    page.keyboard.press("1")
 
 
 def looks(browser: Browser, served: Served) -> None:
@@ -432,6 +515,7 @@ def looks(browser: Browser, served: Served) -> None:
 
 def begin(stage: Stage) -> Page:
     (stage.served.folder / "small.toml").write_text(SMALL)
+    (stage.served.folder / "holes.toml").write_text(SMALL.replace("format = 1\n", "format = 1\nsimulate = { step = 0.2 }\n"))
     return bore(stage)
 
 
@@ -442,6 +526,7 @@ SCRIPT = Script(
         "feeds": lambda s: feeds(s.page),
         "operations": lambda s: operations(s.page),
         "measures": lambda s: measures(s.page),
+        "sections": lambda s: sections(s.page),
         "marks": lambda s: marks(s.page),
         "inspects": lambda s: inspects(s.page),
         "drops": lambda s: drops(s.page, s.served),
