@@ -296,6 +296,56 @@ def block(low: list[float], high: list[float]) -> bytes:
     return b"\xff" + bytes(79) + struct.pack("<I", len(triangles)) + packed
 
 
+def rod(axis: tuple[float, float, float], radius: float, length: float, sides: int = 120) -> bytes:
+    """A round rod about zero as a binary STL."""
+    u = (axis[2], 0, -axis[0]) if axis[1] == 0 else (axis[1], -axis[0], 0)
+    u = tuple(n / math.hypot(*u) for n in u)
+    v = tuple(axis[(k + 1) % 3] * u[(k + 2) % 3] - axis[(k + 2) % 3] * u[(k + 1) % 3] for k in range(3))
+
+    def at(side: int, end: float, r: float) -> tuple[float, ...]:
+        a = 2 * math.pi * (side % sides) / sides
+        return tuple(axis[k] * end * length / 2 + r * (u[k] * math.cos(a) + v[k] * math.sin(a)) for k in range(3))
+
+    triangles = []
+    for i in range(sides):
+        a, b, c, d = at(i, -1, radius), at(i + 1, -1, radius), at(i + 1, 1, radius), at(i, 1, radius)
+        triangles += [(a, b, c), (a, c, d), (at(0, -1, 0), b, a), (at(0, 1, 0), d, c)]
+    packed = b"".join(struct.pack("<12fH", 0, 0, 0, *(n for corner in t for n in corner), 0) for t in triangles)
+    return bytes(80) + struct.pack("<I", len(triangles)) + packed
+
+
+def rounds(page: Page, served: Served) -> None:
+    """Round walls of simulated rods that lie along X, and askew: axis and diameter; no bore is made of them."""
+    for name, axis in (("lying", (1, 0, 0)), ("askew", (0.6, 0, 0.8))):
+        (served.folder / f"{name}.stl").write_bytes(rod(axis, 12, 60))
+        drilled = SMALL.replace("[[10, 10], [30, 10]]", "[[0, 0]]").replace("top = 0", "top = 12").replace("depth = 6", "depth = 2")
+        text = drilled.replace(re.search(r"stock = .*", drilled).group(), f'simulate = {{ step = 0.3 }}\nstock = {{ mesh = "{name}.stl" }}')
+        (served.folder / f"{name}.toml").write_text(text)
+    # The folder is read again: these files are new.
+    page.reload()
+    for name, axis in (("lying", (1, 0, 0)), ("askew", (0.6, 0, 0.8))):
+        open_file(page, f"{name}.toml")
+        judged(page, f"{name}.toml")
+        page.locator("[data-measure]").click()
+        page.locator(".measured").wait_for()
+        page.locator(".stage canvas").focus()
+        page.keyboard.press("3")
+        painted(page)
+        page.keyboard.press("Enter")
+        page.locator(".measured .xyz").wait_for()
+        said = page.locator(".measured").inner_text()
+        wall = re.search(r"round wall, ⌀([\d.]+) along (X|\(.*?\)) about X (\S+) Y (\S+) Z (\S+), ([\d.]+) mm long, corners within ([\d.]+) mm", said)
+        assert wall, said
+        diameter, x, y, z, long, off = map(number, (wall.group(1), *wall.groups()[2:]))
+        # The sides of the mesh lie within its circle by 0.004 mm.
+        assert abs(diameter - 24) < 0.02 and max(abs(x), abs(y), abs(z)) < 0.02 and abs(long - 60) < 0.1 and off < 0.05, wall.groups()
+        told = [number(n) for n in re.findall(r"[\u2212\d.]+", wall.group(2))] if wall.group(2) != "X" else [1, 0, 0]
+        assert math.dist(told, axis) < 1e-3, wall.group(2)
+        assert page.get_by_role("button", name="Make a bore").count() == 0
+        shot(page, f"measure-{name}")
+        page.keyboard.press("m")
+
+
 def drops(page: Page, served: Served) -> None:
     """Files from elsewhere: a job and a program are opened, a mesh and a drawing go to the open job, others are told."""
     drop(page, "mine.toml", SMALL.encode())
@@ -529,6 +579,7 @@ SCRIPT = Script(
         "sections": lambda s: sections(s.page),
         "marks": lambda s: marks(s.page),
         "inspects": lambda s: inspects(s.page),
+        "rounds": lambda s: rounds(s.page, s.served),
         "drops": lambda s: drops(s.page, s.served),
         "closes": Stage.closes,
         "looks": lambda s: looks(s.browser, s.served),
