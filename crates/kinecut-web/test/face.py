@@ -149,6 +149,140 @@ def arrows(page: Page) -> None:
     assert re.search(r"[\d.]+ mm of edge with bad exits at turn 1\.1°, offset 0\.10 mm", page.locator("#face-live").inner_text())
 
 
+def where(page: Page) -> tuple[str, str]:
+    return number(page, "turn").input_value(), number(page, "offset").input_value()
+
+
+def stroke(page: Page, start: tuple[float, float], by: tuple[float, float], button: str = "left") -> None:
+    """Draws the pointer over the drawing: from a point of it, by pixels."""
+    box = page.locator(".held").bounding_box()
+    x, y = box["x"] + start[0], box["y"] + start[1]
+    page.mouse.move(x, y)
+    page.mouse.down(button=button)
+    page.mouse.move(x + by[0] / 2, y + by[1] / 2)
+    page.mouse.move(x + by[0], y + by[1])
+    page.mouse.up(button=button)
+
+
+def undoes(page: Page) -> None:
+    """Placements and weights are taken back and done again, by keys and by buttons; a drag is one change; a field that is typed into follows."""
+    page.locator('[data-do="fit"]').click()
+    put(page, turn="10", offset="1")
+    pivot = page.locator(".held .grip").nth(1).evaluate("e => [e.cx.baseVal.value, e.cy.baseVal.value]")
+    before = drawn(page)
+    stroke(page, (pivot[0] + 30, pivot[1] + 40), (0, 20))
+    settled(page, before)
+    dragged = where(page)
+    assert dragged[0] == "10" and float(dragged[1]) > 1.5, dragged
+    before = drawn(page)
+    page.get_by_role("button", name="Go to the least").click()
+    settled(page, before)
+    least = where(page)
+    before = drawn(page)
+    number(page, "weight-BOLTS").fill("0")
+    settled(page, before)
+    for key, expected, weight in (("Control+z", least, ""), ("Control+z", dragged, ""), ("Control+z", ("10", "1"), ""), ("Control+Shift+z", dragged, ""), ("Control+y", least, ""), ("Control+y", least, "0")):
+        page.keyboard.press(key)
+        page.wait_for_function("want => document.querySelector('[data-face=turn] input').value === want[0] && document.querySelector('[data-face=offset] input').value === want[1]", arg=list(expected), timeout=LONG)
+        assert number(page, "weight-BOLTS").input_value() == weight, (key, weight, number(page, "weight-BOLTS").input_value())
+    # Nothing comes behind the last state, and the button that says so keeps the focus.
+    on, back = page.get_by_role("button", name="Redo"), page.get_by_role("button", name="Undo")
+    assert on.get_attribute("aria-disabled") == "true" and back.get_attribute("aria-disabled") is None
+    back.click()
+    assert on.get_attribute("aria-disabled") is None and number(page, "weight-BOLTS").input_value() == ""
+    on.click()
+    assert number(page, "weight-BOLTS").input_value() == "0" and on.evaluate("e => e === document.activeElement")
+    # A change after an undo takes the place of what came behind.
+    back.click()
+    held = page.locator(".held")
+    held.focus()
+    before = drawn(page)
+    held.press("ArrowLeft")
+    settled(page, before)
+    assert on.get_attribute("aria-disabled") == "true"
+    clean(page, "undone")
+
+
+# Where the part is drawn: the pivot and the radius of the cutter on the screen.
+SEEN = "() => { const p = document.querySelectorAll('.held .grip')[1], c = document.querySelector('.held .cutter > circle'); return [p.cx.baseVal.value, p.cy.baseVal.value, c.r.baseVal.value]; }"
+
+
+def views(page: Page) -> None:
+    """The drawing is enlarged about the pointer and shifted, by wheel, buttons, keys, middle button, blank key and two fingers; no placement changes."""
+    put(page, turn="10", offset="1")
+    held = page.locator(".held")
+    held.scroll_into_view_if_needed()
+    box = held.bounding_box()
+    count, whole = drawn(page), page.evaluate(SEEN)
+
+    def seen(want, what: str) -> list[float]:
+        """What is seen, once a condition of it holds."""
+        page.wait_for_function(f"() => {{ const [x, y, r] = ({SEEN})(); return {want}; }}", timeout=LONG)
+        now = page.evaluate(SEEN)
+        assert (where(page), drawn(page)) == (("10", "1"), count), (what, where(page), drawn(page), count)
+        return now
+
+    at = (120, 90)
+    page.mouse.move(box["x"] + at[0], box["y"] + at[1])
+    page.mouse.wheel(0, -400)
+    x, y, r = seen(f"r > {whole[2] * 1.5}", "wheel")
+    by = r / whole[2]
+    assert abs(x - (at[0] + (whole[0] - at[0]) * by)) < 1 and abs(y - (at[1] + (whole[1] - at[1]) * by)) < 1, (x, y, by, whole)
+    # The ring stays within reach.
+    ring = page.locator(".held .grip").first.evaluate("e => [e.cx.baseVal.value, e.cy.baseVal.value]")
+    assert 0 < ring[0] < box["width"] and 0 < ring[1] < box["height"], ring
+    stroke(page, (200, 150), (40, 24), "middle")
+    x2, y2, _ = seen(f"Math.abs(x - {x + 40}) < 0.6 && Math.abs(y - {y + 24}) < 0.6", "middle button")
+    page.keyboard.down("Space")
+    stroke(page, (200, 150), (-30, 10))
+    page.keyboard.up("Space")
+    seen(f"Math.abs(x - {x2 - 30}) < 0.6 && Math.abs(y - {y2 + 10}) < 0.6", "blank key")
+    shot(page, "face-zoomed")
+    held.focus()
+    x, _, r = page.evaluate(SEEN)
+    held.press("Control+ArrowRight")
+    seen(f"x < {x - 20}", "keys shift")
+    held.press("+")
+    seen(f"r > {r * 1.2}", "plus")
+    held.press("-")
+    held.press("-")
+    seen(f"r < {r * 0.9}", "minus")
+    held.press("0")
+    seen(f"Math.abs(r - {whole[2]}) < 0.01 && Math.abs(x - {whole[0]}) < 0.5", "zero")
+    page.get_by_role("button", name="Zoom in").click()
+    seen(f"r > {whole[2] * 1.2}", "button")
+    page.get_by_role("button", name="Zoom out").click()
+    page.get_by_role("button", name="Zoom out").click()
+    seen(f"r < {whole[2] * 0.9}", "button")
+    page.locator('[data-do="fit"]').click()
+    seen(f"Math.abs(r - {whole[2]}) < 0.01", "fit")
+    pinch(page, box)
+    page.wait_for_function(f"() => Math.abs(({SEEN})()[2] - {whole[2] * 2}) < 1", timeout=LONG)
+    assert where(page) == ("10", "1"), where(page)
+    page.locator('[data-do="fit"]').click()
+    page.wait_for_function(f"() => Math.abs(({SEEN})()[2] - {whole[2]}) < 0.01", timeout=LONG)
+    clean(page, "view")
+
+
+def pinch(page: Page, box: dict) -> None:
+    """Two fingers draw apart to twice their distance; the first was on the part alone for a moment, and moved it."""
+    session = page.context.new_cdp_session(page)
+    x, y = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
+
+    def touch(kind: str, *points: tuple[float, float]) -> None:
+        session.send("Input.dispatchTouchEvent", {"type": kind, "touchPoints": [{"x": a, "y": b, "id": i} for i, (a, b) in enumerate(points)]})
+
+    session.send("Emulation.setTouchEmulationEnabled", {"enabled": True, "maxTouchPoints": 2})
+    touch("touchStart", (x - 40, y))
+    touch("touchMove", (x - 50, y))
+    touch("touchStart", (x - 50, y), (x + 50, y))
+    for d in (60, 80, 100):
+        touch("touchMove", (x - d, y), (x + d, y))
+    touch("touchEnd")
+    session.send("Emulation.setTouchEmulationEnabled", {"enabled": False})
+    session.detach()
+
+
 def times(page: Page) -> tuple[list[float], list[float]]:
     """From a move of the part to its exits on the screen, and what of that is question and answer [ms]."""
     all_of_it, answers = [], []
@@ -324,6 +458,22 @@ def paper(page: Page, verb: Verb) -> None:
     assert value == f"{own['value']:.3f}" and int(count) == own["evaluations"], (words, own)
     assert int(page.locator(".graph .walk").get_attribute("data-steps")) > 5
     shot(page, "face-walk")
+    # From another placement, at once after it is put there: all turns that the text allows are open to it.
+    held = page.locator(".held")
+    held.focus()
+    for key in ("Shift+ArrowLeft", "Shift+ArrowDown"):
+        held.press(key)
+    with page.expect_request(lambda r: r.url.endswith("/api/verb/face") and (r.post_data_json or {}).get("walk")) as asked:
+        page.get_by_role("button", name="Walk from here").click()
+    page.wait_for_function("() => document.querySelector('[data-walk]')?.textContent.startsWith('From turn 10.0°, offset 1.00 mm')", timeout=LONG)
+    page.locator('[data-walk="ended"]').wait_for(timeout=LONG)
+    value, count = re.search(r"ended at ([\d.]+) mm after (\d+) evaluations", page.locator("[data-walk]").inner_text()).groups()
+    walk = verb.of(asked.value.post_data_json["text"], "--walk")["walk"]
+    # Without an offset the verb puts the cutter over the middle of the turned part.
+    over = verb.face("--walk", placement="{ angle = 10.0 }", passes='"one"')["walk"]["start"]
+    assert walk["start"]["turn"] == 10 and abs(walk["start"]["offset"] - over["offset"] - 1) < 1e-6, (walk["start"], over)
+    assert value == f"{walk['value']:.3f}" and int(count) == walk["evaluations"], (value, count, walk["value"], walk["evaluations"])
+    assert abs(walk["end"]["turn"] - 10) > 1, walk["end"]
     page.locator("[data-paper]").uncheck()
 
 
@@ -458,6 +608,8 @@ SCRIPT = Script(
         "reads": lambda s: reads(s.page, Verb(s.program)),
         "drags": lambda s: drags(s.page),
         "arrows": lambda s: arrows(s.page),
+        "undoes": lambda s: undoes(s.page),
+        "views": lambda s: views(s.page),
         "times": measured,
         "late": lambda s: late(s.page),
         "graph": lambda s: graph(s.page, Verb(s.program)),

@@ -10,7 +10,7 @@ import tomllib
 
 from browser import begin as bore
 from browser import drawn, field, text_of, wait_drawn
-from common import EXAMPLES, LONG, MARK, OUTCOME, SIZES, UNMARKED, Script, Served, Stage, Watched, clean, judged, open_file, shot
+from common import EXAMPLES, LONG, MARK, OUTCOME, SIZES, UNMARKED, Script, Served, Stage, Watched, clean, judged, open_file, painted, shot
 from playwright.sync_api import Browser, Page
 
 BORE = "setup[0].operation[0]"
@@ -296,6 +296,56 @@ def block(low: list[float], high: list[float]) -> bytes:
     return b"\xff" + bytes(79) + struct.pack("<I", len(triangles)) + packed
 
 
+def rod(axis: tuple[float, float, float], radius: float, length: float, sides: int = 120) -> bytes:
+    """A round rod about zero as a binary STL."""
+    u = (axis[2], 0, -axis[0]) if axis[1] == 0 else (axis[1], -axis[0], 0)
+    u = tuple(n / math.hypot(*u) for n in u)
+    v = tuple(axis[(k + 1) % 3] * u[(k + 2) % 3] - axis[(k + 2) % 3] * u[(k + 1) % 3] for k in range(3))
+
+    def at(side: int, end: float, r: float) -> tuple[float, ...]:
+        a = 2 * math.pi * (side % sides) / sides
+        return tuple(axis[k] * end * length / 2 + r * (u[k] * math.cos(a) + v[k] * math.sin(a)) for k in range(3))
+
+    triangles = []
+    for i in range(sides):
+        a, b, c, d = at(i, -1, radius), at(i + 1, -1, radius), at(i + 1, 1, radius), at(i, 1, radius)
+        triangles += [(a, b, c), (a, c, d), (at(0, -1, 0), b, a), (at(0, 1, 0), d, c)]
+    packed = b"".join(struct.pack("<12fH", 0, 0, 0, *(n for corner in t for n in corner), 0) for t in triangles)
+    return bytes(80) + struct.pack("<I", len(triangles)) + packed
+
+
+def rounds(page: Page, served: Served) -> None:
+    """Round walls of simulated rods that lie along X, and askew: axis and diameter; no bore is made of them."""
+    for name, axis in (("lying", (1, 0, 0)), ("askew", (0.6, 0, 0.8))):
+        (served.folder / f"{name}.stl").write_bytes(rod(axis, 12, 60))
+        drilled = SMALL.replace("[[10, 10], [30, 10]]", "[[0, 0]]").replace("top = 0", "top = 12").replace("depth = 6", "depth = 2")
+        text = drilled.replace(re.search(r"stock = .*", drilled).group(), f'simulate = {{ step = 0.3 }}\nstock = {{ mesh = "{name}.stl" }}')
+        (served.folder / f"{name}.toml").write_text(text)
+    # The folder is read again: these files are new.
+    page.reload()
+    for name, axis in (("lying", (1, 0, 0)), ("askew", (0.6, 0, 0.8))):
+        open_file(page, f"{name}.toml")
+        judged(page, f"{name}.toml")
+        page.locator("[data-measure]").click()
+        page.locator(".measured").wait_for()
+        page.locator(".stage canvas").focus()
+        page.keyboard.press("3")
+        painted(page)
+        page.keyboard.press("Enter")
+        page.locator(".measured .xyz").wait_for()
+        said = page.locator(".measured").inner_text()
+        wall = re.search(r"round wall, ⌀([\d.]+) along (X|\(.*?\)) about X (\S+) Y (\S+) Z (\S+), ([\d.]+) mm long, corners within ([\d.]+) mm", said)
+        assert wall, said
+        diameter, x, y, z, long, off = map(number, (wall.group(1), *wall.groups()[2:]))
+        # The sides of the mesh lie within its circle by 0.004 mm.
+        assert abs(diameter - 24) < 0.02 and max(abs(x), abs(y), abs(z)) < 0.02 and abs(long - 60) < 0.1 and off < 0.05, wall.groups()
+        told = [number(n) for n in re.findall(r"[\u2212\d.]+", wall.group(2))] if wall.group(2) != "X" else [1, 0, 0]
+        assert math.dist(told, axis) < 1e-3, wall.group(2)
+        assert page.get_by_role("button", name="Make a bore").count() == 0
+        shot(page, f"measure-{name}")
+        page.keyboard.press("m")
+
+
 def drops(page: Page, served: Served) -> None:
     """Files from elsewhere: a job and a program are opened, a mesh and a drawing go to the open job, others are told."""
     drop(page, "mine.toml", SMALL.encode())
@@ -374,8 +424,91 @@ def marks(page: Page) -> None:
     chosen = page.locator(".findings > li[aria-current] .no").inner_text()
     assert chosen == last.locator("text").text_content().rstrip("+")
     assert "on" in last.get_attribute("class").split()
+    # From below the part hides the place above it, and its mark is faint; it is still there to be clicked. From the top it is seen.
+    canvas = page.locator(".stage canvas")
+    canvas.focus()
+    page.keyboard.press("3")
+    for _ in range(9):
+        page.keyboard.press("ArrowDown")
+    page.locator(".marks .mark.behind").first.wait_for()
+    assert float(last.evaluate("e => getComputedStyle(e).opacity")) < 0.6
+    page.locator(".rings .behind").wait_for(state="attached")
+    shot(page, "marks-behind")
+    last.click()
+    page.mouse.move(5, 5)
+    canvas.focus()
+    page.keyboard.press("2")
+    page.locator(".marks .mark:not(.behind)").first.wait_for()
+    assert float(last.evaluate("e => getComputedStyle(e).opacity")) == 1
+    page.locator(".rings .behind").wait_for(state="detached")
+    page.keyboard.press("1")
     shot(page, "marks")
     clean(page, "marks")
+
+
+# How colourful the most colourful pixel of a picture is.
+COLOURFUL = """async packed => {
+  const bytes = Uint8Array.from(atob(packed), c => c.charCodeAt(0));
+  const bitmap = await createImageBitmap(new Blob([bytes], { type: "image/png" }));
+  const context = new OffscreenCanvas(bitmap.width, bitmap.height).getContext("2d");
+  context.drawImage(bitmap, 0, 0);
+  const { data } = context.getImageData(0, 0, bitmap.width, bitmap.height);
+  let most = 0;
+  for (let i = 0; i < data.length; i += 4) most = Math.max(most, Math.max(data[i], data[i + 1], data[i + 2]) - Math.min(data[i], data[i + 1], data[i + 2]));
+  return most;
+}"""
+
+
+def colourful(page: Page, x: float, y: float, wide: float, high: float) -> int:
+    """Greatest difference of red, green and blue in a stretch of the picture."""
+    painted(page)
+    picture = page.screenshot(clip={"x": x, "y": y, "width": wide, "height": high})
+    return page.evaluate(COLOURFUL, base64.b64encode(picture).decode())
+
+
+def sections(page: Page) -> None:
+    """The face of a section hides what lies behind it, and is none of the part's own faces: it has a place, and nothing is picked on it."""
+    open_file(page, "holes.toml")
+    judged(page, "holes.toml")
+    canvas = page.locator(".stage canvas")
+    canvas.focus()
+    page.keyboard.press("3")
+    page.keyboard.press("x")
+    # In front of both holes.
+    page.locator(".section input").fill("0.1")
+    page.wait_for_function("() => document.querySelector('.section output').textContent === '3.00 mm'")
+    painted(page)
+    box, px = canvas.bounding_box(), scale(page)
+    # The first hole, seen from the front.
+    x, y = box["x"] + box["width"] / 2 - 10 * px, box["y"] + box["height"] / 2
+    hole = (x - 12, y - 4 * px, 24, 6 * px)
+    # Beside the path, which a click would take.
+    page.mouse.click(x + 3 * px, y)
+    page.wait_for_function("() => / Y 3\\.000 /.test(document.querySelector('.under').textContent)", timeout=LONG)
+    # The raw block as it is before the first hole, whose path goes through it behind the face.
+    page.locator(".pprog .l", has_text="G0 Z2").first.click()
+    page.locator(".stage.now").wait_for()
+    raw = colourful(page, *hole)
+    page.locator('[data-show="path"]').first.uncheck()
+    plain = colourful(page, *hole)
+    page.locator('[data-show="path"]').first.check()
+    shot(page, "section-closed")
+    assert plain < 40 and raw <= plain + 15, (raw, plain)
+    # Through the middle of the holes: nothing is picked on the face beside them, the wall of the hole is.
+    page.locator(".section input").fill("0.334")
+    page.wait_for_function("() => document.querySelector('.section output').textContent === '10.02 mm'")
+    page.locator("[data-measure]").click()
+    page.locator(".measured").wait_for()
+    painted(page)
+    box, px = canvas.bounding_box(), scale(page)
+    x, y = box["x"] + box["width"] / 2 - 10 * px, box["y"] + box["height"] / 2
+    page.mouse.click(x - 7 * px, y)
+    page.mouse.click(x + px, y - 3 * px)
+    page.locator(".measured .xyz").wait_for()
+    assert page.locator(".measured .xyz").count() == 1 and "wall of a round hole, ⌀8.0" in page.locator(".measured").inner_text(), page.locator(".measured").inner_text()
+    page.keyboard.press("m")
+    page.keyboard.press("x")
+    page.keyboard.press("1")
 
 
 def looks(browser: Browser, served: Served) -> None:
@@ -432,6 +565,7 @@ def looks(browser: Browser, served: Served) -> None:
 
 def begin(stage: Stage) -> Page:
     (stage.served.folder / "small.toml").write_text(SMALL)
+    (stage.served.folder / "holes.toml").write_text(SMALL.replace("format = 1\n", "format = 1\nsimulate = { step = 0.2 }\n"))
     return bore(stage)
 
 
@@ -442,8 +576,10 @@ SCRIPT = Script(
         "feeds": lambda s: feeds(s.page),
         "operations": lambda s: operations(s.page),
         "measures": lambda s: measures(s.page),
+        "sections": lambda s: sections(s.page),
         "marks": lambda s: marks(s.page),
         "inspects": lambda s: inspects(s.page),
+        "rounds": lambda s: rounds(s.page, s.served),
         "drops": lambda s: drops(s.page, s.served),
         "closes": Stage.closes,
         "looks": lambda s: looks(s.browser, s.served),

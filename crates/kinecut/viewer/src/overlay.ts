@@ -38,6 +38,11 @@ export class Overlay {
     this.length = element("text", { x: 84, y: 62 }, svg);
   }
 
+  /** Shows the place that is pointed at as one behind the part. */
+  fade(behind: boolean): void {
+    this.ring.classList.toggle("behind", behind);
+  }
+
   /** Follows the camera; `pixels` for a millimetre on a canvas of this size [px]. */
   update(camera: Camera, pixels: number, width: number, height: number): void {
     // The picture for paper has another size: the view box makes the ring follow it.

@@ -8,10 +8,11 @@ import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
 import { type Head, type PartData, part as readPart } from "./decode";
 import { type Quantity, greatest } from "./engaged";
 import { Fixtures, Machine } from "./bodies";
-import { hatched } from "./cap";
+import { Cap, hatched, marked } from "./cap";
 import { PathLines } from "./lines";
 import { bandTexture, geometry } from "./mesh";
 import { Overlay } from "./overlay";
+import { Probes } from "./probes";
 import { Stock } from "./stock";
 import { colour, onTheme } from "./theme";
 import type { Cursor, Place, Track } from "./track";
@@ -23,6 +24,8 @@ const HOVER = 120_000;
 const MOVING = ["play", "slider", "step"];
 /** Pieces of the outline of a tool that meet at a greater angle make an edge [rad]. */
 const CORNER = Math.PI / 9;
+/** So near to a surface, as a share of the whole, a place counts as in front of it: it is known to the lines of the stock alone. */
+const NEAR = 0.006;
 /** Directions from the part to the eye. */
 const VIEWS: Record<string, [number, number, number]> = {
   iso: [0.9, -1.2, 1.05],
@@ -43,6 +46,8 @@ export interface Around {
   nowOn: () => void;
   /** Told of each picture, with the place on the canvas [px] of a point [mm]. */
   drawn?: (project: (point: Point) => [number, number]) => void;
+  /** Told which of the marked places the part hides. */
+  hidden?: (hidden: boolean[]) => void;
   /** Told where a click meets the part; takes it with true, so that the cursor stays. */
   clicked?: (hit: Hit | null) => boolean;
 }
@@ -72,6 +77,10 @@ export class View {
   private fixtures: Fixtures | null = null;
   private machine: Machine | null = null;
   private readonly clip = new Plane(new Vector3(0, 0, -1), 0);
+  private readonly cap = new Cap();
+  /** Places that are marked over the picture, and the question which of them are hidden. */
+  private marked: Vector3[] = [];
+  private readonly probes: Probes;
   private readonly bounds = new Box3();
   private data: PartData | null = null;
   private readonly surface = new MeshLambertMaterial({ side: FrontSide, polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1 });
@@ -98,7 +107,7 @@ export class View {
   private partHead: Head["part"] = null;
 
   constructor(private readonly canvas: HTMLCanvasElement, private readonly cursor: Cursor, private readonly around: Around) {
-    this.renderer = new WebGLRenderer({ canvas, antialias: true, alpha: true });
+    this.renderer = new WebGLRenderer({ canvas, antialias: true, alpha: true, stencil: true });
     this.renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
     this.tool.visible = false;
     hatched(this.inside);
@@ -106,7 +115,10 @@ export class View {
     light.position.set(-0.5, 0.8, 1);
     this.camera.add(light, light.target);
     light.target.position.set(0, 0, -1);
-    this.scene.add(new AmbientLight(0xffffff, 1.25), this.camera, this.part, this.tool);
+    this.probes = new Probes(this.renderer.getContext() as WebGL2RenderingContext, (hidden) => this.hide(hidden), () => this.draw());
+    this.scene.add(new AmbientLight(0xffffff, 1.25), this.camera, this.part, this.tool, this.cap.mesh, this.probes.group);
+    // What is cut open comes first: its face lies before all that comes later.
+    this.part.renderOrder = -2;
     this.camera.up.set(0, 0, 1);
     this.controls = new OrbitControls(this.camera, canvas);
     this.controls.zoomToCursor = true;
@@ -217,6 +229,7 @@ export class View {
     }
     this.surface.needsUpdate = true;
     this.inside.color = colour("cut");
+    this.cap.recolour();
     for (const { name, material } of this.steel) material.color = colour(name);
     this.lines?.recolour();
     this.stock?.recolour();
@@ -233,7 +246,8 @@ export class View {
 
   private drawNow(): void {
     this.waiting = false;
-    this.renderer.render(this.scene, this.camera);
+    if (this.axis >= 0) this.cap.at(this.clip, this.bounds.getCenter(new Vector3()), 2 * this.size());
+    this.probes.around(this.camera, NEAR * this.size(), () => this.renderer.render(this.scene, this.camera));
     freed(this.old, true);
     this.old = [];
     const { clientWidth: width, clientHeight: height } = this.canvas;
@@ -242,6 +256,28 @@ export class View {
       const v = new Vector3(...point).project(this.camera);
       return [((v.x + 1) / 2) * width, ((1 - v.y) / 2) * height];
     });
+  }
+
+  /** Marks places, as those of findings: `hidden` is told which of them the part hides. */
+  mark(points: Point[]): void {
+    this.marked = points.map((p) => new Vector3(...p));
+    this.probe();
+  }
+
+  private probe(): void {
+    const { point } = this.overlay;
+    this.probes.set(point ? [...this.marked, point] : this.marked);
+    this.draw();
+  }
+
+  private hide(hidden: boolean[]): void {
+    this.around.hidden?.(hidden.slice(0, this.marked.length));
+    this.overlay.fade(hidden[this.marked.length] ?? false);
+  }
+
+  /** Diagonal of what is shown [mm]. */
+  private size(): number {
+    return this.bounds.getSize(new Vector3()).length() || 1;
   }
 
   /** Pixels for a millimetre at zoom 1. */
@@ -367,6 +403,8 @@ export class View {
     const k = "XYZ".indexOf(axis);
     const on = axis !== "" && k >= 0;
     for (const m of [this.surface, this.inside]) m.clippingPlanes = on ? [this.clip] : null;
+    marked(this.surface, this.inside, on);
+    this.cap.mesh.visible = on;
     this.stock?.section(on ? [this.clip] : null);
     this.renderer.localClippingEnabled = on;
     // The inside is only seen through a section; drawing it costs as much as the outside.
@@ -413,7 +451,10 @@ export class View {
       this.around.nowOn();
     }
     this.showMoment();
-    this.overlay.point = null;
+    if (this.overlay.point) {
+      this.overlay.point = null;
+      this.probe();
+    }
     this.fixtures?.at(place.line);
     this.machine?.at(place);
     if (place.piece < 0) {
@@ -452,7 +493,7 @@ export class View {
   /** Shows a place in space, as that of a finding. */
   showPoint(at: [number, number, number]): void {
     this.overlay.point = new Vector3(...at);
-    this.draw();
+    this.probe();
   }
 
   private pointer(): void {
@@ -493,28 +534,38 @@ export class View {
     this.around.clicked?.(this.hit(clientWidth / 2, clientHeight / 2));
   }
 
-  /** The part's surface at a place of the canvas [px]; null beside it. */
+  /** The part's surface at a place of the canvas [px]; null beside it, and on the face of a section. */
   private hit(x: number, y: number): Hit | null {
+    const under = this.under(x, y);
+    return under && under.triangle >= 0 ? under : null;
+  }
+
+  /** What lies at a place of the canvas [px]: the surface of the part, or the face of a section, which has no triangle (-1). */
+  private under(x: number, y: number): Hit | null {
     if (!this.data || !this.part.visible) return null;
     const ray = new Raycaster();
     // Also where the camera was turned since the last frame.
     this.camera.updateMatrixWorld();
     ray.setFromCamera(new Vector2((2 * x) / this.canvas.clientWidth - 1, 1 - (2 * y) / this.canvas.clientHeight), this.camera);
-    const clipped = this.renderer.localClippingEnabled;
-    const hit = ray.intersectObject(this.part.children[0], false).find((h) => !clipped || this.clip.distanceToPoint(h.point) >= 0);
-    return hit && hit.faceIndex != null ? { point: hit.point.toArray(), triangle: hit.faceIndex } : null;
+    const cut = this.axis >= 0;
+    const [outside, inside] = this.part.children;
+    const hit = ray.intersectObjects(cut ? [outside, inside] : [outside], false).find((h) => !cut || this.clip.distanceToPoint(h.point) >= 0);
+    if (!hit || hit.faceIndex == null) return null;
+    if (hit.object === outside) return { point: hit.point.toArray(), triangle: hit.faceIndex };
+    return { point: (ray.ray.intersectPlane(this.clip, new Vector3()) ?? hit.point).toArray(), triangle: -1 };
   }
 
   /** Coordinates and deviation of the part under the pointer. */
   private read(x: number, y: number): string {
-    const hit = this.hit(x, y);
+    const hit = this.under(x, y);
     if (!hit || !this.data) return "";
+    const p = new Vector3(...hit.point);
+    const text = `X ${millimetres(p.x)}  Y ${millimetres(p.y)}  Z ${millimetres(p.z)}`;
+    if (hit.triangle < 0) return text;
     const { positions, indices, deviation } = this.data;
     const corners = [0, 1, 2].map((k) => indices[3 * hit.triangle + k]);
     const [a, b, c] = corners.map((v) => new Vector3().fromArray(positions, 3 * v));
-    const p = new Vector3(...hit.point);
     const weight = Triangle.getBarycoord(p, a, b, c, new Vector3());
-    const text = `X ${millimetres(p.x)}  Y ${millimetres(p.y)}  Z ${millimetres(p.z)}`;
     if (!deviation || !weight) return text;
     const d = deviation[corners[0]] * weight.x + deviation[corners[1]] * weight.y + deviation[corners[2]] * weight.z;
     const shown = this.partHead?.relative ? `${d.toFixed(2)} ${this.around.tolerances}` : micrometres(d);

@@ -1,7 +1,7 @@
 // The stock as it is at a moment: all squares of its surface over time are on the graphics card. Those are drawn that may be there, and it
 // leaves out what is not.
 import { BackSide, BufferAttribute, BufferGeometry, DoubleSide, FrontSide, Group, type Material, Mesh, MeshBasicMaterial, MeshLambertMaterial, type Plane } from "three";
-import { hatched } from "./cap";
+import { hatched, marked } from "./cap";
 import { type Head, played } from "./decode";
 import { cornerNormals } from "./mesh";
 import { colour } from "./theme";
@@ -62,6 +62,7 @@ export class Stock {
     // What is drawn changes; it always lies where the part is.
     for (const mesh of this.group.children) mesh.frustumCulled = false;
     this.group.children[1].visible = false;
+    this.group.renderOrder = -2;
     this.recolour();
   }
 
@@ -141,6 +142,7 @@ export class Stock {
   /** Cuts it open by planes; none: closed. */
   section(planes: Plane[] | null): void {
     for (const material of [this.outside, this.inside]) material.clippingPlanes = planes;
+    marked(this.outside, this.inside, planes !== null);
     this.group.children[1].visible = planes !== null;
     // Closed, the back of its faces shows in small gaps beside the tool only, and fills them.
     this.outside.side = planes === null ? DoubleSide : FrontSide;

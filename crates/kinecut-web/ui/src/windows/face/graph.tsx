@@ -91,7 +91,7 @@ function Plot({ face, map, width, stale }: { face: Face; map: Map; width: number
       onPointerMove={(e) => go(point(e))}
       onPointerLeave={() => go(null)}
       onPointerDown={(e) => go(point(e))}
-      onClick={() => at.value && face.move(at.value)}
+      onClick={() => at.value && face.go(at.value)}
     >
       <defs>
         <pattern id="face-none" width="8" height="8" patternUnits="userSpaceOnUse" patternTransform="rotate(45)">

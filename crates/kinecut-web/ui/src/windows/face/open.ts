@@ -121,6 +121,7 @@ export function change(of: Face, path: (string | number)[], value: Parameters<ty
 /** Writes the placement under the hand into the text. */
 export function use(of: Face): void {
   const { hand, outline } = of;
+  of.history.rest();
   if (hand.value && outline.value) of.edited(used(of.text.value, hand.value, middle(outline.value, hand.value.turn)));
 }
 

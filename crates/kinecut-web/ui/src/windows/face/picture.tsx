@@ -1,52 +1,13 @@
 // The part under the cutter: dragged to shift, turned by its ring; where teeth leave badly, well, and where they enter is the verb's answer.
-import { useRef } from "preact/hooks";
 import { fixed, short } from "../../base/format";
 import { untranslated } from "../../app/verbatim";
 import { t, unit } from "../../words";
 import type { Edge, FaceAnswer, Stretch } from "./answer";
-import { type Frame, type Point, faceOf, middle, pointOn, round, round360, strokeOf, turned } from "./shape";
+import { useHands } from "./hands";
+import { type Layout, layout } from "./layout";
+import { type Point, faceOf, pointOn, round360, strokeOf } from "./shape";
 import { useWidth } from "./size";
 import type { Face, Hand } from "./state";
-
-/** Steps of the arrow keys [deg, mm]; with Shift ten times, with Alt a tenth. */
-const STEP = { turn: 1, beside: 0.1 };
-/** A pointer that moved less clicks [px]. */
-const STILL = 4;
-
-interface Layout {
-  width: number;
-  height: number;
-  /** Pixels for a mm. */
-  scale: number;
-  centre: Point;
-  /** The centre of the cutter. */
-  cutter: Point;
-  frame: Frame;
-  /** Place of the ring. */
-  ring: Point;
-  /** About what the part turns. */
-  pivot: Point;
-}
-
-function layout(answer: FaceAnswer, hand: Hand, along: number, width: number): Layout {
-  const { outline, cutter } = answer;
-  const height = Math.round(width < 420 ? width * 0.95 : Math.min(560, width * 0.85));
-  const { centre: own, radius } = round(outline);
-  const half = Math.max(cutter.radius, radius) * 1.14;
-  const scale = Math.min(width / 2, height / 2) / half;
-  const centre: Point = [width / 2, height / 2];
-  const line = middle(outline, hand.turn) + hand.beside;
-  const pivotTurned = turned(own, hand.turn);
-  const frame: Frame = (p) => {
-    const [x, y] = turned(p, hand.turn);
-    return [centre[0] + (x - pivotTurned[0] + along) * scale, centre[1] - (y - line) * scale];
-  };
-  const pivot = frame(own);
-  const reach = Math.min(radius * scale + 12, half * scale - 14);
-  const angle = (hand.turn * Math.PI) / 180;
-  const ring: Point = [pivot[0] + reach * Math.cos(angle), pivot[1] - reach * Math.sin(angle)];
-  return { width, height, scale, centre, cutter: [centre[0] - 0.22 * half * scale, centre[1]], frame, ring, pivot };
-}
 
 /** The class of a stretch: colour, width and dash of how it is met. */
 function classOf(stretch: Stretch, edge: Edge): string {
@@ -70,69 +31,27 @@ export function Picture({ face }: { face: Face }) {
 }
 
 function Held({ face, least, hand, width }: { face: Face; least: FaceAnswer; hand: Hand; width: number }) {
-  const grip = useRef<{ kind: "turn" | "shift"; x: number; y: number; hand: Hand; along: number; moved: boolean } | null>(null);
-  const l = layout(least, hand, face.along.value, width);
-
-  const place = (e: PointerEvent): Point => {
-    const bounds = (e.currentTarget as Element).getBoundingClientRect();
-    return [e.clientX - bounds.left, e.clientY - bounds.top];
-  };
-  const down = (e: PointerEvent) => {
-    if (e.button !== 0) return;
-    const [x, y] = place(e);
-    const isRing = Math.hypot(x - l.ring[0], y - l.ring[1]) < (e.pointerType === "touch" ? 26 : 14);
-    (e.currentTarget as Element).setPointerCapture(e.pointerId);
-    grip.current = { kind: isRing ? "turn" : "shift", x, y, hand, along: face.along.value, moved: false };
-  };
-  const move = (e: PointerEvent) => {
-    const g = grip.current;
-    if (!g) return;
-    const [x, y] = place(e);
-    if (!g.moved && Math.hypot(x - g.x, y - g.y) < STILL) return;
-    g.moved = true;
-    if (g.kind === "turn") {
-      const turn = (Math.atan2(l.pivot[1] - y, x - l.pivot[0]) * 180) / Math.PI;
-      face.move({ turn: Math.round(turn * 100) / 100, beside: g.hand.beside });
-    } else {
-      face.along.value = g.along + (x - g.x) / l.scale;
-      const beside = Math.round((g.hand.beside + (y - g.y) / l.scale) * 1000) / 1000;
-      if (beside !== face.hand.value?.beside) face.move({ turn: hand.turn, beside });
-    }
-  };
-  const up = (e: PointerEvent) => {
-    const g = grip.current;
-    grip.current = null;
-    if (g && !g.moved && e.type === "pointerup") face.label.value = labelAt(least.outline.edges, l, place(e));
-  };
-  const key = (e: KeyboardEvent) => {
-    const by = (e.shiftKey ? 10 : 1) * (e.altKey ? 0.1 : 1);
-    const steps: Record<string, Partial<Hand>> = {
-      ArrowLeft: { turn: STEP.turn },
-      ArrowRight: { turn: -STEP.turn },
-      ArrowDown: { beside: STEP.beside },
-      ArrowUp: { beside: -STEP.beside },
-    };
-    const step = steps[e.key];
-    if (!step) return;
-    e.preventDefault();
-    const neat = (n: number) => Number(n.toFixed(6));
-    face.move({ turn: neat(hand.turn + by * (step.turn ?? 0)), beside: neat(hand.beside + by * (step.beside ?? 0)) });
-  };
+  const l = layout(least, hand, face.along.value, face.view.value, width);
+  const hands = useHands(face, hand, l, (at) => (face.label.value = labelAt(least.outline.edges, l, at)));
   return (
     <>
       <div
-        class="held"
+        class={hands.pans.value ? "held pans" : "held"}
         tabIndex={0}
         role="application"
         aria-label={t("face.picture")}
         aria-describedby="face-live"
-        onPointerDown={down}
-        onPointerMove={move}
-        onPointerUp={up}
-        onPointerCancel={up}
-        onKeyDown={key}
+        onPointerDown={hands.down}
+        onPointerMove={hands.move}
+        onPointerUp={hands.up}
+        onPointerCancel={hands.up}
+        // The middle button would begin to scroll.
+        onMouseDown={(e) => e.button === 1 && e.preventDefault()}
+        onWheel={hands.wheel}
+        onKeyDown={hands.key}
         style={{ height: l.height }}
         data-late={face.late.value || undefined}
+        data-zoom={face.view.value.zoom.toFixed(3)}
       >
         <svg width={l.width} height={l.height} aria-hidden="true">
           <path class="body" d={faceOf(least.outline, l.frame, l.scale)} />

@@ -34,14 +34,20 @@ export function outlineOf(text: string): string | null {
 /** Half of the sector of turns that is searched when the placement is given [deg]: its own certificate is not asked for. */
 const SLIVER = 0.001;
 
-/** The text with one straight pass at a place; only turns next to it are searched, so that the answer is soon there. */
-export function atPlace(text: string, by: number, offset: number): string {
-  const turn = round360(by);
+/** The text with one straight pass at a place. */
+export function placedAt(text: string, turn: number, offset: number): string {
   // All digits: searches compare values that differ by little.
   const path: Path = ["operation", "placement"];
-  const made = set(text, path, { angle: 0, offset: 0 });
-  const placed = applied(text, made && { ...made, insert: made.insert.replace("{ angle = 0, offset = 0 }", `{ angle = ${float(turn)}, offset = ${float(offset)} }`) });
-  return sector(given(placed, ["operation", "passes"], "one"), turn - SLIVER, turn + SLIVER);
+  const bare = without(text, path);
+  const made = set(bare, path, { angle: 0, offset: 0 });
+  const placed = applied(bare, made && { ...made, insert: made.insert.replace("{ angle = 0, offset = 0 }", `{ angle = ${float(round360(turn))}, offset = ${float(offset)} }`) });
+  return given(placed, ["operation", "passes"], "one");
+}
+
+/** The same, with only turns next to it searched, so that the answer is soon there. */
+export function atPlace(text: string, by: number, offset: number): string {
+  const turn = round360(by);
+  return sector(placedAt(text, turn, offset), turn - SLIVER, turn + SLIVER);
 }
 
 function float(n: number): string {

@@ -1,10 +1,12 @@
 // One face: its text, the placement under the hand, and what the verb says of both. Every number that is shown as a result is the verb's.
-import { batch, computed, signal } from "@preact/signals";
+import { batch, computed, effect, signal } from "@preact/signals";
 import * as api from "../../base/api";
 import { type FaceAnswer, type Optimum, type Placement, type Step, isOptimum } from "./answer";
+import { History } from "./history";
 import { type Map, cellsOf } from "./map";
-import { atPlace, forLeast, given, placementOf, sector, valueOf } from "./question";
+import { atPlace, forLeast, given, placedAt, placementOf, sector, valueOf } from "./question";
 import { middle, round360 } from "./shape";
+import { type View, WHOLE } from "./view";
 
 /** A placement as the window has it: the part's turn [deg], and the cutter's centre line beside the middle of its width [mm]. */
 export interface Hand {
@@ -95,6 +97,9 @@ export class Face {
   readonly hand = signal<Hand | null>(null);
   /** Shift along the feed [mm]: of the picture alone, it changes no exit. */
   readonly along = signal(0);
+  /** What is seen of the picture. */
+  readonly view = signal<View>(WHOLE);
+  readonly history = new History();
   readonly placed = signal<Placed | null>(null);
   readonly late = signal(false);
   /** From the move of the hand to the exits on the screen [ms]. */
@@ -133,6 +138,8 @@ export class Face {
   private lateTimer = 0;
   private wanted: Hand | null = null;
   private asksUnder = false;
+  /** Walks that were begun: the last one alone is shown. */
+  private walks = 0;
 
   constructor(
     /** The file of the question; null while it is not on disk. */
@@ -141,6 +148,21 @@ export class Face {
     /** A file in whose folder the question lies. */
     readonly beside: string,
   ) {}
+
+  private readonly noted = effect(() => {
+    const [text, hand] = [this.text.value, this.hand.value];
+    if (hand) this.history.note({ text, hand });
+  });
+
+  /** Takes back the last change of text or placement, or does it again. */
+  back(by: -1 | 1): void {
+    const moment = this.history.go(by);
+    if (!moment) return;
+    batch(() => {
+      this.edited(moment.text);
+      this.move(moment.hand);
+    });
+  }
 
   /** A text, at first or after a change. */
   edited(text: string): void {
@@ -151,6 +173,7 @@ export class Face {
 
   /** Asks all of it again: a file that the text names may be another one. */
   again(): void {
+    this.walks++;
     batch(() => {
       this.placed.value = null;
       this.map.value = null;
@@ -238,6 +261,13 @@ export class Face {
     return { turn: p.turn, beside: outline.value ? p.offset - middle(outline.value, p.turn) : 0 };
   }
 
+  /** Puts the part elsewhere at once: a change of its own. */
+  go(hand: Hand): void {
+    this.history.rest();
+    this.move(hand);
+    this.history.rest();
+  }
+
   /** Puts the part elsewhere. */
   move(hand: Hand): void {
     this.hand.value = { turn: round360(hand.turn), beside: hand.beside };
@@ -315,27 +345,32 @@ export class Face {
     }
   }
 
-  /** Walks by the paper's method from the placement under the hand: the verb tells all steps at once, they are shown one by one. */
+  /**
+   * Walks by the paper's method from the placement under the hand: the verb tells all steps at once, they are shown one by one. The method
+   * keeps to the turns that its text allows, so that its question leaves out none.
+   */
   async walkFrom(): Promise<void> {
     const hand = this.hand.value;
     const answer = this.least.value?.answer;
     const text = this.text.value;
     if (!hand || !answer || this.least.value?.text !== text) return;
+    const own = ++this.walks;
+    const old = () => own !== this.walks || this.text.value !== text;
     this.walk.value = null;
     try {
-      const told = await this.lines.walk.ask(atPlace(text, hand.turn, middle(answer.outline, hand.turn) + hand.beside), { walk: true });
-      if (told === null || this.text.value !== text) return;
+      const told = await this.lines.walk.ask(placedAt(text, hand.turn, middle(answer.outline, hand.turn) + hand.beside), { walk: true });
+      if (told === null || old()) return;
       if (!isAnswer(told)) throw new Error(told.message);
-      const steps = told.walk?.steps ?? [];
-      if (steps.length === 0) return;
+      const { steps, start } = told.walk ?? { steps: [], start: null };
+      if (!start || steps.length === 0) return;
       const still = matchMedia("(prefers-reduced-motion: reduce)").matches;
       for (let n = still ? steps.length : 1; n <= steps.length; n++) {
         if (n > 1 && !still) await new Promise((done) => setTimeout(done, STRIDE));
-        if (this.text.value !== text || this.walk.peek()?.state === "stopped") return;
-        this.walk.value = { text, start: hand, steps: steps.slice(0, n), state: n < steps.length ? "walks" : "ended" };
+        if (old() || this.walk.peek()?.state === "stopped") return;
+        this.walk.value = { text, start: this.handOf(start), steps: steps.slice(0, n), state: n < steps.length ? "walks" : "ended" };
       }
     } catch (error) {
-      this.failed(error);
+      if (!old()) this.failed(error);
     }
   }
 
@@ -379,6 +414,7 @@ export class Face {
   close(): void {
     clearTimeout(this.timer);
     clearTimeout(this.lateTimer);
+    this.noted();
     for (const line of Object.values(this.lines)) line.stop();
   }
 

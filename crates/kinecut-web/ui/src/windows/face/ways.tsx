@@ -15,7 +15,7 @@ export function Ways({ face }: { face: Face }) {
   const all = useSignal(false);
   const ways = told?.answer.ways ?? [];
   const shown = ways.filter((w) => all.value || w.unbeaten);
-  const go = (w: Way) => w.turn !== null && w.offset !== null && face.move(face.handOf({ turn: w.turn, offset: w.offset }));
+  const go = (w: Way) => w.turn !== null && w.offset !== null && face.go(face.handOf({ turn: w.turn, offset: w.offset }));
   const isLeast = (w: Way) => optimum !== null && w.offset !== null && Math.abs(w.guarded - optimum.value) < 1e-6;
   return (
     <section class="panel" aria-label={t("face.ways")}>

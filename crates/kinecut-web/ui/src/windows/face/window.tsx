@@ -1,11 +1,11 @@
 // The window of face milling with the least burr.
 import { fixed } from "../../base/format";
-import { offer } from "../../app/commands";
 import { Name, Said } from "../../app/verbatim";
 import { t } from "../../words";
+import { Acts, Looks } from "./acts";
 import { Certificate, Wrong } from "./certificate";
 import { Graph } from "./graph";
-import { face, facing, showFacing, use } from "./open";
+import { face } from "./open";
 import { Picture } from "./picture";
 import { Settings, Weights } from "./settings";
 import { Start } from "./start";
@@ -13,14 +13,6 @@ import type { Face } from "./state";
 import { outlineOf } from "./question";
 import { middle, short } from "./shape";
 import { Method, Ways } from "./ways";
-
-offer({ id: "command.facing", keys: [], run: () => showFacing() });
-offer({ id: "command.least", keys: [], run: () => facing.value && face.value && goLeast(face.value) });
-
-function goLeast(of: Face): void {
-  const { optimum } = of;
-  if (optimum.value) of.move(of.handOf(optimum.value.placement));
-}
 
 export function FaceWindow() {
   const of = face.value;
@@ -46,9 +38,7 @@ export function FaceWindow() {
               <h2>{t("face.part")}</h2>
               <span class="q">{t("face.partHow")}</span>
               <span class="sp" />
-              <button class="ghost" onClick={() => (of.along.value = 0)}>
-                {t("face.fit")}
-              </button>
+              <Looks face={of} />
             </header>
             <Picture face={of} />
             <Legend of={of} />
@@ -80,7 +70,6 @@ export function FaceWindow() {
 
 function Head({ of }: { of: Face }) {
   const least = of.least.value?.answer;
-  const { hand, optimum } = of;
   const drawing = outlineOf(of.text.value);
   return (
     <div class="head">
@@ -88,15 +77,7 @@ function Head({ of }: { of: Face }) {
         <Name>{least?.title ?? of.name}</Name>
       </h1>
       {least && <span class="q">{t("face.about", { name: drawing ?? of.name, n: least.outline.loops.length, mm: fixed(least.outline.perimeter, 1) })}</span>}
-      <div class="acts">
-        <button onClick={() => document.querySelector<HTMLElement>(".weights input, .weights button")?.focus()}>{t("face.weights")}</button>
-        <button disabled={!optimum.value} onClick={() => goLeast(of)}>
-          {t("face.goLeast")}
-        </button>
-        <button class="primary" disabled={!hand.value || !of.placed.value?.answer} onClick={() => use(of)}>
-          {t("face.use")}
-        </button>
-      </div>
+      <Acts face={of} />
     </div>
   );
 }

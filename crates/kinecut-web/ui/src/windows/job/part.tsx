@@ -8,11 +8,11 @@ import { Menu } from "../../app/menu";
 import { Name } from "../../app/verbatim";
 import { fixed, short, timeOfDay } from "../../base/format";
 import type { Document } from "../../store/document";
-import { cursor, place } from "../../store/session";
+import { active, cursor, place } from "../../store/session";
 import type { Shown } from "../../store/shown";
 import { t } from "../../words";
 import { linesOf, wordBefore } from "./lines";
-import { Marks, drawn } from "./measure/marks";
+import { Marks, drawn, hidden, marksOf } from "./measure/marks";
 import { Measured } from "./measure/measured";
 import { inView, measuring, pick, toggleMeasure } from "./measure/picks";
 import { playing } from "./player";
@@ -75,6 +75,7 @@ function started(canvas: HTMLCanvasElement): View | null {
     tolerances: t("part.tolerances"),
     nowOn: () => (colour.value = colour.value === "deviation" ? "now" : colour.value),
     drawn,
+    hidden: (flags) => active.value && hidden(active.value, flags),
     clicked: (hit) => {
       const data = view.surfaceData;
       if (!measuring.value) return false;
@@ -140,6 +141,7 @@ function follow(view: View, doc: Document): () => void {
       view.show("now", by !== "deviation" && !measuring.value, true);
       most.value = view.colourPath(by === "arc" || by === "chip" ? by : "");
     }),
+    effect(() => view.mark(marksOf(doc).map((m) => m.point))),
     effect(() => {
       if (!doc.shown.value) return;
       const cut = section.value;

@@ -1,4 +1,4 @@
-// An operation of a picked face: of a plane a face, of the wall of a round hole a bore.
+// An operation of a picked face: of a plane a face, of the wall of a round hole along Z a bore.
 import { keyOf, type Document } from "../../../store/document";
 import { tell } from "../../../store/session";
 import type { Value } from "../../../toml/edit";
@@ -19,7 +19,7 @@ export function setupOf(doc: Document): number {
 /** The kind of operation that makes a face; null for none. */
 export function kindOf(face: Face | null): "face" | "bore" | null {
   if (face?.kind === "plane") return face.normal[2] > LEVEL ? "face" : null;
-  return face?.kind === "round" && face.hollow ? "bore" : null;
+  return face?.kind === "round" && face.hollow && face.axis[2] > LEVEL ? "bore" : null;
 }
 
 /** Whether the coordinates of the setup are those of the part but for its zero. */
@@ -42,7 +42,7 @@ export function make(doc: Document, face: Face, stockTop: number): void {
     values = [["top", round(height - zero[2])], ...(above > 0 ? ([["depth", above]] as [string, Value][]) : [])];
   } else {
     values = [
-      ["at", face.centre.map((c, k) => round(c - zero[k]))],
+      ["at", face.centre.slice(0, 2).map((c, k) => round(c - zero[k]))],
       ["diameter", round(2 * face.radius)],
       ["top", round(face.top - zero[2])],
       ["depth", round(face.top - face.bottom)],

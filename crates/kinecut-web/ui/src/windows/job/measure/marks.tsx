@@ -1,4 +1,5 @@
 // Over the part: findings by the numbers of their list, and the places that are measured. They follow the camera.
+import { signal } from "@preact/signals";
 import { useLayoutEffect, useRef } from "preact/hooks";
 import type { Point } from "viewer/scene";
 import { untranslated } from "../../../app/verbatim";
@@ -18,6 +19,16 @@ export function drawn(now: Project): void {
   for (const one of follow) one(now);
 }
 
+/** The marks that the part hides, by the numbers of their findings. */
+const behind = signal<ReadonlySet<number>>(new Set());
+
+/** Called with which of the marks are hidden. */
+export function hidden(doc: Document, flags: boolean[]): void {
+  const now = new Set(marksOf(doc).filter((_, i) => flags[i]).map((m) => m.finding));
+  const before = behind.peek();
+  if (now.size !== before.size || [...now].some((n) => !before.has(n))) behind.value = now;
+}
+
 interface Mark {
   point: Point;
   /** Index of the first finding there. */
@@ -27,7 +38,7 @@ interface Mark {
 }
 
 /** Places of findings: their own, or that of the tool at their line. Several at one place have one mark. */
-function marksOf(doc: Document): Mark[] {
+export function marksOf(doc: Document): Mark[] {
   const track = doc.shown.value?.track;
   const at = new Map<string, Mark>();
   doc.findings.value.forEach((finding, i) => {
@@ -70,7 +81,7 @@ export function Marks({ doc }: { doc: Document }) {
         <g
           key={`f${mark.finding}`}
           data-at="finding"
-          class={`mark ${mark.severity}${doc.finding.value === mark.finding ? " on" : ""}`}
+          class={`mark ${mark.severity}${doc.finding.value === mark.finding ? " on" : ""}${behind.value.has(mark.finding) ? " behind" : ""}`}
           onClick={() => {
             doc.finding.value = mark.finding;
             goTo(doc, doc.findings.value[mark.finding]);

@@ -3,8 +3,9 @@ import { Name } from "../../../app/verbatim";
 import { fixed, short } from "../../../base/format";
 import type { Document } from "../../../store/document";
 import { t } from "../../../words";
-import { type Face, between, parallel } from "./face";
+import { type Face, between, betweenAxes, parallel } from "./face";
 import { isUpright, kindOf, make } from "./make";
+import type { RoundFace } from "./round";
 import { type Pick, inView, inspected, measuring, picks, toggleMeasure } from "./picks";
 
 const DIGITS = 3;
@@ -58,12 +59,22 @@ function told(face: Face | null): string {
   // Rounded up: it is a bound.
   const off = fixed(Math.max(1, Math.ceil(1000 * face.off - 1e-6)) / 1000, DIGITS);
   if (face.kind === "round") {
+    if (face.axis[2] < 1) return t(face.hollow ? "measure.holeAlong" : "measure.bossAlong", along(face, off));
     const [x, y] = face.centre.map((n) => fixed(n, DIGITS));
     return t(face.hollow ? "measure.hole" : "measure.boss", { d: fixed(2 * face.radius, DIGITS), x, y, bottom: fixed(face.bottom, DIGITS), top: fixed(face.top, DIGITS), off });
   }
   const axis = face.normal.findIndex((n) => Math.abs(n) > 1 - 1e-4);
   if (axis >= 0) return t("measure.plane", { axis: "XYZ"[axis], at: fixed(face.point[axis], DIGITS), off });
   return t("measure.slant", { x: fixed(face.normal[0], DIGITS), y: fixed(face.normal[1], DIGITS), z: fixed(face.normal[2], DIGITS), off });
+}
+
+/** A round wall about an axis of any direction: its axis by a name or a vector, with the middle of the wall. */
+function along(face: RoundFace, off: string): Record<string, string> {
+  const k = face.axis.findIndex((n) => n === 1);
+  const half = (face.bottom + face.top) / 2;
+  const [x, y, z] = face.centre.map((c, i) => fixed(c + half * face.axis[i], DIGITS));
+  const axis = k >= 0 ? "XYZ"[k] : `(${face.axis.map((n) => fixed(n, DIGITS + 1)).join(", ")})`;
+  return { d: fixed(2 * face.radius, DIGITS), axis, x, y, z, length: fixed(face.top - face.bottom, DIGITS), off };
 }
 
 function Between({ a, b }: { a: Pick; b: Pick }) {
@@ -79,7 +90,7 @@ function Between({ a, b }: { a: Pick; b: Pick }) {
     ["dZ", mm(dz)],
   ];
   if (f?.kind === "plane" && g?.kind === "plane" && parallel(f, g)) rows.push([t("measure.planes"), mm(between(f, g))]);
-  if (f?.kind === "round" && g?.kind === "round") rows.push([t("measure.axes"), mm(Math.hypot(g.centre[0] - f.centre[0], g.centre[1] - f.centre[1]))]);
+  if (f?.kind === "round" && g?.kind === "round") rows.push([t("measure.axes"), mm(betweenAxes(f, g))]);
   const inside = material.reduce((n, s) => n + s.length, 0);
   // Less than is known of the surface at both ends says nothing, as of a line along a face.
   const known = found !== null && inside > 2 * found.within;
