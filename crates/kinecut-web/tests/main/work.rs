@@ -79,7 +79,7 @@ fn runs(done: &Value, text: &str) -> Vec<(String, u64, String)> {
 fn operations_have_the_lines_of_the_programs_that_were_written_for_them() {
     let (_folder, running) = plate();
     let id = running.id("job.toml");
-    let second = PLATE[PLATE.find("[[setup]]").unwrap()..].replace("depth = 6", "depth = 4");
+    let second = PLATE[PLATE.find("[[setup]]").unwrap()..].replace("depth = 6", "depth = 7");
     let text = format!("{PLATE}{second}");
     for path in ["/api/plan", "/api/simulate"] {
         let mut asked = json!({ "client": "c", "file": id, "text": text });

@@ -1,7 +1,7 @@
 // The path in three dimensions: one object for each role, the piece under the cursor, and what lies under the pointer.
 import {
   BufferAttribute, BufferGeometry, type Camera, Group, InstancedBufferAttribute, LineBasicMaterial, LineDashedMaterial, LineSegments, type Material,
-  Vector3,
+  type Plane, Vector3,
 } from "three";
 import { LineMaterial } from "three/examples/jsm/lines/LineMaterial.js";
 import { LineSegments2 } from "three/examples/jsm/lines/LineSegments2.js";
@@ -41,6 +41,7 @@ export class PathLines {
   /** The last piece that is done. */
   private readonly done = { value: 1e9 };
   private readonly wide: boolean;
+  private planes: Plane[] | null = null;
 
   constructor(private readonly track: Track, size: number) {
     const { first, points } = track;
@@ -102,6 +103,7 @@ export class PathLines {
       o.material.dispose();
     }
     this.engaged = quantity ? this.inColours(quantity) : null;
+    this.clip(this.planes);
     for (const role of this.roles) if (role.name !== "rapid") for (const o of role.objects) o.visible = !this.engaged;
     this.upTo(this.last);
   }
@@ -150,6 +152,12 @@ export class PathLines {
     for (const role of this.roles) if (role.name === "rapid") for (const o of role.objects) o.visible = on;
   }
 
+  /** Shows only what lies behind planes; all of it without. */
+  clip(planes: Plane[] | null): void {
+    this.planes = planes;
+    for (const role of this.engaged ? [...this.roles, this.engaged] : this.roles) for (const o of role.objects) o.material.clippingPlanes = planes;
+  }
+
   /** Shows the path up to and with a piece; all of it with infinity. */
   upTo(last: number): void {
     this.last = last;
@@ -196,10 +204,13 @@ export class PathLines {
       if (hidden.includes(role[p])) continue;
       let [ax, ay] = [NaN, NaN];
       let along = 0;
+      let was = false;
       for (let i = first[p]; i < first[p + 1]; i++) {
-        v.set(points[3 * i], points[3 * i + 1], points[3 * i + 2]).project(camera);
+        v.set(points[3 * i], points[3 * i + 1], points[3 * i + 2]);
+        const behind = !this.planes?.some((plane) => plane.distanceToPoint(v) < 0);
+        v.project(camera);
         const [bx, by] = [((v.x + 1) / 2) * width, ((1 - v.y) / 2) * height];
-        if (i > first[p]) {
+        if (i > first[p] && (behind || was)) {
           const [dx, dy] = [bx - ax, by - ay];
           const q = dx * dx + dy * dy;
           const t = q > 0 ? Math.min(1, Math.max(0, ((x - ax) * dx + (y - ay) * dy) / q)) : 0;
@@ -210,7 +221,7 @@ export class PathLines {
             along = i - 1 + t;
           }
         }
-        [ax, ay] = [bx, by];
+        [ax, ay, was] = [bx, by, behind];
       }
       if (found?.piece === p) found.part = this.share(p, along);
     }

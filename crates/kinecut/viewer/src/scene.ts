@@ -146,6 +146,7 @@ export class View {
       if (gone) this.old.push(gone);
     }
     this.lines = track.pieces > 0 ? new PathLines(track, size) : null;
+    if (this.axis >= 0) this.lines?.clip([this.clip]);
     for (const shapes of this.tools) for (const shape of shapes) shape?.dispose();
     this.tools = head.tools.map(shapes);
     this.tool.clear();
@@ -406,6 +407,7 @@ export class View {
     marked(this.surface, this.inside, on);
     this.cap.mesh.visible = on;
     this.stock?.section(on ? [this.clip] : null);
+    this.lines?.clip(on ? [this.clip] : null);
     this.renderer.localClippingEnabled = on;
     // The inside is only seen through a section; drawing it costs as much as the outside.
     if (this.part.children[1]) this.part.children[1].visible = on;
