@@ -5,7 +5,7 @@ import json
 import re
 from pathlib import Path
 
-from common import LONG, MARK, OUTCOME, SIZES, UNMARKED, WEEKLY, Script, Served, Stage, Watched, clean, judged, open_file, shares, shot
+from common import LONG, MARK, OUTCOME, SIZES, UNMARKED, WEEKLY, Script, Served, Stage, Watched, clean, judged, kept_back, open_file, shares, shot, still
 from playwright.sync_api import Browser, Page
 
 # Changes of a diameter whose times are measured, and the bound for nineteen of twenty of them [ms].
@@ -44,12 +44,14 @@ def edits(page: Page, served: Served) -> None:
     assert before == (served.folder / "01_bore/job.toml").read_text()
     program = rows(page)
     known = drawn(page)
-    with page.expect_response("**/api/plan") as answer:
-        field(page, f"{BORE}.diameter").fill("180")
-    wait_drawn(page, known)
-    assert text_of(page) == before.replace("diameter = 200\n", "diameter = 180\n"), "more than the number was changed"
-    assert page.locator('.outcome[data-state="stale"]').count() or page.locator('.outcome[data-state="wait"]').count()
-    assert "180" in page.locator(".outcome .what").inner_text()
+    # Until the simulation has come the outcome is that of the text before, and says so.
+    with kept_back(page, "**/api/simulate"):
+        with page.expect_response("**/api/plan") as answer:
+            field(page, f"{BORE}.diameter").fill("180")
+        wait_drawn(page, known)
+        assert text_of(page) == before.replace("diameter = 200\n", "diameter = 180\n"), "more than the number was changed"
+        assert page.locator('.outcome[data-state="stale"]').count() or page.locator('.outcome[data-state="wait"]').count()
+        assert "180" in page.locator(".outcome .what").inner_text()
     lines = answer.value.json()["programs"][0]["text"].split("\n")
     shown = rows(page)
     assert all(lines[number - 1] == text for number, text in shown.items()), "the list is not the program of the plan"
@@ -96,7 +98,8 @@ def completes(page: Page) -> None:
     page.keyboard.press("Enter")
     page.keyboard.type("coo")
     page.locator(".cm-tooltip-autocomplete li", has_text="coolant").first.wait_for()
-    page.wait_for_timeout(120)
+    # The editor takes no key for a proposal that it has shown for less than 75 ms: by its own clock.
+    page.wait_for_function("shown => performance.now() > shown + 80", arg=page.evaluate("() => performance.now()"))
     page.keyboard.press("Enter")
     assert 'coolant = "' in text_of(page)
     for _ in range(30):
@@ -114,6 +117,8 @@ def mistakes(page: Page) -> None:
     for _ in range(3):
         page.keyboard.press("Backspace")
     page.keyboard.type('"20o"')
+    # Each key is a text of its own, and the first ones are wrong as well: the outcome is that of the last one.
+    still(page)
     page.locator('.outcome[data-state="none"]').wait_for(timeout=LONG)
     assert page.locator(".outcome .word").inner_text() == "NO OUTCOME"
     told = page.locator(".outcome .what").inner_text()
@@ -221,6 +226,7 @@ def saves(page: Page, served: Served) -> None:
     assert path.read_text() == original
     page.keyboard.press("Control+s")
     page.locator(".tab.on .dot").wait_for(state="detached")
+    still(page)
     assert path.read_text() == original.replace("diameter = 200\n", "diameter = 190\n")
 
     theirs = original.replace("diameter = 200\n", "diameter = 160\n")
@@ -237,15 +243,18 @@ def saves(page: Page, served: Served) -> None:
     page.keyboard.press("Escape")
     page.get_by_role("button", name="Keep mine").click()
     page.get_by_role("button", name="Keep mine").wait_for(state="detached")
+    still(page)
     assert "diameter = 195\n" in path.read_text()
 
     path.write_text(theirs)
     page.get_by_role("button", name="Take theirs").click(timeout=LONG)
     page.get_by_role("button", name="Take theirs").wait_for(state="detached")
+    still(page)
     assert text_of(page) == theirs and page.locator(".tab.on .dot").count() == 0
     field(page, f"{BORE}.diameter").fill("200")
     page.keyboard.press("Control+s")
     page.locator(".tab.on .dot").wait_for(state="detached")
+    still(page)
     assert path.read_text() == original
 
 

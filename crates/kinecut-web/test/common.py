@@ -134,8 +134,23 @@ def open_file(page: Page, name: str) -> None:
     page.get_by_role("menuitem", name=name, exact=True).click()
 
 
+# Nothing is asked or about to be asked, on some pictures in a row: what an answer brings may ask again.
+STILL = """() => {
+  const asks = document.documentElement.dataset.open !== "0" || document.querySelector('main[data-state="planning"]');
+  window.stillFor = asks ? 0 : window.stillFor + 1;
+  return window.stillFor > 3;
+}"""
+
+
+def still(page: Page) -> None:
+    """Waits until the page has no question open and none to come: all that it shows is of what was done so far."""
+    page.evaluate("() => (window.stillFor = 0)")
+    page.wait_for_function(STILL, polling="raf", timeout=LONG)
+
+
 def judged(page: Page, name: str = "") -> str:
     """Waits for the outcome, of the file of a name where one was opened: the one before is still there for a moment."""
+    still(page)
     page.wait_for_function("name => /^(SAFE|NOT PROVEN|NOT SAFE) /.test(document.title) && document.title.endsWith(name)", arg=name, timeout=LONG)
     page.locator(OUTCOME).first.wait_for(timeout=LONG)
     return page.locator(".outcome .word").inner_text()
@@ -144,6 +159,11 @@ def judged(page: Page, name: str = "") -> str:
 def painted(page: Page) -> None:
     """Waits until a change that was made is on the page: it is there after a frame."""
     page.evaluate("() => new Promise(done => requestAnimationFrame(() => requestAnimationFrame(done)))")
+
+
+def frame(page: Page) -> None:
+    """Waits for the next picture: a hand moves on from one to the next."""
+    page.evaluate("() => new Promise(requestAnimationFrame)")
 
 
 def settled(page: Page, main: str) -> str:
@@ -167,14 +187,17 @@ def shell(program: str, *words: str, text: str | None = None, folder: Path | str
 
 
 @contextlib.contextmanager
-def kept_back(page: Page, path: str, which: str = ""):
-    """Keeps back requests of a path whose question has a word in it, until the block ends: what is shown then is older, and has to say so."""
+def kept_back(page: Page, path: str, which: str = "", but: int = 0):
+    """Keeps back requests of a path whose question has a word in it, but so many, until the block ends: what is shown then is older, and has to say so."""
     kept: list = []
+    passed = 0
 
     def keep(route) -> None:
-        if which in (route.request.post_data or ""):
+        nonlocal passed
+        if which in (route.request.post_data or "") and passed == but:
             kept.append(route)
         else:
+            passed += which in (route.request.post_data or "")
             route.fallback()
 
     page.route(path, keep)
@@ -197,7 +220,7 @@ def shot(page: Page, name: str) -> None:
     folder = os.environ.get("KINECUT_SHOTS")
     if folder:
         Path(folder).mkdir(parents=True, exist_ok=True)
-        page.wait_for_timeout(300)
+        painted(page)
         page.screenshot(path=f"{folder}/{name}.png", full_page=page.viewport_size["width"] < 700)
 
 

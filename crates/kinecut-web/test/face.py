@@ -3,7 +3,7 @@ program itself prints with `kinecut face --json`. Needs and settings: common.py.
 
 import re
 
-from common import EXAMPLES, LONG, MARK, SIZES, UNMARKED, WEEKLY, Script, Served, Stage, Watched, clean, shares, shell, shot
+from common import EXAMPLES, LONG, MARK, SIZES, UNMARKED, WEEKLY, Script, Served, Stage, Watched, clean, kept_back, shares, shell, shot, still
 from playwright.sync_api import Browser, Page
 
 COVER = "04_gear_pump_cover/face.toml"
@@ -46,6 +46,7 @@ def settled(page: Page, after: int) -> None:
     """Waits until the exits of the newest placement are on the screen."""
     page.wait_for_function(f"() => Number(document.documentElement.dataset.face ?? 0) > {after}", timeout=LONG)
     page.locator('[data-fact="hand"]:not([data-late])').wait_for(timeout=LONG)
+    still(page)
 
 
 def number(page: Page, name: str):
@@ -64,11 +65,13 @@ def put(page: Page, **values: str) -> None:
 def cover(page: Page) -> None:
     page.get_by_role("button", name=COVER, exact=True).click()
     page.locator('[data-fact="hand"] b.bad').wait_for(timeout=LONG)
+    still(page)
 
 
 def compared(page: Page) -> None:
     page.locator(".graph .cell").first.wait_for(timeout=LONG)
     page.locator(".method").wait_for(timeout=LONG)
+    still(page)
 
 
 def printed(told: dict, way: str = "bad") -> float:
@@ -302,14 +305,14 @@ def times(page: Page) -> tuple[list[float], list[float]]:
 def late(page: Page) -> None:
     """An answer that does not come: what is shown says that it is older, and of where."""
     put(page, turn="0", offset="0")
-    page.route("**/api/verb/face", lambda route: (page.wait_for_timeout(900), route.continue_()))
-    page.locator(".held").focus()
-    page.keyboard.press("Shift+ArrowLeft")
-    page.locator('[data-fact="hand"][data-late]').wait_for()
-    assert "older" in page.locator('[data-fact="hand"]').inner_text() and "turn 0.00°" in fact(page, "hand"), fact(page, "hand")
-    assert page.locator(".exits.aged").count() == 1
+    with kept_back(page, "**/api/verb/face"):
+        page.locator(".held").focus()
+        page.keyboard.press("Shift+ArrowLeft")
+        page.locator('[data-fact="hand"][data-late]').wait_for()
+        assert "older" in page.locator('[data-fact="hand"]').inner_text() and "turn 0.00°" in fact(page, "hand"), fact(page, "hand")
+        assert page.locator(".exits.aged").count() == 1
     page.locator('[data-fact="hand"]:not([data-late])').wait_for(timeout=LONG)
-    page.unroute("**/api/verb/face")
+    still(page)
     assert page.locator(".exits.aged").count() == 0 and "of tooth exits" in fact(page, "hand")
 
 
@@ -388,10 +391,12 @@ def finds(page: Page, verb: Verb) -> None:
     assert page.locator(".sectors .value").count() >= 4 and page.locator('.sectors rect[fill^="url"]').count() >= 4
     shot(page, "face-certificate")
     # Stopped half-way, nothing is claimed of the rest.
-    page.get_by_role("button", name="Find the least").click()
-    page.locator('[data-sectors="searches"]').wait_for(timeout=LONG)
-    page.locator(".cert").get_by_role("button", name="Stop").click()
-    page.get_by_role("button", name="Find the least").wait_for()
+    with kept_back(page, "**/api/verb/face", "face-sector", but=9):
+        page.get_by_role("button", name="Find the least").click()
+        page.wait_for_function("() => document.querySelectorAll('.sectors .value').length > 0", timeout=LONG)
+        page.locator('[data-sectors="searches"]').wait_for(timeout=LONG)
+        page.locator(".cert").get_by_role("button", name="Stop").click()
+        page.get_by_role("button", name="Find the least").wait_for()
     assert page.locator('[data-sectors="ended"]').count() == 0
     # Of the whole turn the proof is there all the same.
     assert "nothing is proven" not in page.locator(".cert").inner_text() and page.locator(".cert .tag.safe").count() == 1
@@ -404,6 +409,7 @@ def finds(page: Page, verb: Verb) -> None:
 def mistakes(page: Page, verb: Verb) -> None:
     """A wrong number is told at its field, by the verb's sentence; a placement beyond the margin says so."""
     number(page, "depth").fill("-1")
+    still(page)
     page.locator('[data-face="depth"].wrong .told').wait_for(timeout=LONG)
     sentence = verb.of(verb.text.replace("depth = 0.5", "depth = -1"))["message"]
     assert page.locator('[data-face="depth"] .told').inner_text() == sentence
@@ -412,6 +418,7 @@ def mistakes(page: Page, verb: Verb) -> None:
     assert page.locator(".cert .tag.safe").count() == 0
     clean(page, "mistake")
     number(page, "depth").fill("0.5")
+    still(page)
     page.locator('[data-fact="hand"]:not([data-late])').wait_for(timeout=LONG)
     put(page, turn="0", offset="9.5")
     assert "beyond the margin of 1.00 mm" in fact(page, "hand"), fact(page, "hand")
@@ -563,8 +570,12 @@ def changes(page: Page, served: Served) -> None:
     cover_file = served.folder / "dropped.dxf"
     text = cover_file.read_text()
     other = text.replace("BOLTS", "SCREWS")
+    # The server looks at the folder from time to time: a file is another one only where it has been seen before. A new one is told.
+    with page.expect_request("**/api/project", timeout=LONG):
+        (served.folder / "seen.toml").write_text("# seen\n")
     cover_file.write_text(other)
     page.locator('.weights tr[data-label="SCREWS"]').wait_for(timeout=LONG)
+    still(page)
     assert page.locator('.weights tr[data-label="BOLTS"]').count() == 0
     page.locator('[data-fact="hand"] b.bad').wait_for(timeout=LONG)
 

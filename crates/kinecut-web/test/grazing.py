@@ -6,7 +6,7 @@ import json
 import math
 from statistics import median
 
-from common import LONG, MARK, SIZES, UNMARKED, WEEKLY, Script, Served, Stage, clean, open_file, painted, settled, shell, shot, visited
+from common import LONG, MARK, SIZES, UNMARKED, WEEKLY, Script, Served, Stage, clean, frame, open_file, painted, settled, shell, shot, visited
 from playwright.sync_api import Browser, Page
 
 FOLDER = "06_five_axis_sweep"
@@ -130,7 +130,7 @@ def drag(page: Page, which: str, right: float, down: float, steps: int = 24) -> 
     page.mouse.down()
     for i in range(1, steps + 1):
         page.mouse.move(x + right * i / steps, y + down * i / steps)
-        page.wait_for_timeout(16)
+        frame(page)
     page.mouse.up()
     assert settled(page, MOVING) == "done"
 

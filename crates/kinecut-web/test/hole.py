@@ -4,7 +4,7 @@ Kombarov 2013 back from the page. Needs and settings: common.py."""
 import math
 import re
 
-from common import LONG, MARK, MINUS, OUTCOME, SIZES, UNMARKED, Script, Served, Stage, cells, clean, kept_back, open_file, settled, shell, shot, visited
+from common import LONG, MARK, MINUS, OUTCOME, SIZES, UNMARKED, Script, Served, Stage, cells, clean, frame, kept_back, open_file, settled, shell, shot, visited
 from drill import field
 from playwright.sync_api import Browser, Page
 
@@ -149,7 +149,7 @@ def handles(page: Page, served: Served, program: str) -> None:
     page.mouse.down()
     for i in range(1, 41):
         page.mouse.move(x + i * scale / 2, y + i * scale * 0.75)
-        page.wait_for_timeout(16)
+        frame(page)
     page.mouse.up()
     assert settled(page, HOLE) == "done"
     moves, drawn = page.evaluate("() => [dragged.moves, dragged.drawn]")

@@ -10,7 +10,7 @@ import tomllib
 
 from browser import begin as bore
 from browser import drawn, field, text_of, wait_drawn
-from common import EXAMPLES, LONG, MARK, OUTCOME, SIZES, UNMARKED, Script, Served, Stage, Watched, clean, judged, open_file, painted, shot
+from common import EXAMPLES, LONG, MARK, OUTCOME, SIZES, UNMARKED, Script, Served, Stage, Watched, clean, judged, kept_back, open_file, painted, shot, still
 from playwright.sync_api import Browser, Page
 
 BORE = "setup[0].operation[0]"
@@ -48,10 +48,11 @@ def feeds(page: Page) -> None:
     assert page.locator(".clock .feeds").count() == 0
     known = drawn(page)
     with page.expect_response("**/api/simulate", timeout=LONG) as simulated, page.expect_response("**/api/plan", timeout=LONG) as planned:
-        field(page, f"{BORE}.diameter").fill("196")
-        wait_drawn(page, known)
-        assert page.locator(".clock .feeds").inner_text() == FEEDS
-        quick = longest(page)
+        with kept_back(page, "**/api/simulate"):
+            field(page, f"{BORE}.diameter").fill("196")
+            wait_drawn(page, known)
+            assert page.locator(".clock .feeds").inner_text() == FEEDS
+            quick = longest(page)
     assert planned.value.request.post_data_json["quick"] is True
     assert quick == round(planned.value.json()["plan"]["setups"][0]["time"])
     under_limits = simulated.value.json()["plan"]["setups"][0]["time"]
@@ -333,6 +334,7 @@ def rounds(page: Page, served: Served) -> None:
         painted(page)
         page.keyboard.press("Enter")
         page.locator(".measured .xyz").wait_for()
+        still(page)
         said = page.locator(".measured").inner_text()
         wall = re.search(r"round wall, ⌀([\d.]+) along (X|\(.*?\)) about X (\S+) Y (\S+) Z (\S+), ([\d.]+) mm long, corners within ([\d.]+) mm", said)
         assert wall, said

@@ -4,7 +4,7 @@ that the program itself prints with `kinecut surface`, `layouts`, `machine` and 
 import math
 import re
 
-from common import EXAMPLES, LONG, MARK, SIZES, UNMARKED, WEEKLY, Script, Served, Stage, Watched, clean, kept_back, painted, shares, shell, shot
+from common import EXAMPLES, LONG, MARK, SIZES, UNMARKED, WEEKLY, Script, Served, Stage, Watched, clean, kept_back, painted, shares, shell, shot, still
 from playwright.sync_api import Browser, Page
 
 FOLDER = "05_machine_from_code"
@@ -56,6 +56,7 @@ def put(page: Page, **values: str) -> None:
         before = asked(page)
         field(page, name).fill(value)
         after(page, before)
+        still(page)
 
 
 def fact(page: Page, name: str) -> str:

@@ -1,4 +1,5 @@
 // The server's protocol: requests with the token of this start, answers as they come.
+import { counted } from "./open";
 
 export interface Quantity {
   value: number;
@@ -175,9 +176,8 @@ async function answer(path: string, method: string, body: unknown, signal?: Abor
   throw new Refused(response.status, told.error?.reason ?? "", told.error ?? {}, told);
 }
 
-async function json<T>(path: string, method = "GET", body?: unknown, signal?: AbortSignal): Promise<T> {
-  return (await answer(path, method, body, signal)).json() as Promise<T>;
-}
+const json = <T>(path: string, method = "GET", body?: unknown, signal?: AbortSignal) => counted(answer(path, method, body, signal).then((told) => told.json() as Promise<T>));
+const words = (path: string, body: unknown, signal: AbortSignal) => counted(answer(path, "POST", body, signal).then((told) => told.text()));
 
 export const project = () => json<Project>("/api/project");
 export const file = (id: string) => json<FileText>(`/api/file/${id}`);
@@ -238,22 +238,16 @@ export interface VerbQuestion {
 export const verb = <T>(name: string, question: VerbQuestion, signal: AbortSignal) => json<T | Finding>(`/api/verb/${name}`, "POST", { client, ...question }, signal);
 
 /** The page that a verb writes. */
-export async function verbPage(name: string, question: VerbQuestion, signal: AbortSignal): Promise<string> {
-  return (await answer(`/api/page/${name}`, "POST", { client, ...question }, signal)).text();
-}
+export const verbPage = (name: string, question: VerbQuestion, signal: AbortSignal) => words(`/api/page/${name}`, { client, ...question }, signal);
 
 /** A verb that is asked by its flags, without a text of its own. */
 export const ask = <T>(name: string, flags: object, signal: AbortSignal) => json<T | Finding>(`/api/verb/${name}`, "POST", { client, ...flags }, signal);
 
 /** The drawing that a verb writes with `--svg`. */
-export async function drawing(name: string, flags: object, signal: AbortSignal): Promise<string> {
-  return (await answer(`/api/drawing/${name}`, "POST", { client, ...flags }, signal)).text();
-}
+export const drawing = (name: string, flags: object, signal: AbortSignal) => words(`/api/drawing/${name}`, { client, ...flags }, signal);
 
 /** The page that a verb writes with `--out`. */
-export async function pageOf(name: string, flags: object, signal: AbortSignal): Promise<string> {
-  return (await answer(`/api/page/${name}`, "POST", { client, ...flags }, signal)).text();
-}
+export const pageOf = (name: string, flags: object, signal: AbortSignal) => words(`/api/page/${name}`, { client, ...flags }, signal);
 
 /** What the workbench reads of `inspection.json`. */
 export interface Inspection {
@@ -266,9 +260,7 @@ export interface Inspection {
 /** Lines from one point to another of a part that the server has. */
 export const inspect = (result: string, measures: number[][]) => json<Inspection>("/api/inspect", "POST", { result, measures });
 
-export async function report(result: string): Promise<Blob> {
-  return (await answer("/api/report", "POST", { result })).blob();
-}
+export const report = (result: string) => counted(answer("/api/report", "POST", { result }).then((told) => told.blob()));
 
 export interface Events {
   progress: { kind: string; file: string; generation: number; stage: string; done: number; of: number; note: string | null };

@@ -1,6 +1,7 @@
 // Asking a verb after each change of a text: the newest counts, the older is given up. A page follows the numbers.
 import { batch } from "@preact/signals";
 import * as api from "../base/api";
+import { later } from "../base/open";
 import type { Document } from "./document";
 import type { QuestionKind } from "./questions";
 
@@ -14,7 +15,8 @@ const CANCELLED = "KC0009";
 export class Asker {
   private generation = 0;
   private changedAt = 0;
-  private timer = 0;
+  /** Gives up what has not begun. */
+  private forget = () => {};
   private control = new AbortController();
 
   constructor(private readonly doc: Document) {}
@@ -24,9 +26,9 @@ export class Asker {
     this.generation++;
     this.changedAt = performance.now();
     this.control.abort();
-    clearTimeout(this.timer);
+    this.forget();
     this.doc.planning.value = true;
-    this.timer = window.setTimeout(() => void this.run(), SOON);
+    this.forget = later(SOON, () => this.run());
   }
 
   /** Called when a file may be another that the text names. */
@@ -45,7 +47,7 @@ export class Asker {
   close(): void {
     this.generation++;
     this.control.abort();
-    clearTimeout(this.timer);
+    this.forget();
   }
 
   private async run(): Promise<void> {
@@ -61,7 +63,7 @@ export class Asker {
       if (old()) return;
       if ("wrong" in told && told.wrong.code === CANCELLED) {
         // Given up by the server, and nothing newer is asked by this text.
-        this.timer = window.setTimeout(() => void this.run(), REST);
+        this.forget = later(REST, () => this.run());
         return;
       }
       batch(() => {

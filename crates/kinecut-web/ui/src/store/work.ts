@@ -1,6 +1,7 @@
 // Planning and simulating a text after each change: the newest counts, the older is given up.
 import { batch } from "@preact/signals";
 import * as api from "../base/api";
+import { later } from "../base/open";
 import type { Document, Judged } from "./document";
 import { guessOf } from "./guess";
 import { keyedByText } from "./runs";
@@ -26,7 +27,8 @@ export class Worker {
   private kept: Kept | null = null;
   private generation = 0;
   private changedAt = 0;
-  private timer = 0;
+  /** Gives up what has not begun. */
+  private forget = () => {};
   private control = new AbortController();
 
   constructor(private readonly doc: Document) {}
@@ -47,7 +49,7 @@ export class Worker {
 
   private later(): void {
     this.doc.planning.value = true;
-    this.timer = window.setTimeout(() => void this.run(), SOON);
+    this.forget = later(SOON, () => this.run());
   }
 
   /** Whether the outcome of this very text is known. */
@@ -71,7 +73,7 @@ export class Worker {
     this.generation++;
     this.changedAt = performance.now();
     this.control.abort();
-    clearTimeout(this.timer);
+    this.forget();
     batch(() => {
       this.doc.running.value = null;
       this.doc.stopped.value = false;
@@ -90,7 +92,7 @@ export class Worker {
   close(): void {
     this.generation++;
     this.control.abort();
-    clearTimeout(this.timer);
+    this.forget();
   }
 
   /** A word of how far the simulation is. */

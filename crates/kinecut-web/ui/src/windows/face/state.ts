@@ -1,6 +1,7 @@
 // One face: its text, the placement under the hand, and what the verb says of both. Every number that is shown as a result is the verb's.
 import { batch, computed, effect, signal } from "@preact/signals";
 import * as api from "../../base/api";
+import { counted, later } from "../../base/open";
 import { type FaceAnswer, type Optimum, type Placement, type Step, isOptimum } from "./answer";
 import { History } from "./history";
 import { type Map, cellsOf } from "./map";
@@ -134,7 +135,8 @@ export class Face {
   private readonly lines = { live: new Line(this, "live"), least: new Line(this, "least"), ways: new Line(this, "ways"), map: new Line(this, "map"), under: new Line(this, "under"), walk: new Line(this, "walk"), sector: new Line(this, "sector") };
   private asking = false;
   private movedAt = 0;
-  private timer = 0;
+  /** Gives up what has not begun. */
+  private forget = () => {};
   private lateTimer = 0;
   private wanted: Hand | null = null;
   private asksUnder = false;
@@ -185,11 +187,11 @@ export class Face {
   }
 
   private begun(): void {
-    clearTimeout(this.timer);
+    this.forget();
     this.lines.ways.stop();
     this.lines.map.stop();
-    void this.searched().then((found) => {
-      if (found) this.timer = window.setTimeout(() => void this.compared(), REST);
+    void counted(this.searched()).then((found) => {
+      if (found) this.forget = later(REST, () => this.compared());
     });
   }
 
@@ -212,7 +214,7 @@ export class Face {
       if (!isAnswer(told)) return false;
       if (!this.hand.value) this.hand.value = this.begin(told);
       this.movedAt = performance.now();
-      void this.pump();
+      void counted(this.pump());
       return true;
     } catch (error) {
       this.failed(error);
@@ -272,7 +274,7 @@ export class Face {
   move(hand: Hand): void {
     this.hand.value = { turn: round360(hand.turn), beside: hand.beside };
     this.movedAt = performance.now();
-    void this.pump();
+    void counted(this.pump());
   }
 
   /** Asks for the exits of the newest placement, one question at a time. */
@@ -412,7 +414,7 @@ export class Face {
   }
 
   close(): void {
-    clearTimeout(this.timer);
+    this.forget();
     clearTimeout(this.lateTimer);
     this.noted();
     for (const line of Object.values(this.lines)) line.stop();

@@ -1,6 +1,7 @@
 // The moment of a move that is looked at: its curve, and what is swept in the whole move and up to it. Every number is the verbs'.
 import { batch, computed, effect, signal } from "@preact/signals";
 import * as api from "../../base/api";
+import { later } from "../../base/open";
 import type { Document } from "../../store/document";
 import type { Value } from "../../toml/edit";
 import { contourOf } from "./question";
@@ -76,7 +77,8 @@ export class Scrub {
   private readonly sweep: Line<Swept>;
   private asking = false;
   private shown: { growth: Growth; at: number } | null = null;
-  private timer = 0;
+  /** Gives up what has not begun. */
+  private forget = () => {};
   private lateTimer = 0;
   private movedAt = 0;
 
@@ -151,8 +153,8 @@ export class Scrub {
   }
 
   private later(): void {
-    clearTimeout(this.timer);
-    this.timer = window.setTimeout(() => void this.swept(), REST);
+    this.forget();
+    this.forget = later(REST, () => this.swept());
   }
 
   /** Asks what is swept: in the whole move first, then up to the moment. */

@@ -2,6 +2,7 @@
 // that one word changed.
 import { effect, signal } from "@preact/signals";
 import * as api from "../../base/api";
+import { later } from "../../base/open";
 import { tell } from "../../store/session";
 import { type Pass, type Plan, planOf } from "./answer";
 import { CONTACTS, STRATEGIES, withContact, withStrategy } from "./question";
@@ -39,19 +40,19 @@ export class Others {
 
   /** Asks after each answer, until it is ended. */
   follow(): () => void {
-    let timer = 0;
+    let forget = () => {};
     const end = effect(() => {
       const { doc } = this.state;
       const text = doc.answered.value?.text;
       // To be asked again when another pass is looked at.
       void this.state.wished.value;
-      clearTimeout(timer);
+      forget();
       this.control.abort();
       if (text === undefined) return;
-      timer = window.setTimeout(() => void this.ask(text), REST);
+      forget = later(REST, () => this.ask(text));
     });
     return () => {
-      clearTimeout(timer);
+      forget();
       this.control.abort();
       end();
     };

@@ -1,5 +1,6 @@
 // Questions of one kind: the newest counts, and an older one is given up.
 import { type Finding, Refused } from "../../base/api";
+import { counted } from "../../base/open";
 
 /** The verb's word for work that is no longer wanted. */
 const CANCELLED = "KC0009";
@@ -33,7 +34,7 @@ export class Newest {
         // Drawings of a gallery may fill the server's queue; the newest question waits for its turn.
         if (!(error instanceof Refused && error.reason === "busy") || again === MOST) throw error;
       }
-      await new Promise((done) => setTimeout(done, PAUSE));
+      await counted(new Promise((done) => setTimeout(done, PAUSE)));
       if (control.signal.aborted) return null;
     }
   }
