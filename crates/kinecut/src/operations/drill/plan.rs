@@ -166,7 +166,7 @@ impl PlannedHole {
         // The drill alone has made the floor, where all of its edge has gone in.
         let (edge, tip) = (self.plan.edge, self.plan.travel.end);
         let whole = !through && edge.inner_radius() == 0.0 && self.is_all_in();
-        let floor = whole.then(|| HoleFloor { tip: tip + self.zero, edge });
+        let floor = whole.then_some(HoleFloor { tip: tip + self.zero, edge });
         Some(RoundHole { bottom: lowest, through, floor, ..hole })
     }
 }

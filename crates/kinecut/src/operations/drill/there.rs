@@ -111,15 +111,15 @@ impl There {
         let opens_it = beside + hole.radius <= radius && hole.radius < radius - SAME;
         match hole.form {
             Form::Through if runs_in_it => return Err(nothing_left(2.0 * hole.radius, None).into()),
-            Form::Above(tip, edge) if runs_in_it && beside <= SAME => {
-                if self.floor.is_none_or(|f| f.height > tip) {
-                    self.floor = Some(Mouth { height: tip, edge });
-                }
+            Form::Above(tip, edge)
+                if runs_in_it && beside <= SAME && self.floor.is_none_or(|f| f.height > tip) =>
+            {
+                self.floor = Some(Mouth { height: tip, edge });
             }
-            Form::Below(height, edge) if beside <= SAME && height < entry => {
-                if self.ceiling.is_none_or(|c| c.height < height) {
-                    self.ceiling = Some(Ceiling { height, edge });
-                }
+            Form::Below(height, edge)
+                if beside <= SAME && height < entry && self.ceiling.is_none_or(|c| c.height < height) =>
+            {
+                self.ceiling = Some(Ceiling { height, edge });
             }
             Form::Through if opens_it => self.open(PreHole::through(2.0 * hole.radius), hole.across),
             Form::Above(tip, edge) if opens_it => {
