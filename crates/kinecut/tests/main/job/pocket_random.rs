@@ -53,7 +53,7 @@ fn left(outline: &Outline, swept: &Swept) -> (usize, usize) {
                     .iter()
                     .find(|e| Some(e.nearest(p).1) == edge.map(|e| e.1))
                     .map_or(p, |e| e.at(e.nearest(p).0));
-                foot + (p - foot).normalize() * SMALL
+                foot + (p - foot) * (SMALL / depth)
             };
             if inside(centre) >= SMALL - 1e-6 {
                 all += 1;
