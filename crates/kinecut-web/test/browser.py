@@ -171,6 +171,8 @@ def plays(page: Page) -> None:
     page.wait_for_function("was => document.querySelector('.time .clock b').textContent !== was", arg=was)
     page.keyboard.press(" ")
     page.locator('[data-play="on"]').wait_for()
+    # Past the lines before the first place that is known.
+    page.locator(".read").wait_for()
     page.keyboard.press(" ")
     page.locator('[data-play="off"]').wait_for()
     assert re.match(r"X", page.locator(".read").inner_text())

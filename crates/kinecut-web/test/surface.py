@@ -51,12 +51,17 @@ def field(page: Page, name: str):
 
 def put(page: Page, **values: str) -> None:
     for name, value in values.items():
-        if field(page, name).input_value() == value:
-            continue
-        before = asked(page)
-        field(page, name).fill(value)
-        after(page, before)
+        answered(page, name, value)
         still(page)
+
+
+def answered(page: Page, name: str, value: str) -> None:
+    """Types a number and waits for its answer; others may still be open."""
+    if field(page, name).input_value() == value:
+        return
+    before = asked(page)
+    field(page, name).fill(value)
+    after(page, before)
 
 
 def fact(page: Page, name: str) -> str:
@@ -267,7 +272,7 @@ def machines(page: Page, verb: Verb) -> None:
     tags = page.locator(".lattice .card .tag")
     assert tags.count() == len(told["splits"])
     with kept_back(page, "**/api/verb/surface", "lathe_xzc"):
-        put(page, R="31")
+        answered(page, "R", "31")
         page.locator('[data-panel="onMachine"] .tag.np').wait_for()
         painted(page)
         shown = (tags.count(), page.locator('[data-panel="onMachine"] [data-aged] [data-made]').count())
