@@ -43,11 +43,12 @@ export class PathLines {
   private readonly wide: boolean;
   private planes: Plane[] | null = null;
 
-  constructor(private readonly track: Track, size: number) {
+  /** `thin`: lines one pixel wide, however few they are. */
+  constructor(private readonly track: Track, size: number, thin = false) {
     const { first, points } = track;
     let segments = 0;
     for (let p = 0; p < track.pieces; p++) segments += first[p + 1] - first[p] - 1;
-    const wide = (this.wide = segments <= WIDE);
+    const wide = (this.wide = !thin && segments <= WIDE);
     track.head.roles.forEach((name, role) => {
       const xyz: number[] = [];
       const piece: number[] = [];

@@ -10,6 +10,7 @@ import { type Quantity, greatest } from "./engaged";
 import { Fixtures, Machine } from "./bodies";
 import { Cap, hatched, marked } from "./cap";
 import { PathLines } from "./lines";
+import { onProcessor } from "./processor";
 import { bandTexture, geometry } from "./mesh";
 import { Overlay } from "./overlay";
 import { Probes } from "./probes";
@@ -67,6 +68,8 @@ type ToolShape = (LatheGeometry | null)[];
 
 export class View {
   private readonly renderer: WebGLRenderer;
+  /** Whether wide lines take long. */
+  private readonly slow: boolean;
   private readonly scene = new Scene();
   private readonly camera = new OrthographicCamera();
   private readonly controls: OrbitControls;
@@ -109,6 +112,7 @@ export class View {
   constructor(private readonly canvas: HTMLCanvasElement, private readonly cursor: Cursor, private readonly around: Around) {
     this.renderer = new WebGLRenderer({ canvas, antialias: true, alpha: true, stencil: true });
     this.renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
+    this.slow = onProcessor(this.renderer.getContext() as WebGL2RenderingContext);
     this.tool.visible = false;
     hatched(this.inside);
     const light = new DirectionalLight(0xffffff, 2.1);
@@ -130,8 +134,11 @@ export class View {
     cursor.listen((place, source) => this.follow(place, source));
   }
 
-  /** Shows other data; the camera stays unless `fit`. With `keepPart` the part stays that of the data before, where it had one. */
-  load(head: Head, track: Track, { fit = true, keepPart = false } = {}): void {
+  /**
+   * Shows other data; the camera stays unless `fit`. With `keepPart` the part stays that of the data before, where it had one; with `soon`
+   * other data will follow soon: without a graphics card the lines are thin until then.
+   */
+  load(head: Head, track: Track, { fit = true, keepPart = false, soon = false } = {}): void {
     const first = !this.head;
     this.head = head;
     this.track = track;
@@ -145,7 +152,7 @@ export class View {
       gone?.removeFromParent();
       if (gone) this.old.push(gone);
     }
-    this.lines = track.pieces > 0 ? new PathLines(track, size) : null;
+    this.lines = track.pieces > 0 ? new PathLines(track, size, soon && this.slow) : null;
     if (this.axis >= 0) this.lines?.clip([this.clip]);
     for (const shapes of this.tools) for (const shape of shapes) shape?.dispose();
     this.tools = head.tools.map(shapes);

@@ -122,7 +122,8 @@ function follow(view: View, doc: Document): () => void {
       shown.open();
       // The part that was cut stays until the next one is: a plan has the raw stock alone.
       const keepPart = !shown.cut && before !== null;
-      view.load(shown.head, shown.track, { fit: before === null, keepPart });
+      // Of a plan the simulation is on its way.
+      view.load(shown.head, shown.track, { fit: before === null, keepPart, soon: !shown.cut });
       const simulated = doc.simulated.peek();
       if (!keepPart) inView.value = { text: shown.text, step: shown.cut && simulated ? (simulated.drawn_step ?? simulated.step) : null };
       before = shown;
