@@ -1,4 +1,4 @@
-//! Planes that operations before leave: the faces that have been milled.
+//! Planes that operations before leave: the faces that have been milled, the floors of pockets and bores.
 
 use glam::{DVec2, DVec3};
 
@@ -16,6 +16,9 @@ pub(crate) struct MadePlane {
     reach: f64,
     /// Height there [mm].
     top: f64,
+    /// Least distance of a disc's centre from the outline, and of its rim [mm]: beside the wall of a pocket the cutter may not have been,
+    /// or its corner.
+    room: [f64; 2],
 }
 
 /// The same with its place in the part.
@@ -32,14 +35,22 @@ const ROUNDING: f64 = 1e-9;
 impl MadePlane {
     /// Of a face at a height, milled along a path by a cutter of a radius at the plane [mm].
     pub(crate) fn new(outline: &Outline, top: f64, path: PassPath, reach: f64) -> MadePlane {
-        MadePlane { outline: outline.clone(), ways: path.chains.into_iter().flatten().collect(), reach, top }
+        let ways = path.chains.into_iter().flatten().collect();
+        MadePlane { outline: outline.clone(), ways, reach, top, room: [0.0; 2] }
+    }
+
+    /// Of the floor within an outline that a flat cutter has cleared: its radius, the radius of its corner, and the stock that it leaves on
+    /// the wall [mm].
+    pub(crate) fn floor(outline: Outline, top: f64, [radius, corner, leave]: [f64; 3]) -> MadePlane {
+        MadePlane { outline, ways: Vec::new(), reach: 0.0, top, room: [leave + radius, leave + corner] }
     }
 
     /// Whether all of a disc of a radius [mm] is milled: it lies in the face, or under one piece of the cutter's way.
     fn covers(&self, centre: DVec2, radius: f64) -> bool {
         let in_face = || {
-            self.outline.edges().iter().all(|e| e.nearest(centre).1 >= radius)
-                && self.outline.contains(centre)
+            // The cutter has stood over the centre, or has come so near to all of the rim.
+            let room = self.room[0].max(radius + self.room[1]);
+            self.outline.edges().iter().all(|e| e.nearest(centre).1 >= room) && self.outline.contains(centre)
         };
         // Of a hole that the drawing of the face has, and beside the face.
         self.ways.iter().any(|way| way.nearest(centre).1 <= self.reach - radius) || in_face()

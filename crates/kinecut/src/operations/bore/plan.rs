@@ -6,15 +6,16 @@ use glam::DVec3;
 
 use super::{BoreOperation, BoreTable};
 use crate::base::{Code, Finding, Result};
-use crate::geom::Rigid;
+use crate::geom::{Outline, OutlineEdge, Rigid};
 use crate::holes::{BorePlan, BoreSpec, CutterData, Sense, Strategy, plan_bore};
 use crate::operations::kind::{self, Attempt, Checked as _, Nothing};
 use crate::operations::measured::TakenOut;
 use crate::operations::wall::{CLEARANCE, FinishTable, ShownWall, sections, write_moves};
 use crate::operations::wanted::{Wall, WantedWall};
-use crate::operations::{Pen, Setting, Shown, WearRegister};
+use crate::operations::{MadePlane, Pen, Setting, Shown, WearRegister};
 use crate::page::Section;
 use crate::program::Comp;
+use crate::tool::Cutter;
 
 /// A planned bore.
 #[derive(Clone, Debug)]
@@ -169,6 +170,20 @@ impl kind::Plan for PlannedBore {
             slug: if outline { t.diameter / 2.0 - t.stock_to_leave - allowance - cutter } else { 0.0 },
         };
         wall.fits(cutter).into_iter().collect()
+    }
+
+    fn made_plane(&self) -> Option<MadePlane> {
+        let cutter = &self.of.milling.tool.cutter;
+        let (radius, corner) = match *cutter {
+            Cutter::EndMill { diameter } => (0.5 * diameter, 0.0),
+            Cutter::BullNose { diameter, corner_radius } => (0.5 * diameter, corner_radius),
+            _ => return None,
+        };
+        let wall = self.walls().into_iter().next().filter(|wall| wall.slug <= 0.0)?;
+        let (Some(floor), Wall::Round { radii, .. }) = (wall.floor, &wall.wall) else { return None };
+        let circle = OutlineEdge::arc(wall.centre, radii[1], 0.0, std::f64::consts::TAU);
+        let outline = Outline::new(vec![vec![circle]], Vec::new()).ok()?;
+        Some(MadePlane::floor(outline, floor, [radius, corner, 0.0]))
     }
 
     fn sections(all: &[(&PlannedBore, &Shown<'_>)]) -> Vec<Section> {

@@ -17,8 +17,9 @@ use crate::operations::kind::{self, Attempt, Checked as _};
 use crate::operations::uncut;
 use crate::operations::wall::{CLEARANCE, write_worn_moves};
 use crate::operations::wanted::{Wall, WantedWall};
-use crate::operations::{Found, Judged, Pen, PostedPlan, Setting, Shown, WearRegister};
+use crate::operations::{Found, Judged, MadePlane, Pen, PostedPlan, Setting, Shown, WearRegister};
 use crate::page::Section;
+use crate::tool::Cutter;
 
 /// A planned pocket.
 #[derive(Clone, Debug)]
@@ -189,6 +190,17 @@ impl kind::Plan for PlannedPocket {
             wall: Wall::Band(Arc::new(band)),
         };
         vec![wall]
+    }
+
+    fn made_plane(&self) -> Option<MadePlane> {
+        let (spec, cutter) = (&self.lap, &self.of.milling.tool.cutter);
+        let is_flat = matches!(cutter, Cutter::EndMill { .. } | Cutter::BullNose { .. });
+        if !is_flat || self.of.table.breakthrough > 0.0 {
+            return None;
+        }
+        let leave = spec.stock_to_leave + self.wear.map_or(0.0, |w| w.value.abs());
+        let room = [spec.radius(), self.of.corner(), leave];
+        Some(MadePlane::floor(self.of.outline.clone(), spec.top - spec.depth, room))
     }
 
     fn judge(&mut self, name: &str, _posted: &PostedPlan<'_>, _found: &Found<'_>) -> Judged {

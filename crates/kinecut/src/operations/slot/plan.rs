@@ -4,7 +4,7 @@ use crate::base::Result;
 use crate::operations::kind::{self, Judged};
 use crate::operations::pocket::{PlannedPocket, PocketJson, section};
 use crate::operations::wanted::WantedWall;
-use crate::operations::{Found, Pen, PostedPlan, Shown, WearRegister};
+use crate::operations::{Found, MadePlane, Pen, PostedPlan, Shown, WearRegister};
 use crate::page::Section;
 
 /// A planned slot.
@@ -33,6 +33,10 @@ impl kind::Plan for PlannedSlot {
 
     fn walls(&self) -> Vec<WantedWall> {
         self.pocket.walls()
+    }
+
+    fn made_plane(&self) -> Option<MadePlane> {
+        self.pocket.made_plane()
     }
 
     fn judge(&mut self, name: &str, posted: &PostedPlan<'_>, found: &Found<'_>) -> Judged {

@@ -258,3 +258,61 @@ fn a_hole_in_which_nothing_is_left_to_drill_is_refused() {
     let Err(e) = run("job.toml", &text, &MemoryLoader::default(), &Silent) else { panic!("drilled twice") };
     assert!(e.0.message.contains("nothing is left to drill: the hole of 8 mm that is there goes through"));
 }
+
+/// A pocket or a bore 8 mm deep, and a drill of 8 mm through at a place: the outcome, and the zones of the drill as (stage, Z of the end).
+fn in_floor(first: &str, at: &str, more: &str) -> (Outcome, Vec<(String, f64)>) {
+    let mill = "[[tool]]\nnumber = 3\ntype = \"end-mill\"\ndiameter = 10\nteeth = 4\nflute_length = 26\nstickout = 40\n[[setup]]";
+    let drill = format!("{DRILL}points = [{at}]\n{more}");
+    let text = job(BOX, &format!("[[setup.operation]]\ntool = 3\nspeed = 6000\n{first}{drill}"));
+    let text = text.replacen("[[setup]]", mill, 1);
+    let outcome = run("job.toml", &text, &MemoryLoader::default(), &Silent).unwrap_or_else(|e| panic!("{e}"));
+    let plan: serde_json::Value = serde_json::from_str(&kinecut::job::plan_json(&outcome)).expect("JSON");
+    let zones = plan["setups"][0]["drillings"][0]["holes"][0]["zones"].as_array().expect("zones").clone();
+    let zone = |z: &serde_json::Value| {
+        (z["stage"].as_str().unwrap_or("").to_owned(), z["to"].as_f64().unwrap_or(f64::NAN))
+    };
+    let zones = zones.iter().map(zone).collect();
+    (outcome, zones)
+}
+
+#[test]
+fn a_hole_begins_at_the_floor_of_a_pocket_or_a_bore() {
+    let pocket = "type = \"pocket\"\nrectangle = { size = [50, 32], corner = 6 }\ndepth = 8\nfeed = 1200\n";
+    let bore = "type = \"bore\"\nat = [0, 0]\ndiameter = 32\ndepth = 8\nstrategy = \"lens-1\"\n\
+        rough = { stepover = 3, allowance = 0.2, feed = 1200 }\nfinish = { feed = 600 }\n";
+    let point = 4.0 / 59f64.to_radians().tan();
+    for first in [pocket, bore] {
+        let (outcome, zones) = in_floor(first, "[3, 2]", "");
+        assert!(outcome.verdict.is_safe() && outcome.verdict.found.is_empty(), "{:?}", outcome.verdict.found);
+        // The point goes in at the floor, and the rapid ends 2 mm above it.
+        assert_eq!(zones[0].0, "entry", "{zones:?}");
+        assert!((zones[0].1 - (-8.0 - point)).abs() < 1e-9, "{zones:?}");
+        assert!(
+            drilled(&outcome).iter().any(|l| l.contains("Z-6 ") || l.ends_with("Z-6") || l.contains("R-6")),
+            "{:?}",
+            drilled(&outcome)
+        );
+        // A blind hole: its depth counts from `top`, here the face.
+        let (outcome, zones) = in_floor(first, "[3, 2]", "depth = 14\n");
+        assert!(outcome.verdict.is_safe() && outcome.verdict.found.is_empty(), "{:?}", outcome.verdict.found);
+        assert!((zones.last().expect("a zone").1 - (-14.0 - point)).abs() < 1e-9, "{zones:?}");
+    }
+    // So near to the wall the cutter's middle has not been: it is planned from the face, and the proof says what it meets.
+    let (_, zones) = in_floor(pocket, "[20.5, 0]", "");
+    assert!((zones[0].1 + point).abs() < 1e-9, "{zones:?}");
+    // Out of a pocket that was milled from the other side.
+    let text = job(
+        BOX,
+        &format!(
+            "[[setup.operation]]\ntool = 3\nspeed = 6000\n{pocket}[[setup]]\noffset = \"G55\"\nsafe_height = 40\nzero = [0, 0, -20]\n\
+             orient = {{ x = [1, 0, 0], z = [0, 0, -1] }}\n{DRILL}points = [[3, -2]]\n"
+        ),
+    );
+    let mill = "[[tool]]\nnumber = 3\ntype = \"end-mill\"\ndiameter = 10\nteeth = 4\nflute_length = 26\nstickout = 40\n[[setup]]";
+    let outcome = run("job.toml", &text.replacen("[[setup]]", mill, 1), &MemoryLoader::default(), &Silent)
+        .unwrap_or_else(|e| panic!("{e}"));
+    assert!(outcome.verdict.is_safe() && outcome.verdict.found.is_empty(), "{:?}", outcome.verdict.found);
+    let plan: serde_json::Value = serde_json::from_str(&kinecut::job::plan_json(&outcome)).expect("JSON");
+    let end = plan["setups"][1]["drillings"][0]["holes"][0]["coordinates"]["Z_nvyh1"].as_f64();
+    assert!(end.is_some_and(|z| (z + 12.0).abs() < 1e-9), "{end:?}");
+}
