@@ -23,7 +23,7 @@ fn job(case: &str) -> Job {
     let ball = "[[tool]]\nnumber = 3\ntype = \"ball-nose\"\ndiameter = 6\nteeth = 2\nflute_length = 12\nstickout = 30\n";
     let thread = "[[tool]]\nnumber = 4\ntype = \"thread-mill\"\ndiameter = 12\npitch = 1.5\nteeth = 4\nflute_length = 30\nstickout = 40\n";
     let operation = match case {
-        "contour" => "type = \"contour\"\ntool = 1\nrectangle = { size = [150, 90], corner = 8 }\ndepth = 12\nstepdown = 4\ntabs = { count = 4 }\n\
+        "contour" => "type = \"contour\"\ntool = 1\nrectangle = { size = [150, 90], corner = 8 }\ndepth = 12\nstepdown = 4\ntabs = { count = 4, width = 6, height = 1.5 }\n\
              speed = 6000\nfeed = 1200\nfinish = { allowance = 0.2 }\n"
             .to_owned(),
         "pocket" => "type = \"pocket\"\ntool = 1\nrectangle = { size = [125, 80], corner = 8 }\ndepth = 5\nspeed = 6000\nfeed = 1200\n".to_owned(),
