@@ -8,7 +8,7 @@ use crate::base::bounded::{MAX_LENGTH, length, positive};
 use crate::base::{Code, Finding, Result};
 use crate::contouring::{ContourSide, Tabs};
 use crate::cutting::{MillingCut, StartCut};
-use crate::geom::Outline;
+use crate::geom::{MeshEdge, Outline};
 use crate::holes::CutterData;
 use crate::operations::kind::{self, Attempt};
 use crate::operations::named::NamedOutline;
@@ -179,6 +179,20 @@ impl ContourTable {
     }
 }
 
+/// Checks that a cutter beside an edge of a mesh does not run in its material; on the edge it may.
+fn beside_material(edge: &MeshEdge, side: ContourSide) -> Result<()> {
+    let (own, place, word) = match edge.material_inside {
+        true => (ContourSide::Outside, "within", "outside"),
+        false => (ContourSide::Inside, "around", "inside"),
+    };
+    if side == own || side == ContourSide::On {
+        return Ok(());
+    }
+    let what = format!("the cutter would run in the material, which lies {place} the edge at `edge_at`");
+    let help = format!("write side = \"{word}\", or a point on another edge");
+    Err(Finding::error(Code::JOB_SHAPE, what).help(help).key("side").into())
+}
+
 fn operation(t: &ContourTable, around: &Around<'_>) -> Result<ContourOperation> {
     let tool = tool_of(&t.tool, around.tools)?;
     let (Cutter::EndMill { diameter } | Cutter::BullNose { diameter, .. }) = tool.cutter else {
@@ -201,6 +215,9 @@ fn operation(t: &ContourTable, around: &Around<'_>) -> Result<ContourOperation> 
         length("extend", extend, 0.0, MAX_LENGTH)?;
     }
     let read = t.outline_keys().read_beside(t.side, around.loader)?;
+    if let Some(edge) = &read.edge {
+        beside_material(edge, t.side)?;
+    }
     if let Some(extend) = t.extend.filter(|_| !read.outline.is_of_lines()) {
         let finding = Finding::error(Code::JOB_SHAPE, "a closed contour has no ends").value_mm(extend);
         return Err(finding.help("leave out `extend`").key("extend").into());

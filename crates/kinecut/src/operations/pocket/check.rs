@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use super::PocketTable;
+use super::island::has_no_island;
 use super::plan::{PlannedPocket, planned};
 use super::rest::EarlierPocket;
 use crate::base::bounded::{MAX_LENGTH, length, positive};
@@ -151,7 +152,11 @@ impl kind::Table for PocketTable {
 
     fn check(&self, around: &Around<'_>) -> Result<PocketOperation> {
         let Some(name) = &self.rest else {
-            return checked(self, "pocket", around, || outline_keys!(self).of_pocket().read(around.loader));
+            return checked(self, "pocket", around, || {
+                let read = outline_keys!(self).of_pocket().read(around.loader)?;
+                has_no_island(self, &read.outline, around.loader)?;
+                Ok(read)
+            });
         };
         let earlier = EarlierPocket::find(name, around.before)?;
         let read = || outline_keys!(earlier.outline).of_pocket().read(around.loader);
@@ -251,6 +256,11 @@ pub(crate) fn checked(
         None => tool.max_ramp_angle.map_or(usual, |most| most.min(usual)),
     };
     let read = outline()?;
+    if read.edge.is_some_and(|edge| edge.material_inside) {
+        let what = format!("the edge at `edge_at` is that of a boss or a plate: it encloses no {noun}");
+        let help = "write a point on the edge of the pocket; around a boss a contour cuts";
+        return Err(Finding::error(Code::JOB_SHAPE, what).help(help).key("edge_at").into());
+    }
     let feeds = PocketFeeds {
         pass,
         down: per_second("plunge_feed", t.plunge_feed, DOWN * pass)?,

@@ -2,6 +2,7 @@
 //! measured on the simulated part.
 
 mod check;
+mod island;
 mod json;
 mod plan;
 mod rest;

@@ -493,6 +493,66 @@ fn a_mesh_is_cut_at_a_height_for_its_outline_and_for_what_it_encloses() {
     assert!(e.code() == Code::JOB_SHAPE && e.0.key.as_deref().is_some_and(|k| k.ends_with("section")), "{e}");
 }
 
+/// A plate of 60 x 40 with a pocket of 40 x 30 and a boss of 10 x 10 in it, as an STL file: all of it upright walls.
+fn plate_with_boss() -> Vec<u8> {
+    let ring = |half: [f64; 2], z: f64| {
+        [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]]
+            .map(|s: [f64; 2]| [s[0] * half[0], s[1] * half[1], z])
+    };
+    let (top, bottom) = (ring([30.0, 20.0], 0.0), ring([30.0, 20.0], -20.0));
+    let (rim, floor) = (ring([20.0, 15.0], 0.0), ring([20.0, 15.0], -12.0));
+    let (foot, head) = (ring([5.0, 5.0], -12.0), ring([5.0, 5.0], -4.0));
+    let mut quads: Vec<[[f64; 3]; 4]> = vec![head, [bottom[3], bottom[2], bottom[1], bottom[0]]];
+    for i in 0..4 {
+        let j = (i + 1) % 4;
+        quads.push([bottom[i], bottom[j], top[j], top[i]]);
+        quads.push([rim[i], rim[j], floor[j], floor[i]]);
+        quads.push([top[i], top[j], rim[j], rim[i]]);
+        quads.push([floor[i], floor[j], foot[j], foot[i]]);
+        quads.push([foot[i], foot[j], head[j], head[i]]);
+    }
+    let mut text = "solid plate\n".to_owned();
+    for [a, b, c, d] in quads {
+        for triangle in [[a, b, c], [a, c, d]] {
+            text += "facet normal 0 0 0\nouter loop\n";
+            for [x, y, z] in triangle {
+                text += &format!("vertex {x} {y} {z}\n");
+            }
+            text += "endloop\nendfacet\n";
+        }
+    }
+    (text + "endsolid plate\n").into_bytes()
+}
+
+#[test]
+fn edges_of_meshes_are_cut_beside_their_material() {
+    let loader = MemoryLoader::default().with("plate.stl", plate_with_boss());
+    let of = |kind: &str, keys: &str| {
+        let text = job("fanuc", &format!("outline = \"plate.stl\"\n{keys}\n"));
+        run("job.toml", &text.replace("type = \"contour\"", &format!("type = \"{kind}\"")), &loader, &Silent)
+    };
+    for keys in ["edge_at = [30, 0, 0]\ndepth = 6", "edge_at = [5, 0, -4]\ntop = -4\ndepth = 6"] {
+        let outcome = of("contour", keys).unwrap_or_else(|e| panic!("{keys}: {e}"));
+        assert!(outcome.verdict.is_safe(), "{keys}: {:?}", outcome.verdict.found);
+    }
+    let inside =
+        of("contour", "edge_at = [20, 0, 0]\nside = \"inside\"\ndepth = 3").unwrap_or_else(|e| panic!("{e}"));
+    assert!(inside.verdict.is_safe(), "{:?}", inside.verdict.found);
+    // Down to the boss the rim encloses a pocket; deeper, an island that an edge does not have.
+    let pocket = of("pocket", "edge_at = [20, 0, 0]\ndepth = 4").unwrap_or_else(|e| panic!("{e}"));
+    assert!(pocket.verdict.is_safe(), "{:?}", pocket.verdict.found);
+    for (kind, keys, words, key) in [
+        ("contour", "edge_at = [20, 0, 0]\ndepth = 6", "lies around the edge", "side"),
+        ("contour", "edge_at = [30, 0, 0]\nside = \"inside\"\ndepth = 6", "lies within the edge", "side"),
+        ("pocket", "edge_at = [30, 0, 0]\ndepth = 6", "it encloses no pocket", "edge_at"),
+        ("pocket", "edge_at = [20, 0, 0]\ndepth = 12", "higher than the floor", "edge_at"),
+    ] {
+        let Err(e) = of(kind, keys) else { panic!("{kind} {keys}") };
+        assert!(e.0.message.contains(words), "{kind} {keys}: {e}");
+        assert!(e.0.key.as_deref().is_some_and(|k| k.ends_with(key)), "{kind} {keys}: {:?}", e.0.key);
+    }
+}
+
 #[test]
 fn drawings_are_cut_on_all_of_their_lines() {
     // A circle, a cross, and a line with a branch: no face, but lines for a cutter.

@@ -21,7 +21,7 @@ pub struct MeshEdge {
     pub height: f64,
     /// Whether the material lies inside of it, as at the rim of a boss; outside, as at the rim of a hole.
     pub material_inside: bool,
-    /// Whether it can be broken from above: the material lies below it, and stands out at it.
+    /// Whether all of it can be broken from above: the material lies below it, and stands out at it.
     pub is_upper: bool,
 }
 
@@ -53,15 +53,14 @@ pub(super) fn edge_loop(mesh: &Mesh, at: DVec3) -> Result<(Vec<DVec2>, MeshEdge)
     }
     let [start, mut here] = first.ends;
     let mut last = first;
-    let (mut points, mut aside, mut out, mut convex) = (vec![place(start).truncate()], 0.0, 0.0, 0.0);
+    let (mut points, mut aside, mut is_upper) = (vec![place(start).truncate()], 0.0, true);
     loop {
         let (from, to) = (points[points.len() - 1], place(here).truncate());
         let along = to - from;
         // The material lies against the sum of the normals.
         aside -= along.perp().dot(last.out.truncate());
-        out += along.length() * last.out.z;
-        convex += if last.is_convex { along.length() } else { -along.length() };
-        if here == start {
+        is_upper &= last.out.z > 0.0 && last.is_convex;
+        if here == start && beside.get(&here).is_some_and(|edges| edges.len() == 2) {
             break;
         }
         points.push(to);
@@ -86,11 +85,7 @@ pub(super) fn edge_loop(mesh: &Mesh, at: DVec3) -> Result<(Vec<DVec2>, MeshEdge)
         }
     }
     let turns: f64 = (0..points.len()).map(|i| points[i].perp_dot(points[(i + 1) % points.len()])).sum();
-    let edge = MeshEdge {
-        height,
-        material_inside: (turns > 0.0) == (aside > 0.0),
-        is_upper: out > 0.0 && convex > 0.0,
-    };
+    let edge = MeshEdge { height, material_inside: (turns > 0.0) == (aside > 0.0), is_upper };
     Ok((points, edge))
 }
 

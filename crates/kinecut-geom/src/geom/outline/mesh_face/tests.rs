@@ -239,7 +239,10 @@ fn an_edge_that_is_no_loop_or_branches_is_refused_at_its_place() {
     };
     both.triangles.extend(other.triangles.iter().map(|t| t.map(id)));
     both.vertices.extend(other.vertices.iter().copied());
-    let found = edge::edge_loop(&both, at(5.0, 0.0, 5.0)).unwrap_err();
-    assert!(found.0.message.contains("several level edges"), "{found}");
-    assert_eq!(found.0.point, Some([10.0, 10.0, 5.0]));
+    // Wherever it begins, at that corner too.
+    for (x, y) in [(5.0, 0.0), (10.0, 9.0), (9.0, 10.0)] {
+        let found = edge::edge_loop(&both, at(x, y, 5.0)).unwrap_err();
+        assert!(found.0.message.contains("several level edges"), "{found}");
+        assert_eq!(found.0.point, Some([10.0, 10.0, 5.0]));
+    }
 }
