@@ -531,7 +531,7 @@ fn edges_of_meshes_are_cut_beside_their_material() {
         let text = job("fanuc", &format!("outline = \"plate.stl\"\n{keys}\n"));
         run("job.toml", &text.replace("type = \"contour\"", &format!("type = \"{kind}\"")), &loader, &Silent)
     };
-    for keys in ["edge_at = [30, 0, 0]\ndepth = 6", "edge_at = [5, 0, -4]\ntop = -4\ndepth = 6"] {
+    for keys in ["edge_at = [30, 0, 0]\ndepth = 6", "edge_at = [5, 0, -4]\ndepth = 10"] {
         let outcome = of("contour", keys).unwrap_or_else(|e| panic!("{keys}: {e}"));
         assert!(outcome.verdict.is_safe(), "{keys}: {:?}", outcome.verdict.found);
     }
