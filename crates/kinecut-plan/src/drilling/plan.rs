@@ -146,7 +146,8 @@ impl PassedBody {
             // The bottom of a hole below the end is not met.
             let end = spec.blind_end(&edge).unwrap_or(f64::NEG_INFINITY);
             let met: Vec<Passage> = passages.iter().filter(|p| p.transient.first > end).copied().collect();
-            let entry = whole(&met, Side::Entry).ok_or_else(beside)?;
+            let entry =
+                whole(&met, Side::Entry).or_else(|| whole(&passages, Side::Entry)).ok_or_else(beside)?;
             let exit = if spec.end.exit().is_some() { whole(&passages, Side::Exit) } else { None };
             return Ok(PassedBody { edge, passages, entry, above, exit, banded: false });
         }

@@ -133,6 +133,21 @@ impl OutlineKeys<'_> {
         self
     }
 
+    /// Checks that a part of a mesh is asked for beside a drawing alone, and by one key.
+    ///
+    /// # Errors
+    /// `KC0102` with that key.
+    pub(crate) fn check_mesh_keys(&self) -> Result<()> {
+        match self.mesh_keys {
+            [Some(_), Some(_)] => {
+                let what = "`section` and `edge_at` exclude each other";
+                Err(Finding::error(Code::JOB_SHAPE, what).help("give one of them").key("edge_at").into())
+            }
+            [Some(key), _] | [_, Some(key)] if self.drawing.is_none() => Err(no_mesh(key)),
+            _ => Ok(()),
+        }
+    }
+
     /// The ways to say an outline, and whether each is given.
     fn forms(&self) -> [(&'static str, bool); 6] {
         [
@@ -157,17 +172,7 @@ impl OutlineKeys<'_> {
             let help = "give one of rectangle, circle, polygon, slot, outline: for example rectangle = { size = [40, 30], corner = 6 }";
             return Err(finding.help(help).key("outline").into());
         };
-        match self.mesh_keys {
-            [Some(_), Some(_)] => {
-                let what = "`section` and `edge_at` exclude each other";
-                return Err(Finding::error(Code::JOB_SHAPE, what)
-                    .help("give one of them")
-                    .key("edge_at")
-                    .into());
-            }
-            [Some(key), _] | [_, Some(key)] if self.drawing.is_none() => return Err(no_mesh(key)),
-            _ => {}
-        }
+        self.check_mesh_keys()?;
         let under = |e: Error| e.under(key);
         let outline = match (self.rectangle, self.circle, self.polygon, self.slot, self.drawing) {
             (Some(rectangle), ..) => rectangle.outline().map_err(under)?,

@@ -10,7 +10,7 @@ use crate::tool::{DrillPoint, Hand, Tap};
 /// Point angle up to which a drill is one for spots, degrees: no drill for the solid is so sharp.
 const SPOT_ANGLE: f64 = 100.0;
 /// Angles nearer than this are equal [rad].
-const SAME_ANGLE: f64 = 1e-6;
+pub(super) const SAME_ANGLE: f64 = 1e-6;
 /// Share of a spot drill's diameter that is used.
 const SPOT_SHARE: f64 = 0.95;
 /// Largest diameter of a thread mill, in diameters of a coarse and of a fine thread: above, the flanks are overcut by much.

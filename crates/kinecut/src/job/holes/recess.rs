@@ -1,5 +1,6 @@
 //! The recess at the mouth of a hole: for the head of a screw, or countersunk.
 
+use super::choose::{SAME_ANGLE, title};
 use super::size::SAME;
 use super::steps::{Maker, Stage, Step};
 use crate::base::bounded::{MAX_LENGTH, positive};
@@ -117,14 +118,13 @@ impl<'a> Maker<'a> {
 
 /// Whether a tool makes the cone.
 fn fits(tool: &ToolTable, diameter: f64, angle: f64) -> Result<()> {
-    const SAME_ANGLE: f64 = 1e-6;
     let own = match tool.point {
         Some(DrillPoint::Cone { angle, .. }) => Some(angle),
         Some(_) => None,
         None => tool.point_angle,
     };
     if !own.is_some_and(|own| (own - angle).abs() < SAME_ANGLE) {
-        let what = format!("{} has another angle than the countersink", super::choose::title(tool));
+        let what = format!("{} has another angle than the countersink", title(tool));
         let finding = Finding::error(Code::JOB_VALUE, what);
         let finding = match own {
             Some(own) => finding.value(own.to_degrees(), "deg").bound(angle.to_degrees(), "deg"),
@@ -139,7 +139,7 @@ fn fits(tool: &ToolTable, diameter: f64, angle: f64) -> Result<()> {
 }
 
 fn misfit(key: &str, tool: &ToolTable, diameter: f64) -> crate::base::Error {
-    let what = format!("{} does not fit the diameter of the {key}", super::choose::title(tool));
+    let what = format!("{} does not fit the diameter of the {key}", title(tool));
     let finding = Finding::error(Code::JOB_VALUE, what).value_mm(tool.diameter).bound_mm(diameter);
     finding.help("name another tool, or leave it out to have one chosen").key(format!("{key}.tool")).into()
 }

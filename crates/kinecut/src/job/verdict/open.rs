@@ -42,7 +42,7 @@ pub(in crate::job) fn not_checked(
     }
     tools(job, setups, &mut list);
     travel(job, &mut list);
-    load(job, simulation, &mut list);
+    load(job, setups, simulation, &mut list);
     not_compared(job, setups, &mut list);
     for done in setups {
         program(done, &mut list);
@@ -51,7 +51,7 @@ pub(in crate::job) fn not_checked(
 }
 
 /// Cuts deeper than their speeds and feeds are for; power and torque, where the machine says what its spindle has.
-fn load(job: &Job, simulation: &Simulation, list: &mut UncheckedList) {
+fn load(job: &Job, setups: &[SetupOutcome], simulation: &Simulation, list: &mut UncheckedList) {
     if simulation.engagement.is_none() && job.cutting.iter().any(TakenData::has_start) {
         let what = "the depth of cuts with values to start with: engagement was not measured (simulate.engagement = true)";
         list.add(Heading::Tools, what);
@@ -68,9 +68,13 @@ fn load(job: &Job, simulation: &Simulation, list: &mut UncheckedList) {
             "what the cuts need of the spindle: engagement was not measured (simulate.engagement = true)";
         list.add(Heading::Tools, what);
     }
-    let forms = |tool: &Tool| matches!(&tool.cutter, Cutter::Tap(tap) if tap.forming);
-    if job.tools.iter().any(forms) {
-        list.add(Heading::Tools, "the torque of taps that form their thread: its formula is not known");
+    let forms = |tool: &&Tool| matches!(&tool.cutter, Cutter::Tap(tap) if tap.forming);
+    let runs = |tool: &Tool| {
+        let mut moves = setups.iter().flat_map(|done| &done.trace.segments);
+        moves.any(|segment| segment.tool == Some(tool.number))
+    };
+    if job.tools.iter().filter(forms).any(runs) {
+        list.add(Heading::Tools, "the torque of taps that form their thread: no formula for it is known");
     }
 }
 

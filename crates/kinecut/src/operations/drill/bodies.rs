@@ -162,7 +162,10 @@ impl<'a> DrilledBody<'a> {
     /// The plane that was milled over all that the disc goes into first.
     fn milled_over(&self, over_disc: &[Passage], point: DVec3, out: DVec3, radius: f64) -> Option<f64> {
         let first = over_disc.iter().find(|p| p.side == Side::Entry).filter(|p| p.share > ALL)?;
-        self.milled_above(first.transient.last, point, out, radius)
+        let top = self.milled_above(first.transient.last, point, out, radius)?;
+        // Not into a cavity under the first wall.
+        let mut exits = over_disc.iter().filter(|p| p.side == Side::Exit);
+        exits.all(|p| p.transient.first < top).then_some(top)
     }
 
     /// The lowest plane that was milled over a disc, seen along a direction.

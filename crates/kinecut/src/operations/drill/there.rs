@@ -31,7 +31,8 @@ struct Seen {
 }
 
 enum Form {
-    Through,
+    /// Z up to which it is open at its far end, and whether that lies above the near one: it was made from the other side.
+    Through(f64, bool),
     /// Open to the drill, or away from it: Z of the tip, and the edge that made the floor.
     Above(f64, EdgeProfile),
     Below(f64, EdgeProfile),
@@ -60,7 +61,7 @@ impl View<'_> {
         let radius = 0.5 * hole.diameter;
         let flat = || EdgeProfile::polyline(&[[0.0, 0.0], [radius, 0.0]]).ok();
         let form = match (low <= exit, high >= entry && low <= entry) {
-            (true, true) => Form::Through,
+            (true, true) => Form::Through(low, false),
             (false, true) => Form::Above(low, flat()?),
             (true, false) => Form::Below(high, flat()?),
             (false, false) => return None,
@@ -72,7 +73,7 @@ impl View<'_> {
     fn made(&self, made: &MadeHole) -> Option<Seen> {
         let [top, low] = self.ends(made.ends())?;
         let form = match made.hole.floor {
-            _ if made.hole.through => Form::Through,
+            _ if made.hole.through => Form::Through(low.z, low.z > top.z),
             Some(floor) if top.z > low.z => Form::Above(low.z, floor.edge),
             Some(floor) => Form::Below(low.z, floor.edge),
             None => return None,
@@ -87,8 +88,13 @@ impl View<'_> {
     pub(super) fn holes(&self, radius: f64, raw: &[Drilled], made: &[MadeHole]) -> Result<There> {
         let mut there = There::default();
         let seen = raw.iter().filter_map(|h| self.raw(h)).chain(made.iter().filter_map(|h| self.made(h)));
-        for hole in seen {
-            there.take(hole, radius, self.faces[0])?;
+        let (through, blind): (Vec<Seen>, Vec<Seen>) =
+            seen.partition(|hole| matches!(hole.form, Form::Through(..)));
+        for hole in blind {
+            there.end_in(hole, radius, self.faces);
+        }
+        for hole in through {
+            there.run_in(&hole, radius, self.faces)?;
         }
         // A hole that ends above the floor from which the drill goes on is no longer there.
         if let (Some(floor), Some(opened)) = (&there.floor, &there.opened)
@@ -105,27 +111,44 @@ impl View<'_> {
 }
 
 impl There {
-    fn take(&mut self, hole: Seen, radius: f64, entry: f64) -> Result<()> {
+    /// A hole that ends in the stock.
+    fn end_in(&mut self, hole: Seen, radius: f64, [entry, exit]: [f64; 2]) {
         let beside = hole.across.length();
-        let runs_in_it = beside + radius <= hole.radius + SAME;
-        let opens_it = beside + hole.radius <= radius && hole.radius < radius - SAME;
+        // A face that was milled after it may have taken its floor, or a part of it.
+        let rim = |edge: &EdgeProfile| edge.height(edge.outer_radius()).unwrap_or(0.0);
         match hole.form {
-            Form::Through if runs_in_it => return Err(nothing_left(2.0 * hole.radius, None).into()),
-            Form::Above(tip, edge)
-                if runs_in_it && beside <= SAME && self.floor.is_none_or(|f| f.height > tip) =>
-            {
-                self.floor = Some(Mouth { height: tip, edge });
+            Form::Above(tip, edge) if tip + rim(&edge) <= entry + SAME => {
+                if runs_in(&hole, radius) && beside <= SAME && self.floor.is_none_or(|f| f.height > tip) {
+                    self.floor = Some(Mouth { height: tip, edge });
+                } else if opens(&hole, radius) {
+                    self.open(PreHole::blind(2.0 * hole.radius, tip, edge), hole.across);
+                }
             }
-            Form::Below(height, edge)
-                if beside <= SAME && height < entry && self.ceiling.is_none_or(|c| c.height < height) =>
-            {
-                self.ceiling = Some(Ceiling { height, edge });
-            }
-            Form::Through if opens_it => self.open(PreHole::through(2.0 * hole.radius), hole.across),
-            Form::Above(tip, edge) if opens_it => {
-                self.open(PreHole::blind(2.0 * hole.radius, tip, edge), hole.across);
+            Form::Below(height, edge) if height - rim(&edge) >= exit - SAME && height < entry => {
+                if beside <= SAME && self.ceiling.is_none_or(|c| c.height < height) {
+                    self.ceiling = Some(Ceiling { height, edge });
+                }
             }
             _ => {}
+        }
+    }
+
+    /// A hole that goes through. Nothing is left to drill in it where it ends at the face or in a hole from the other side; one through a
+    /// wall alone, as of a tube, goes no farther.
+    ///
+    /// # Errors
+    /// `KC0901` where the drill runs in it.
+    fn run_in(&mut self, hole: &Seen, radius: f64, [entry, exit]: [f64; 2]) -> Result<()> {
+        let Form::Through(far, from_below) = hole.form else { return Ok(()) };
+        let is_out = match from_below {
+            true => far >= entry - SAME || self.floor.is_some_and(|f| far >= f.height - SAME),
+            false => far <= exit + SAME || self.ceiling.is_some_and(|c| far <= c.height + SAME),
+        };
+        if is_out && runs_in(hole, radius) {
+            return Err(nothing_left(2.0 * hole.radius, None).into());
+        }
+        if opens(hole, radius) {
+            self.open(PreHole::through(2.0 * hole.radius), hole.across);
         }
         Ok(())
     }
@@ -136,6 +159,16 @@ impl There {
             self.opened = Some(hole.moved(across.to_array()));
         }
     }
+}
+
+/// Whether all of a drill runs in a hole.
+fn runs_in(hole: &Seen, radius: f64) -> bool {
+    hole.across.length() + radius <= hole.radius + SAME
+}
+
+/// Whether a drill is wider than a hole all round.
+fn opens(hole: &Seen, radius: f64) -> bool {
+    hole.across.length() + hole.radius <= radius && hole.radius < radius - SAME
 }
 
 /// The error for a hole in which nothing is left for the drill: one of a diameter is there, through or down to a Z [mm].

@@ -119,6 +119,7 @@ pub(crate) fn operation(
 ) -> Result<EdgeOperation> {
     let tool = tool_of(t.tool, around.tools)?;
     let cut = cut(&tool)?;
+    t.own.check_mesh_keys()?;
     let (place, read, edges, of_other) = match WantedEdges::of(t, around)? {
         Some((edges, face)) => {
             let notes = face.notes.clone();

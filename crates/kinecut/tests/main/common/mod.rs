@@ -9,6 +9,7 @@ pub(crate) mod groove;
 pub(crate) mod job;
 pub(crate) mod kept;
 pub(crate) mod planned;
+pub(crate) mod quads;
 pub(crate) mod random;
 pub(crate) mod setup;
 pub(crate) mod stop;

@@ -421,4 +421,12 @@ fn the_edge_of_a_mesh_is_chamfered_like_its_outline_in_numbers() {
     }
     let Err(e) = of("rectangle = { size = [20, 20] }\nedge_at = [10, 0, 0]\n") else { panic!("no mesh") };
     assert!(e.0.message.contains("only a mesh has edges at a point"), "{e}");
+    // Beside the edges of another operation too, where it would mean nothing.
+    for key in ["edge_at = [10, 0, 0]", "section = -5"] {
+        let both = format!(
+            "name = \"rim\"\nrectangle = {{ size = [20, 20] }}\n{CHAMFER}width = 0.6\nof = \"rim\"\n{key}\n"
+        );
+        let Err(e) = of(&both) else { panic!("{key}") };
+        assert!(e.0.message.contains("only a mesh has"), "{e}");
+    }
 }

@@ -259,6 +259,34 @@ fn a_hole_in_which_nothing_is_left_to_drill_is_refused() {
     assert!(e.0.message.contains("nothing is left to drill: the hole of 8 mm that is there goes through"));
 }
 
+#[test]
+fn a_face_that_was_milled_after_a_blind_hole_takes_its_floor_with_it() {
+    // Drilled 3 mm deep, its tip 5.4 mm; then the face lowered by 6 mm, or by 4: into the cone.
+    for top in [6.0, 4.0] {
+        let hole = format!("{DRILL}points = [[10, 5]]\n");
+        let face = format!("{FACE}top = -{top}\ndepth = {top}\n");
+        let outcome = done(BOX, &format!("{hole}depth = 3\n{face}{hole}"));
+        // Of the first hole nothing is left to be measured; nothing else is found.
+        let found = &outcome.verdict.found;
+        assert!(found.iter().all(|f| f.code.to_string() == "KC0528"), "top {top}: {found:?}");
+        let plan: serde_json::Value = serde_json::from_str(&kinecut::job::plan_json(&outcome)).expect("JSON");
+        let zones = plan["setups"][0]["drillings"][1]["holes"][0]["zones"].as_array().expect("zones").clone();
+        // It goes in at the face: its point is in 2.4 mm below that.
+        let point = 4.0 / 59f64.to_radians().tan();
+        assert!((zones[0]["to"].as_f64().expect("Z") - (-top - point)).abs() < 1e-9, "{zones:?}");
+    }
+}
+
+#[test]
+fn a_hole_through_a_wall_alone_does_not_go_through() {
+    // The first wall of a tube, as the table says: its way on is not drilled yet.
+    let wall = "entry = { surface = \"plane\" }\nexit = { surface = \"plane\" }\nlength = 5\n";
+    let hole = format!("{DRILL}points = [[10, 5]]\n");
+    let text = job(BOX, &format!("{hole}{wall}{hole}"));
+    let outcome = run("job.toml", &text, &MemoryLoader::default(), &Silent).unwrap_or_else(|e| panic!("{e}"));
+    assert!(outcome.setups[0].posted.text.contains("Z-24.404"), "{}", outcome.setups[0].posted.text);
+}
+
 /// A pocket or a bore 8 mm deep, and a drill of 8 mm through at a place: the outcome, and the zones of the drill as (stage, Z of the end).
 fn in_floor(first: &str, at: &str, more: &str) -> (Outcome, Vec<(String, f64)>) {
     let mill = "[[tool]]\nnumber = 3\ntype = \"end-mill\"\ndiameter = 10\nteeth = 4\nflute_length = 26\nstickout = 40\n[[setup]]";

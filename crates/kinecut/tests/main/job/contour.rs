@@ -3,6 +3,8 @@
 use kinecut::base::{Code, MemoryLoader, Severity, Silent};
 use kinecut::job::{Outcome, run};
 
+use crate::common::quads::{ring, sides, stl, turned};
+
 pub(super) fn job(control: &str, operation: &str) -> String {
     format!(
         r#"format = 1
@@ -427,33 +429,10 @@ fn loops_beside_one_another_take_all_of_the_stock() {
 
 /// A plate of 60 by 40 by 20 with a square hole of 20 in its middle, as an STL in text; the hole ends 12 mm below the top.
 pub(super) fn plate_with_hole() -> Vec<u8> {
-    let ring = |half: [f64; 2], z: f64| {
-        [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]]
-            .map(|s: [f64; 2]| [s[0] * half[0], s[1] * half[1], z])
-    };
-    let (outer, inner) = ([30.0, 20.0], [10.0, 10.0]);
-    let mut quads: Vec<[[f64; 3]; 4]> = Vec::new();
-    let (top, bottom, hole, floor) =
-        (ring(outer, 0.0), ring(outer, -20.0), ring(inner, 0.0), ring(inner, -12.0));
-    for i in 0..4 {
-        let j = (i + 1) % 4;
-        quads.push([bottom[i], bottom[j], top[j], top[i]]);
-        quads.push([hole[i], hole[j], floor[j], floor[i]]);
-        quads.push([top[i], top[j], hole[j], hole[i]]);
-    }
-    quads.push(floor);
-    quads.push([bottom[3], bottom[2], bottom[1], bottom[0]]);
-    let mut text = "solid plate\n".to_owned();
-    for [a, b, c, d] in quads {
-        for triangle in [[a, b, c], [a, c, d]] {
-            text += "facet normal 0 0 0\nouter loop\n";
-            for [x, y, z] in triangle {
-                text += &format!("vertex {x} {y} {z}\n");
-            }
-            text += "endloop\nendfacet\n";
-        }
-    }
-    (text + "endsolid plate\n").into_bytes()
+    let (top, bottom) = (ring([30.0, 20.0], 0.0), ring([30.0, 20.0], -20.0));
+    let (rim, floor) = (ring([10.0, 10.0], 0.0), ring([10.0, 10.0], -12.0));
+    let walls = [sides(bottom, top), sides(top, rim), sides(rim, floor)].concat();
+    stl(&[walls, vec![floor, turned(bottom)]].concat())
 }
 
 #[test]
@@ -495,33 +474,12 @@ fn a_mesh_is_cut_at_a_height_for_its_outline_and_for_what_it_encloses() {
 
 /// A plate of 60 x 40 with a pocket of 40 x 30 and a boss of 10 x 10 in it, as an STL file: all of it upright walls.
 fn plate_with_boss() -> Vec<u8> {
-    let ring = |half: [f64; 2], z: f64| {
-        [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]]
-            .map(|s: [f64; 2]| [s[0] * half[0], s[1] * half[1], z])
-    };
     let (top, bottom) = (ring([30.0, 20.0], 0.0), ring([30.0, 20.0], -20.0));
     let (rim, floor) = (ring([20.0, 15.0], 0.0), ring([20.0, 15.0], -12.0));
     let (foot, head) = (ring([5.0, 5.0], -12.0), ring([5.0, 5.0], -4.0));
-    let mut quads: Vec<[[f64; 3]; 4]> = vec![head, [bottom[3], bottom[2], bottom[1], bottom[0]]];
-    for i in 0..4 {
-        let j = (i + 1) % 4;
-        quads.push([bottom[i], bottom[j], top[j], top[i]]);
-        quads.push([rim[i], rim[j], floor[j], floor[i]]);
-        quads.push([top[i], top[j], rim[j], rim[i]]);
-        quads.push([floor[i], floor[j], foot[j], foot[i]]);
-        quads.push([foot[i], foot[j], head[j], head[i]]);
-    }
-    let mut text = "solid plate\n".to_owned();
-    for [a, b, c, d] in quads {
-        for triangle in [[a, b, c], [a, c, d]] {
-            text += "facet normal 0 0 0\nouter loop\n";
-            for [x, y, z] in triangle {
-                text += &format!("vertex {x} {y} {z}\n");
-            }
-            text += "endloop\nendfacet\n";
-        }
-    }
-    (text + "endsolid plate\n").into_bytes()
+    let walls =
+        [sides(bottom, top), sides(top, rim), sides(rim, floor), sides(floor, foot), sides(foot, head)];
+    stl(&[walls.concat(), vec![head, turned(bottom)]].concat())
 }
 
 #[test]

@@ -3,6 +3,8 @@
 use kinecut::base::{Code, Finding, MemoryLoader, Silent};
 use kinecut::job::{Outcome, run};
 
+use crate::common::quads::{ring, sides, stl, turned};
+
 /// A plate of 20 mm with a milled face, and the tools for its holes.
 fn job(control: &str, more: &str, operations: &str) -> String {
     let drill = |number: u32, name: &str, diameter: f64, rest: &str, feed: f64| {
@@ -450,22 +452,6 @@ fn recesses_that_cannot_be_made_are_refused() {
     }
 }
 
-/// A block by its eight corners, lower ones first, counter-clockwise, as an STL file.
-fn block(corners: [[f64; 3]; 8]) -> Vec<u8> {
-    let sides = [[3, 2, 1, 0], [4, 5, 6, 7], [0, 1, 5, 4], [1, 2, 6, 5], [2, 3, 7, 6], [3, 0, 4, 7]];
-    let mut text = "solid raw\n".to_owned();
-    for [a, b, c, d] in sides {
-        for triangle in [[a, b, c], [a, c, d]] {
-            text += "facet normal 0 0 0\nouter loop\n";
-            for [x, y, z] in triangle.map(|i: usize| corners[i]) {
-                text += &format!("vertex {x} {y} {z}\n");
-            }
-            text += "endloop\nendfacet\n";
-        }
-    }
-    (text + "endsolid raw\n").into_bytes()
-}
-
 #[test]
 fn a_stock_that_is_a_mesh_is_drilled_from_the_milled_face_like_a_box() {
     let of_box = done("fanuc", "", HOLES);
@@ -474,10 +460,10 @@ fn a_stock_that_is_a_mesh_is_drilled_from_the_milled_face_like_a_box() {
         text.replace("{ box = { min = [-60, -40, -20], max = [60, 40, 1] } }", "{ mesh = \"raw.stl\" }");
     assert_ne!(mesh, text);
     let of_mesh = |heights: [f64; 4]| {
-        let at =
-            |z: f64, i: usize| [[-60.0, -40.0, z], [60.0, -40.0, z], [60.0, 40.0, z], [-60.0, 40.0, z]][i];
-        let corners = std::array::from_fn(|i| at(if i < 4 { -20.0 } else { heights[i - 4] }, i % 4));
-        let loader = MemoryLoader::default().with("raw.stl", block(corners));
+        let low = ring([60.0, 40.0], -20.0);
+        let high = std::array::from_fn(|i| [low[i][0], low[i][1], heights[i]]);
+        let quads = [sides(low, high).to_vec(), vec![high, turned(low)]].concat();
+        let loader = MemoryLoader::default().with("raw.stl", stl(&quads));
         run("job.toml", &mesh, &loader, &Silent).unwrap_or_else(|e| panic!("{e}"))
     };
     let moves = |outcome: &Outcome| -> Vec<String> {

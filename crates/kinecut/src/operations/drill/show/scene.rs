@@ -73,9 +73,7 @@ impl<'a> Scene<'a> {
     fn face(&self, cos: f64, from: f64, to: f64) -> Vec<[f64; 2]> {
         let face = Scene::run(&self.entry, cos, from, to);
         match &self.hole.spec.mouth {
-            Some(mouth) => {
-                self.recessed(face, &mouth.edge, [mouth.height, 1.0], |u| self.entry.height(cos * u))
-            }
+            Some(mouth) => recessed(face, &mouth.edge, [mouth.height, 1.0], |u| self.entry.height(cos * u)),
             None => face,
         }
     }
@@ -84,37 +82,9 @@ impl<'a> Scene<'a> {
     fn foot(&self, exit: &BoundarySurface, cos: f64, from: f64, to: f64) -> Vec<[f64; 2]> {
         let face = Scene::run(exit, cos, from, to);
         match &self.hole.spec.ceiling {
-            Some(c) => self.recessed(face, &c.edge, [c.height, -1.0], |u| exit.height(cos * u)),
+            Some(c) => recessed(face, &c.edge, [c.height, -1.0], |u| exit.height(cos * u)),
             None => face,
         }
-    }
-
-    /// The run of a face with a recess about the axis that an edge has made: its height where the edge has the height 0, and 1 or -1
-    /// as it is open upwards or downwards.
-    fn recessed(
-        &self,
-        run: Vec<[f64; 2]>,
-        edge: &EdgeProfile,
-        [height, sense]: [f64; 2],
-        face: impl Fn(f64) -> f64,
-    ) -> Vec<[f64; 2]> {
-        let (Some(from), Some(to)) = (run.first().map(|p| p[0]), run.last().map(|p| p[0])) else {
-            return run;
-        };
-        let rim = edge.outer_radius();
-        let floor = |u: f64| Some([u, height + sense * edge.height(u.abs())?]);
-        let shown = |u: f64| u >= from - ROUNDING && u <= to + ROUNDING;
-        let side = half(edge);
-        let both = side.iter().rev().map(|p| [-p[0], p[1]]).chain(side.iter().copied());
-        let mut points: Vec<[f64; 2]> = run.iter().copied().filter(|p| p[0] < -rim).collect();
-        points.extend([-rim].into_iter().filter(|u| shown(*u)).map(|u| [u, face(u)]));
-        points.extend([from].into_iter().filter(|u| u.abs() < rim).filter_map(floor));
-        points.extend(both.filter(|p| shown(p[0])).map(|p| [p[0], height + sense * p[1]]));
-        points.extend([to].into_iter().filter(|u| u.abs() < rim).filter_map(floor));
-        points.extend([rim].into_iter().filter(|u| shown(*u)).map(|u| [u, face(u)]));
-        points.extend(run.into_iter().filter(|p| p[0] > rim));
-        points.dedup();
-        points
     }
 
     /// The drawing of the part and the hole in it, nothing named yet, in the section along the u of a side.
@@ -222,6 +192,33 @@ impl<'a> Scene<'a> {
         let points = silhouette(&self.tool, Core::of(&self.hole.spec.point), z, up);
         d.strokes.push(Stroke { look, name: name.to_owned(), points });
     }
+}
+
+/// The run of a face with a recess about the axis that an edge has made: its height where the edge has the height 0, and 1 or -1
+/// as it is open upwards or downwards.
+fn recessed(
+    run: Vec<[f64; 2]>,
+    edge: &EdgeProfile,
+    [height, sense]: [f64; 2],
+    face: impl Fn(f64) -> f64,
+) -> Vec<[f64; 2]> {
+    let (Some(from), Some(to)) = (run.first().map(|p| p[0]), run.last().map(|p| p[0])) else {
+        return run;
+    };
+    let rim = edge.outer_radius();
+    let floor = |u: f64| Some([u, height + sense * edge.height(u.abs())?]);
+    let shown = |u: f64| u >= from - ROUNDING && u <= to + ROUNDING;
+    let side = half(edge);
+    let both = side.iter().rev().map(|p| [-p[0], p[1]]).chain(side.iter().copied());
+    let mut points: Vec<[f64; 2]> = run.iter().copied().filter(|p| p[0] < -rim).collect();
+    points.extend([-rim].into_iter().filter(|u| shown(*u)).map(|u| [u, face(u)]));
+    points.extend([from].into_iter().filter(|u| u.abs() < rim).filter_map(floor));
+    points.extend(both.filter(|p| shown(p[0])).map(|p| [p[0], height + sense * p[1]]));
+    points.extend([to].into_iter().filter(|u| u.abs() < rim).filter_map(floor));
+    points.extend([rim].into_iter().filter(|u| shown(*u)).map(|u| [u, face(u)]));
+    points.extend(run.into_iter().filter(|p| p[0] > rim));
+    points.dedup();
+    points
 }
 
 /// A bore in the section along the hole's x axis: a circle or an ellipse, or the strip between two lines where its axis
