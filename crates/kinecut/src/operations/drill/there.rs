@@ -124,10 +124,13 @@ impl There {
                     self.open(PreHole::blind(2.0 * hole.radius, tip, edge), hole.across);
                 }
             }
-            Form::Below(height, edge) if height - rim(&edge) >= exit - SAME && height < entry => {
-                if beside <= SAME && self.ceiling.is_none_or(|c| c.height < height) {
-                    self.ceiling = Some(Ceiling { height, edge });
-                }
+            Form::Below(height, edge)
+                if height - rim(&edge) >= exit - SAME
+                    && height < entry
+                    && beside <= SAME
+                    && self.ceiling.is_none_or(|c| c.height < height) =>
+            {
+                self.ceiling = Some(Ceiling { height, edge });
             }
             _ => {}
         }

@@ -214,6 +214,12 @@ fn an_edge_that_is_no_loop_or_branches_is_refused_at_its_place() {
     let wedge = Mesh { vertices, triangles };
     let e = Outline::edge_of(&wedge, at(15.0, 10.0, 8.0), 1e-3).unwrap_err();
     assert!(e.0.message.contains("ends here") && e.0.point.is_some(), "{e}");
+    // A roof of six degrees is no edge: facets of a round edge turn as much.
+    let mut flat = wedge.clone();
+    flat.vertices[4].z = 0.5;
+    flat.vertices[5].z = 0.5;
+    let e = Outline::edge_of(&flat, at(15.0, 10.0, 0.5), 1e-3).unwrap_err();
+    assert!(e.0.message.contains("no sharp level edge"), "{e}");
     // Two blocks that touch along an upright edge: at its top four level edges meet.
     let block = |x: f64, y: f64| {
         let corner = |i: u8| {
@@ -240,7 +246,7 @@ fn an_edge_that_is_no_loop_or_branches_is_refused_at_its_place() {
     both.triangles.extend(other.triangles.iter().map(|t| t.map(id)));
     both.vertices.extend(other.vertices.iter().copied());
     // Wherever it begins, at that corner too.
-    for (x, y) in [(5.0, 0.0), (10.0, 9.0), (9.0, 10.0)] {
+    for (x, y) in [(5.0, 0.0), (10.0, 9.0), (9.0, 10.0), (10.0, 11.0), (11.0, 10.0)] {
         let found = edge::edge_loop(&both, at(x, y, 5.0)).unwrap_err();
         assert!(found.0.message.contains("several level edges"), "{found}");
         assert_eq!(found.0.point, Some([10.0, 10.0, 5.0]));
